@@ -70,8 +70,8 @@ class Endpoint(ABC):
 
     @property
     def address(self) -> str:
-        """Return kind and address, as a sentence."""
-        return f'{self.kind}: {self.where}'
+        """Return what receives the frames, its kind and its address."""
+        return f'Rerun {self.kind}: {self.where}'
 
     @property
     def page_address(self) -> str:

@@ -4,13 +4,24 @@
 """Law 76: one-way bodies."""
 
 import math
+import random
 
 import numpy as np
-from physsim_ros.model.shapes import Box, Chain, Disc
+from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 import pytest
 
-from .scenes import G, run, simulation, spawn, steps, turned
+from .scenes import DT, G, run, simulation, spawn, steps, turned
 
+ARC = np.linspace(0.5, math.pi - 0.5, 20)
+ONE_WAY = {
+    'thin slab': Box(width=6.0, height=0.02),
+    'thick slab': Box(width=6.0, height=1.0),
+    'valley': Chain(
+        points=tuple((3 * math.cos(a), -3 * math.sin(a)) for a in ARC), thickness=0.04
+    ),
+    'step': Polygon(outline=((-3, 0), (3, 0), (3, 0.3), (-2, 0.3), (-2, 1.5), (-3, 1.5))),
+}
+TOPS = {'thin slab': 0.01, 'thick slab': 0.5, 'valley': -2.98, 'step': 0.3}
 SHAPES = {'disc': Disc(radius=0.2), 'box': Box(width=0.4, height=0.4)}
 
 
@@ -106,3 +117,41 @@ def test_boxes_on_a_lift_are_carried_up(report):
     spawn(sim, 'box/0', SHAPES['box'], (0.0, 0.2, 0.0))
     last = run(sim, 2.0)
     report.check(76, 'box on a lift, height', last.poses[1, 1], 1.2, 5e-3, 'm')
+
+
+@pytest.mark.parametrize('shape', ONE_WAY)
+def test_at_any_speed_one_side_is_open_and_the_other_one_closed(report, shape):
+    chance = random.Random(1)
+    for _ in range(25):
+        speed, slant = 10 ** chance.uniform(0.0, 3.0), chance.uniform(-0.6, 0.6)
+        angle, yaw = chance.uniform(0.0, math.tau), chance.uniform(0.0, math.tau)
+        body = chance.choice((*SHAPES.values(), Disc(radius=0.05), Box(width=0.8, height=0.1)))
+        up = turned((0.0, 1.0), slant)
+        for side in (1.0, -1.0):
+            sim = simulation(gravity=(0.0, 0.0), elasticity=0.0, friction=0.0)
+            said = {'anchored': True, 'one_way': (0.0, 1.0)}
+            spawn(sim, 'platform/0', ONE_WAY[shape], (0.0, 0.0, angle), **said)
+            begin = side * 2.5 * up + (0.0, TOPS[shape])
+            velocity = turned(-side * speed * up, angle)
+            pose = (*turned(begin, angle), yaw)
+            spawn(
+                sim, 'thrown/0', body, pose, velocity=tuple(velocity), spin=chance.uniform(-3, 3)
+            )
+            # The time in which it would go 5 m.
+            sim.world.step(math.ceil(5.0 / speed / DT))
+            change = math.hypot(*(sim.world.snapshot().twists[1, :2] - velocity)) / speed
+            if side < 0:
+                report.check(76, 'from the open side, change of velocity', change, 0.0, 1e-9, '-')
+            assert side < 0 or change > 0.2, f'{shape}: {speed} m/s, slant {slant}'
+
+
+@pytest.mark.parametrize('speed', [1.0, 30.0, 900.0])
+@pytest.mark.parametrize('shape', SHAPES)
+def test_what_begins_within_a_platform_leaves_it_at_any_speed(report, shape, speed):
+    for depth in (0.01, 0.05, 0.15):
+        sim = simulation(gravity=(0.0, 0.0))
+        platform(sim)
+        spawn(sim, 'box/0', SHAPES[shape], (0.0, 0.2 - depth, 0.0), velocity=(0.0, -speed))
+        sim.world.step(math.ceil(2.0 / speed / DT))
+        fall = -sim.world.snapshot().twists[1, 1] / speed
+        report.check(76, 'from within a platform, speed', fall, 1.0, 1e-9, '-')

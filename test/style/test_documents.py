@@ -119,6 +119,15 @@ def test_the_cheat_sheet_has_every_stroke_and_tool_of_the_page():
     assert all(cheat_sheet.keys().values())
 
 
+def test_a_key_of_the_page_does_one_thing():
+    groups = cheat_sheet.keys().values()
+    rows = [shown for group in groups for shown, _ in group if not shown.startswith('Ctrl+')]
+    keys = [key for shown in rows for key in re.split(r', (?=.)', shown)]
+    single = [key for key in keys if re.fullmatch(r'(Shift\+)?.', key)]
+
+    assert len(single) == len(set(single)), single
+
+
 def test_words_of_the_search_lead_to_pages_and_headings_that_are_there():
     for page, heading in search_words.WORDS:
         text = (DOCS / f'{page}.md').read_text('utf-8')

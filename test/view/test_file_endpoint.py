@@ -196,7 +196,7 @@ def test_a_disk_that_is_full_is_told_once_and_recording_begins_again_beside(tmp_
     failed, begun, others = run_alone(FULL_DISK, path).splitlines()
 
     assert str(path) in failed
-    assert begun == f'record: {tmp_path / "it-2.rrd"}'
+    assert begun == f'Rerun record: {tmp_path / "it-2.rrd"}'
     assert others == '[]'
     # The last frame of before, and all since.
     assert rows(tmp_path / 'it-2.rrd')['/events'] == 11

@@ -20,7 +20,7 @@ psutil = pytest.importorskip('psutil')
 
 
 def page(event):
-    return event.message.removeprefix('web: ')
+    return event.message.removeprefix('Rerun web: ')
 
 
 def test_the_web_viewer_is_served_on_this_machine_alone(viewers):
@@ -121,7 +121,7 @@ def test_a_page_server_that_ends_is_told_and_opened_again_when_asked(
 @pytest.mark.parametrize(
     ('mode', 'display', 'code', 'words'),
     [
-        (ViewerMode.AUTO, '', '', ['web: http://127.0.0.1:']),
+        (ViewerMode.AUTO, '', '', ['Rerun web: http://127.0.0.1:']),
         (ViewerMode.SPAWN, '', 'viewer_lost', ['there is no display', 'http://127.0.0.1:']),
         (ViewerMode.AUTO, ':987', 'viewer_lost', ['the window has failed']),
     ],

@@ -35,6 +35,11 @@ void *arena_take(Arena *arena, size_t count, size_t size) {
     return block + 1;
 }
 
+void arena_release(Arena *arena, size_t mark) {
+    assert(mark <= arena->used);
+    arena->used = mark;
+}
+
 void arena_reset(Arena *arena) {
     free_since(arena, 0);
     arena->used = 0;

@@ -18,7 +18,7 @@ PAGE = Path(__file__).parents[2] / 'physsim_ros' / 'sketchpad' / 'page'
 _TEXT = r"t\('((?:[^'\\]|\\.)*)'\)"
 # A stroke in its box of 60 by 40: its name, its path, and what is there before it.
 _STROKE = re.compile(rf"^  \[{_TEXT}, '([^']+)'(?:, '([^']+)')?\],$", re.MULTILINE)
-_TOOL = re.compile(rf"^  tool\('\w+', {_TEXT}, '(.)', {_TEXT}", re.MULTILINE)
+_TOOL = re.compile(rf"^  tool\('\w+', {_TEXT}, '([^']+)', {_TEXT}", re.MULTILINE)
 _TIME = re.compile(rf"\[{_TEXT}, '\w+', '([^']+)'(?:, {_TEXT})?\]")
 _KEY = re.compile(rf"^  \[(?:'([^']+)'|{_TEXT}), {_TEXT}\],$", re.MULTILINE)
 
@@ -34,7 +34,8 @@ def keys() -> dict[str, list[tuple[str, str]]]:
     others = _script('ui/help.js').partition('const MOVING')[2]
     return {
         'Tools': [
-            (key.upper(), name) for name, key, _ in _TOOL.findall(_script('tools/tools.js'))
+            (key if len(key) > 1 else key.upper(), name)
+            for name, key, _ in _TOOL.findall(_script('tools/tools.js'))
         ],
         'Time': [
             (key, f'{name}: {more}' if more else name) for name, key, more in _TIME.findall(time)

@@ -19,7 +19,7 @@ void *arena_take(Arena *arena, size_t count, size_t size) {
     size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     void *piece = NULL;
     if (arena->used + bytes <= arena->size) {
-        piece = memset(arena->memory + arena->used, 0, bytes);
+        piece = arena->memory + arena->used;
     } else {
         Block *block = calloc(1, sizeof(Block) + bytes);
         if (block == NULL) {
@@ -36,6 +36,20 @@ void *arena_take(Arena *arena, size_t count, size_t size) {
     return piece;
 }
 
+// Clear what was taken since a mark.
+static void clear_since(Arena *arena, size_t mark) {
+    size_t end = arena->used < arena->size ? arena->used : arena->size;
+    if (mark < end) {
+        memset(arena->memory + mark, 0, end - mark);
+    }
+}
+
+void arena_release(Arena *arena, size_t mark) {
+    assert(mark <= arena->used);
+    clear_since(arena, mark);
+    arena->used = mark;
+}
+
 static void free_extra(Arena *arena) {
     while (arena->extra != NULL) {
         Block *next = arena->extra->next;
@@ -46,11 +60,12 @@ static void free_extra(Arena *arena) {
 
 void arena_reset(Arena *arena) {
     free_extra(arena);
+    clear_since(arena, 0);
     if (arena->most > arena->size) {
         free(arena->memory);
         // A half more, since what a step needs varies.
         arena->size = arena->most + arena->most / 2;
-        arena->memory = malloc(arena->size);
+        arena->memory = calloc(1, arena->size);
         if (arena->memory == NULL) {
             abort();
         }

@@ -5,6 +5,7 @@
 //
 // Method: a linear allocator (Box2D v3, `arena_allocator.c`). A step that needs more than there is gets the rest from
 // the heap, and the arena has as much from the next step on; so steps allocate nothing once a world has been running.
+// Law: all bits of what is free are 0. Small pieces, of which a joint needs some 70 in a step, are cleared together.
 
 #ifndef PHYSSIM_ARENA_H
 #define PHYSSIM_ARENA_H
@@ -32,10 +33,7 @@ static inline size_t arena_mark(const Arena *arena) {
     return arena->used;
 }
 
-static inline void arena_release(Arena *arena, size_t mark) {
-    assert(mark <= arena->used);
-    arena->used = mark;
-}
+void arena_release(Arena *arena, size_t mark);
 
 // Give back everything, between steps, and grow to what the last step needed.
 void arena_reset(Arena *arena);

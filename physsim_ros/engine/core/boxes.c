@@ -11,7 +11,6 @@
 
 #include "boxes.h"
 
-static const Box empty = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 // Depth of the tree of the most boxes that there can be.
 enum { DEEPEST = 64 };
 
@@ -60,7 +59,7 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
         sort(tiles + first, size, sizeof(Tile), by_y);
     }
     for (size_t node = 0; node < 2 * tree.leaves; node++) {
-        tree.nodes[node] = empty;
+        tree.nodes[node] = nowhere;
     }
     for (int place = 0; place < count; place++) {
         int number = tiles[place].number;

@@ -88,6 +88,7 @@ void correct_first_touches(World *world) {
     Arena *arena = &world->own->arena;
     Touch *touches = TAKE(arena, Touch, arbiter_count(world));
     int count = 0;
+    find_passing(world);
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         if (passes(world, arbiter) || (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter))) {

@@ -10,7 +10,6 @@
 // Cost: `swept_boxes.c` bounds the pairs of a round, and `IMPACT_ROUNDS` the rounds.
 
 #include "impact_islands.h"
-#include "one_way.h"
 #include "time_of_impact.h"
 #include <string.h>
 
@@ -64,17 +63,10 @@ static Vec center_rate(const Mover *mover) {
     return velocity_at(mover->rate, sub(mover->pose.p, mover->pivot));
 }
 
-// Whether one of two movers is one-way, and the other passes it.
-static bool pass(const Mover *one, const Mover *other) {
-    Vec way = sub(center_rate(other), center_rate(one));
-    return is_passed(one->body, one->pose, other->body, other->pose, way) ||
-           is_passed(other->body, other->pose, one->body, one->pose, negated(way));
-}
-
-// Whether two movers do not pass through each other, and are not one island yet.
+// Whether two movers can meet, and are not one island yet.
 static bool collide(const Mover *one, const Mover *other) {
     return (one->movable || other->movable) && (one->island != other->island || one->island < 0) &&
-           may_meet(one->body, other->body) && !pass(one, other);
+           may_meet(one->body, other->body);
 }
 
 // By how far two movers approach in the rest of the step, at most [m].

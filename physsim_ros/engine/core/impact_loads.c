@@ -8,15 +8,16 @@
 // do not: a disc of clay that falls on a light plate on the floor is thrown up by half a metre.
 // Method: our own. A load grows step by step, an impact comes at once. A contact starts the next step with at most
 // four times the impulse with which it started this one, and what stops the slowest impact; one that begins starts
-// the next with none. Each contact is bounded by itself, so that a pile bears its load while things still fall onto
-// it. With a bound of twice the impulse, one crowd in a hundred gains 5 % of its energy, since more of the loads are
-// bounded beside others that are not.
-// Cost: 5 ns a contact.
-// Without it clay rises from a light plate (law 44), and boxes that meet head on without restitution part again (law
-// 3).
+// the next with none, or with the least number that tells a one-way body that it has borne one. Each contact is bounded
+// by itself, so that a pile bears its load while things still fall onto it. With a bound of twice the impulse, one
+// crowd in a hundred gains 5 % of its energy, since more of the loads are bounded beside others that are not. Cost: 5
+// ns a contact. Without it clay rises from a light plate (law 44), and boxes that meet head on without restitution part
+// again (law 3).
 
 #include "impact_propagation.h"
+#include "one_way.h"
 #include "stages.h"
+#include <float.h>
 
 // Growth of a load in a step, at most.
 static const double growth = 4.0;
@@ -39,11 +40,12 @@ void bound_loads(World *world) {
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *each = arbiter_at(world, number);
         bool begins = each->state == ARBITER_FIRST_COLLISION;
+        double least_load = is_of_one_way(each) ? DBL_MIN : 0.0;
         for (int point = 0; point < each->count; point++) {
             cpContact *contact = each->contacts + point;
             double most = growth * greatest(contact->jnAcc, 0.0) + slowest_impact * contact->nMass;
             assert(world->own->load_count < points);
-            world->own->loads[world->own->load_count++] = (Load){contact, begins ? 0.0 : most};
+            world->own->loads[world->own->load_count++] = (Load){contact, begins ? least_load : most};
         }
     }
 }

@@ -14,6 +14,8 @@ typedef struct Box {
     Vec low, high;
 } Box;
 
+static const Box nowhere = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+
 static inline bool overlap(Box a, Box b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
@@ -46,12 +48,16 @@ typedef struct Mover {
     Box box;              // of the whole way
 } Mover;
 
+static inline double yaw_at(const Mover *mover, double share) {
+    return mover->pose.yaw + mover->rate.w * (share - mover->since);
+}
+
 // Where a body is at a share of the step, and its centre of rotation.
 static inline Pose pose_at(const Mover *mover, double share, Vec *pivot) {
     double lapse = share - mover->since;
     *pivot = add(mover->pivot, scaled(mover->rate.v, lapse));
     Vec arm = rotated(sub(mover->pose.p, mover->pivot), rotation(mover->rate.w * lapse));
-    return (Pose){add(*pivot, arm), mover->pose.yaw + mover->rate.w * lapse};
+    return (Pose){add(*pivot, arm), yaw_at(mover, share)};
 }
 
 #endif

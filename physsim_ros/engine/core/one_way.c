@@ -6,26 +6,87 @@
 // Problem: a jump leads up through a platform, a chute lets things out and none in.
 // Method: a contact bears where its normal leads in the direction in which others pass, or across it where the sides
 // are closed, and where the other body was outside as the sub-step began, within the slop of contacts; else Chipmunk
-// ignores it (Godot: one-way collision with a margin; Box2D and Chipmunk leave it to a callback). A contact that has
-// borne a load in the step before bears on, however deep that has pressed it. So nothing outlives a step but the
-// impulses of contacts, which checkpoints have.
-// Continuous collision stops a fast body only where it comes from above all of a one-way body.
-// Cost: 1 ns a contact, 20 ns one of a one-way body.
+// ignores it (Godot: one-way collision with a margin; Box2D and Chipmunk leave it to a callback). What passes one shape
+// of a body passes all of them. A pair of shapes that has borne a load in the sub-step before bears on, however deep
+// that has pressed it, and at whichever corner. So nothing outlives a sub-step but the impulses of contacts, which
+// checkpoints have. Continuous collision stops a fast body by the same rule, at the normal of its impact
+// (`time_of_impact.c`).
+// Limit: a corner that goes further in a sub-step than a segment is thick has entered it by the side of the least
+// depth. Cost: 1 ns a contact, 20 ns one of a one-way body.
 
 #include "one_way.h"
-#include "outline.h"
+#include "stages.h"
+#include <stdlib.h>
 
 // The cosine of the angle from the direction that others pass in, up to which a contact is on top of a body: 78°.
 static const double least_rise = 0.2;
 
-static bool is_one_way(const Body *body) {
+bool is_one_way(const Body *body) {
     return body->one_way.x != 0.0 || body->one_way.y != 0.0;
 }
 
-// Whether the other body was outside as the sub-step began, or is borne already.
-static bool holds_out(const World *world, const cpArbiter *arbiter) {
-    double nearest = INFINITY;
-    bool borne = false;
+bool is_of_one_way(const cpArbiter *arbiter) {
+    return is_one_way(body_of(arbiter->body_a)) || is_one_way(body_of(arbiter->body_b));
+}
+
+// The numbers of two shapes, or of two bodies, the lesser first.
+typedef struct Pair {
+    uintptr_t low, high;
+} Pair;
+
+static Pair pair_of(const cpShape *a, const cpShape *b) {
+    return a->hashid < b->hashid ? (Pair){a->hashid, b->hashid} : (Pair){b->hashid, a->hashid};
+}
+
+static int by_numbers(const void *one, const void *other) {
+    const Pair *a = one, *b = other;
+    if (a->low != b->low) {
+        return a->low < b->low ? -1 : 1;
+    }
+    return (a->high > b->high) - (a->high < b->high);
+}
+
+static bool has_load(const cpArbiter *arbiter) {
+    bool loaded = false;
+    for (int number = 0; number < arbiter->count; number++) {
+        loaded = loaded || arbiter->contacts[number].jnAcc > 0.0;
+    }
+    return loaded;
+}
+
+void find_borne(World *world) {
+    world->own->borne = TAKE(&world->own->arena, Pair, arbiter_count(world));
+    world->own->borne_count = 0;
+    for (int number = 0; number < arbiter_count(world); number++) {
+        const cpArbiter *arbiter = arbiter_at(world, number);
+        if (is_of_one_way(arbiter) && has_load(arbiter)) {
+            world->own->borne[world->own->borne_count++] = pair_of(arbiter->a, arbiter->b);
+        }
+    }
+    sort(world->own->borne, world->own->borne_count, sizeof(Pair), by_numbers);
+}
+
+static bool is_listed(Pair pair, const Pair *list, int count) {
+    return count > 0 && bsearch(&pair, list, (size_t)count, sizeof(Pair), by_numbers) != NULL;
+}
+
+bool is_borne(const World *world, const cpShape *a, const cpShape *b) {
+    return is_listed(pair_of(a, b), world->own->borne, world->own->borne_count);
+}
+
+// How far a normal leads in the direction in which others pass a body; 1 is along it.
+static double rise_of(const Body *body, double yaw, Vec normal) {
+    return dot(normal, rotated(body->one_way, rotation(yaw)));
+}
+
+bool is_closed(const Body *body, double yaw, Vec normal) {
+    double rise = rise_of(body, yaw, normal);
+    return !is_one_way(body) || rise > least_rise || (body->closed_sides && rise >= -least_rise);
+}
+
+// Whether the bodies of a contact approach, and were outside of each other as the sub-step began, within the slop.
+static bool comes_from_outside(const World *world, const cpArbiter *arbiter) {
+    double nearest = INFINITY, fastest = 0.0;
     for (int number = 0; number < arbiter->count; number++) {
         const cpContact *point = arbiter->contacts + number;
         const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
@@ -33,44 +94,53 @@ static bool holds_out(const World *world, const cpArbiter *arbiter) {
         Vec velocity = sub(velocity_at(twist_of(b), point->r2), velocity_at(twist_of(a), point->r1));
         double approach = greatest(-dot(velocity, arbiter->n), 0.0);
         nearest = least(nearest, dot(apart, arbiter->n) + approach * world->dt);
-        borne = borne || point->jnAcc > 0.0;
+        fastest = greatest(fastest, approach);
     }
-    return borne || nearest >= -slop_of(arbiter);
+    return fastest > 0.0 && nearest >= -slop_of(arbiter);
 }
 
-// Whether the contact of a one-way body is on a side that is closed; the normal leads out of it.
-static bool is_closed(const Body *body, Vec normal) {
-    double rise = dot(normal, rotated(body->one_way, rotation(body->engine->a)));
-    return rise > least_rise || (body->closed_sides && rise >= -least_rise);
+// Whether a contact has borne a load; bodies that wake in this sub-step have no pair in the list, but their impulses.
+static bool bears_on(const World *world, const cpArbiter *arbiter) {
+    return has_load(arbiter) || is_borne(world, arbiter->a, arbiter->b);
+}
+
+// Whether both bodies of a contact are closed there.
+static bool are_closed_at(const cpArbiter *arbiter) {
+    const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
+    return is_closed(body_of(a), a->a, arbiter->n) && is_closed(body_of(b), b->a, negated(arbiter->n));
+}
+
+// Whether a contact is where the bodies pass: at the side that others enter by, or within a one-way body.
+static bool is_within(const World *world, const cpArbiter *arbiter) {
+    const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
+    double rise = least(rise_of(body_of(a), a->a, arbiter->n), rise_of(body_of(b), b->a, negated(arbiter->n)));
+    return rise < -least_rise || (are_closed_at(arbiter) && !comes_from_outside(world, arbiter));
+}
+
+// The numbers of the bodies of a contact.
+static Pair bodies_of(const World *world, const cpArbiter *arbiter) {
+    uintptr_t a = (uintptr_t)place_of(world, arbiter->body_a), b = (uintptr_t)place_of(world, arbiter->body_b);
+    return a < b ? (Pair){a, b} : (Pair){b, a};
+}
+
+void find_passing(World *world) {
+    Private *own = world->own;
+    own->passing = TAKE(&own->arena, Pair, arbiter_count(world));
+    own->passing_count = 0;
+    for (int number = 0; number < arbiter_count(world); number++) {
+        const cpArbiter *arbiter = arbiter_at(world, number);
+        if (is_of_one_way(arbiter) && !bears_on(world, arbiter) && is_within(world, arbiter)) {
+            own->passing[own->passing_count++] = bodies_of(world, arbiter);
+        }
+    }
+    sort(own->passing, own->passing_count, sizeof(Pair), by_numbers);
 }
 
 bool passes(const World *world, const cpArbiter *arbiter) {
-    const Body *a = body_of(arbiter->body_a), *b = body_of(arbiter->body_b);
-    if (!is_one_way(a) && !is_one_way(b)) {
+    if (!is_of_one_way(arbiter)) {
         return false;
     }
-    bool closed = (!is_one_way(a) || is_closed(a, arbiter->n)) && (!is_one_way(b) || is_closed(b, negated(arbiter->n)));
-    return !closed || !holds_out(world, arbiter);
-}
-
-// The furthest that a body reaches in a direction [m].
-static double reach_along(const Body *body, Pose pose, Vec direction) {
-    Vec on_body = rotated_back(direction, rotation(pose.yaw));
-    double furthest = -INFINITY;
-    for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
-        for (int number = 0; number < corner_count(shape); number++) {
-            double reach = dot(corner_on_body(shape, number).place, on_body) + radius_of(shape);
-            furthest = greatest(furthest, reach);
-        }
-    }
-    return furthest + dot(pose.p, direction);
-}
-
-bool is_passed(const Body *body, Pose pose, const Body *other, Pose other_pose, Vec way) {
-    if (!is_one_way(body)) {
-        return false;
-    }
-    Vec up = rotated(body->one_way, rotation(pose.yaw));
-    double lowest = -reach_along(other, other_pose, negated(up));
-    return dot(way, up) >= 0.0 || lowest < reach_along(body, pose, up) - least(body->slop, other->slop);
+    const Private *own = world->own;
+    return !are_closed_at(arbiter) ||
+           (!bears_on(world, arbiter) && is_listed(bodies_of(world, arbiter), own->passing, own->passing_count));
 }

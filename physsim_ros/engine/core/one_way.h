@@ -6,11 +6,17 @@
 
 #include "world.h"
 
-// Whether the bodies of a contact pass each other, since one of them is one-way.
+// List the bodies that pass one-way bodies, then tell by contacts: whether its bodies pass each other.
+void find_passing(World *world);
 bool passes(const World *world, const cpArbiter *arbiter);
 
-// Whether another body passes a one-way body in a motion from some poses, by its way relative to it [m]: where it does
-// not begin on the side that bears it, or does not come against it.
-bool is_passed(const Body *body, Pose pose, const Body *other, Pose other_pose, Vec way);
+bool is_one_way(const Body *body);
+bool is_of_one_way(const cpArbiter *arbiter);
+
+// Whether a contact of two shapes, one of them of a one-way body, has borne a load in the sub-step before.
+bool is_borne(const World *world, const cpShape *a, const cpShape *b);
+
+// Whether a body at a yaw is closed on the side that a normal leads out of; but for a one-way body it always is.
+bool is_closed(const Body *body, double yaw, Vec normal);
 
 #endif

@@ -40,6 +40,9 @@ void find_pushes(World *world);
 void roll_wheels(World *world);
 void reckon_odometry(World *world);
 
+// Contacts of one-way bodies that have borne a load (`one_way.c`).
+void find_borne(World *world);
+
 // Fast bodies end their step where they first hit something (`continuous.c`), and keep small boxes (`tight_boxes.c`).
 void clamp_moves(World *world);
 void finish_moves(World *world);

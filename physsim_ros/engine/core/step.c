@@ -97,6 +97,7 @@ static void step(World *world) {
     pull_grips(world);
     apply_fields(world);
     pull_by_floor(world);
+    find_borne(world);
     clamp_moves(world);
     tighten_boxes(world);
     prepare_parts(world);
@@ -108,6 +109,7 @@ static void step(World *world) {
     find_leads(world);
     forgive_trembling(world);
     solve_joints(world);
+    find_borne(world);
     finish_moves(world);
     close_joints(world);
     add_totals(world);

@@ -28,21 +28,21 @@ static const double most_pairs = 200.0;
 
 // A count of pieces near a body.
 typedef struct Near {
-    const Body *bodies;
+    Body *const *bodies; // of the tree
     double pieces, enough;
 } Near;
 
 // Whether the extended boxes of a body may overlap more than `most_pairs` pieces of all. A box of k half widths
 // overlaps k² / 2 others at most, where bodies of a size fill the plane.
-static bool is_fast_in_crowd(const Body *body, double all) {
+static bool is_fast_in_crowd(const Body *body) {
     double way = length(body->engine->v) * extension;
     double most = way * way / (2.0 * body->half_width * body->half_width);
-    return !body->anchored && body->pieces * least(most, all) > most_pairs;
+    return !body->anchored && body->pieces * most > most_pairs;
 }
 
 static bool count_pieces(int number, void *data) {
     Near *near = data;
-    near->pieces += near->bodies[number].pieces;
+    near->pieces += near->bodies[number]->pieces;
     return near->pieces < near->enough;
 }
 
@@ -56,37 +56,47 @@ static void index_at_end(World *world, cpBody *engine) {
     set_twist(engine, twist);
 }
 
+// The box of a body, extended as Chipmunk does.
+static Box extended_box(const Body *body) {
+    Vec start = body->engine->p, end = add(start, scaled(body->engine->v, extension));
+    Vec reach = vec(body->reach, body->reach);
+    return united((Box){sub(start, reach), add(start, reach)}, (Box){sub(end, reach), add(end, reach)});
+}
+
+// The box of all that fast bodies could meet.
+static Box box_of_fast(const World *world) {
+    Box all = nowhere;
+    for (int number = 0; number < active_count(world); number++) {
+        const Body *body = active_at(world, number);
+        if (is_fast_in_crowd(body)) {
+            all = united(all, extended_box(body));
+        }
+    }
+    return all;
+}
+
 void tighten_boxes(World *world) {
-    if (!has_stage(world, STAGE_TIGHT_BOXES)) {
+    Box all = has_stage(world, STAGE_TIGHT_BOXES) ? box_of_fast(world) : nowhere;
+    if (!overlap(all, all)) {
         return;
-    }
-    bool any = false;
-    for (int number = 0; number < active_count(world) && !any; number++) {
-        any = is_fast_in_crowd(active_at(world, number), INFINITY);
-    }
-    if (!any) {
-        return;
-    }
-    int count = world->body_count - 1;
-    double pieces = 0.0;
-    for (int place = 0; place < count; place++) {
-        pieces += world->bodies[place].pieces;
     }
     Arena *arena = &world->own->arena;
     size_t mark = arena_mark(arena);
-    Box *boxes = TAKE(arena, Box, count);
-    for (int place = 0; place < count; place++) {
-        const Body *body = world->bodies + place;
-        Vec start = body->engine->p, end = add(start, scaled(body->engine->v, extension));
-        Vec reach = vec(body->reach, body->reach);
-        boxes[place] = united((Box){sub(start, reach), add(start, reach)}, (Box){sub(end, reach), add(end, reach)});
+    Body **bodies = TAKE(arena, Body *, world->body_count);
+    Box *boxes = TAKE(arena, Box, world->body_count);
+    int count = 0;
+    for (int place = 0; place < world->body_count - 1; place++) {
+        boxes[count] = extended_box(world->bodies + place);
+        if (overlap(boxes[count], all)) {
+            bodies[count++] = world->bodies + place;
+        }
     }
     Tree tree = tree_of(boxes, count, arena);
-    for (int place = 0; place < count; place++) {
-        const Body *body = world->bodies + place;
-        if (is_fast_in_crowd(body, pieces)) {
-            Near near = {world->bodies, 0.0, most_pairs / body->pieces};
-            tree_query(&tree, boxes[place], count_pieces, &near);
+    for (int number = 0; number < count; number++) {
+        const Body *body = bodies[number];
+        if (is_fast_in_crowd(body)) {
+            Near near = {bodies, 0.0, most_pairs / body->pieces};
+            tree_query(&tree, boxes[number], count_pieces, &near);
             if (near.pieces >= near.enough) {
                 index_at_end(world, body->engine);
             }

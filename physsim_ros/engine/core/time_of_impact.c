@@ -11,9 +11,11 @@
 //
 // An impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the start
 // meets where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not at all
-// where it overlaps by more than the lesser inner radius, since either side may be the nearer one then.
+// where it overlaps by more than the lesser inner radius, since either side may be the nearer one then. What is within
+// a one-way body, or meets an open side of it, passes it.
 
 #include "time_of_impact.h"
+#include "one_way.h"
 
 // Advances of a pair in a step, at most: straight motion takes two or three, a fast turning stick that grazes a disc
 // about twenty. A pair that takes more ends its step as far as it has come.
@@ -151,8 +153,15 @@ static double approach(const MovingShape *a, const MovingShape *b, const Separat
     return rate_along(a, point, found->axis) - rate_along(b, point, found->axis);
 }
 
-// The share of the step at which two shapes first overlap by the skin.
-static double advance(MovingShape *a, MovingShape *b, double radii, double skin, double depth) {
+// Whether neither body lets the other one pass where they meet.
+static bool are_closed(const MovingShape *a, const MovingShape *b, Vec axis, double share) {
+    return is_closed(a->mover->body, yaw_at(a->mover, share), axis) &&
+           is_closed(b->mover->body, yaw_at(b->mover, share), negated(axis));
+}
+
+// The share of the step at which two shapes first overlap by the skin. `passing` is whether an overlap from the start
+// is that of a body which passes a one-way body.
+static double advance(MovingShape *a, MovingShape *b, double radii, double skin, double depth, bool passing) {
     double share = greatest(a->mover->since, b->mover->since), target = -skin;
     for (int number = 0; number < ADVANCES; number++) {
         place(a, share);
@@ -161,7 +170,7 @@ static double advance(MovingShape *a, MovingShape *b, double radii, double skin,
         double distance = found.distance - radii;
         bool met = distance <= target + tolerance * skin;
         if (number == 0 && met) {
-            if (distance < -skin - depth * (double)SAFE_DEPTHS) {
+            if ((passing && distance < -skin) || distance < -skin - depth * (double)SAFE_DEPTHS) {
                 return INFINITY;
             }
             target = distance - skin;
@@ -172,7 +181,8 @@ static double advance(MovingShape *a, MovingShape *b, double radii, double skin,
         if (met) {
             double rate = approach(a, b, &found);
             if (rate > 0.0) {
-                return rate * (1.0 - share) > depth ? share : INFINITY;
+                bool stops = rate * (1.0 - share) > depth && are_closed(a, b, found.axis, share);
+                return stops ? share : INFINITY;
             }
         }
         double speed = speed_bound(a, b, found.axis, 1.0 - share);
@@ -193,7 +203,8 @@ static double impact_of_shapes(World *world, const Mover *one, const cpShape *a,
     bool is_round = corner_count(a) < 3 || corner_count(b) < 3;
     skin = is_round ? least(skin, radii / 2.0) : skin;
     MovingShape first = side_of(one, a, arena), second = side_of(other, b, arena);
-    double share = advance(&first, &second, radii, skin, depth);
+    bool passing = (is_one_way(one->body) || is_one_way(other->body)) && !is_borne(world, a, b);
+    double share = advance(&first, &second, radii, skin, depth, passing);
     arena_release(arena, mark);
     return share;
 }

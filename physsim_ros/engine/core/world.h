@@ -32,6 +32,8 @@ typedef struct Private {
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
     struct Statics *statics;
+    struct Pair *borne, *passing; // shapes that one-way bodies bear or that bear these; bodies that pass these
+    int borne_count, passing_count;
     struct Touch *begun; // contacts that begin in this step
     int begun_count;
     struct Load *loads; // of the contacts of this step

@@ -91,7 +91,8 @@ def _check_role(body: Body) -> None:
     """
     if any(body.surface_velocity) and not body.sensor:
         raise BadProperty(
-            f'{body.name} is not a sensor; only a sensor can be a conveyor',
+            f'{body.name} is not a sensor; only a sensor can be a conveyor from above; the '
+            'surface of a solid body runs by the property belt',
             field='surface_velocity',
         )
     if body.medium is not None and (body.dynamic or not body.sensor):

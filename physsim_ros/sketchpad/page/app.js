@@ -16,7 +16,11 @@ import {Driving} from './panels/driving.js';
 import {Gallery} from './ui/gallery.js';
 import {Handles} from './input/handles.js';
 import {Hints, Tips} from './ui/hints.js';
-import {Cursor, Keyboard} from './input/keyboard.js';
+import {Cursor} from './input/cursor.js';
+import {Eraser} from './tools/eraser.js';
+import {Gestures} from './input/gestures.js';
+import {Keyboard} from './input/keyboard.js';
+import {Lasso} from './tools/freehand.js';
 import {Lessons} from './ui/lessons.js';
 import {Links} from './ui/links.js';
 import {Narrator, Sound} from './ui/narrator.js';
@@ -26,7 +30,6 @@ import {Meters} from './measures/meters.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
 import {Plots} from './measures/plots.js';
-import {Pointers} from './input/pointer.js';
 import {Records, Trail} from './measures/records.js';
 import {Room} from './view/room.js';
 import {SceneView} from './view/scene_view.js';
@@ -41,7 +44,6 @@ import {Words} from './words.js';
 import {WorldState} from './world_state.js';
 
 /** @import {PlotWindow} from './measures/plot_window.js' */
-/** @import {Tool} from './types.js' */
 
 export class App {
   constructor() {
@@ -58,8 +60,9 @@ export class App {
     this.world = new WorldState(this.connection);
     this.camera = new Camera();
     this.view = new SceneView(elementOf('world', HTMLCanvasElement), this.world, this.camera);
+    this.gestures = new Gestures(this.view);
+    this.gestures.onlyMoves = this.viewOnly;
     this.selection = new Selection(this);
-    this.view.overlays.push((view) => this.tool.draw?.(view));
     this.cursor = new Cursor(this);
     this.arrows = new Arrows(this);
     this.words = new Words(this.connection);
@@ -83,11 +86,9 @@ export class App {
     this.dialog = new Dialog();
     this.gallery = new Gallery(this);
     this.links = new Links(this);
-    /** @type {Tool} */
-    this.tool = {up() {}};
     this.hints = new Hints(this);
     this.toolbar = new Toolbar(this);
-    this.pointers = new Pointers(this);
+    this.gestures.ends = {eraser: new Eraser(this), button: new Lasso(this)};
     this.menu = new Menu(this);
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
@@ -114,6 +115,7 @@ export class App {
       if (version !== (this.version ??= version)) location.reload();
       this.viewOnly ||= Boolean(viewOnly);
       document.body.classList.toggle('view', this.viewOnly);
+      this.gestures.onlyMoves = this.viewOnly;
       this.color = settings.draw_color ?? null;
       // The server knows this page as a new one, without a material.
       if (Object.keys(this.material).length && !this.viewOnly) this.connection.send('draw_with', this.material);
@@ -137,7 +139,7 @@ export class App {
     });
     connection.on('closed', ({status, opened}) => {
       // The server forgets the gestures that it knows of; a stroke is drawn to its end.
-      if (!away && this.tool.atServer) this.tool.cancel?.();
+      if (!away && this.gestures.tool.atServer) this.gestures.cancelAll();
       away = true;
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
@@ -176,7 +178,7 @@ export class App {
     const {arrows, records, panel: {name}} = this, told = this.settings?.speaks || this.selection.names.size > 0;
     this.connection.send('show', {
       // The drag of the air follows from velocities.
-      velocities: arrows.velocities || arrows.forces || told || records.records || this.tool.measures === true,
+      velocities: arrows.velocities || arrows.forces || told || records.records || this.gestures.tool.measures === true,
       contacts: arrows.forces || told || this.sound.on || records.records,
       forces: true,
       laser: this.world.body(name)?.robot ? name : '',

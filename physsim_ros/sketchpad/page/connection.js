@@ -6,6 +6,7 @@
  * that is silent is asked whether it lives: a network that went, or a machine that slept, closes none.
  */
 
+import {Emitter} from './emitter.js';
 import {decodeFrame} from './frame_codec.js';
 
 /** @import {Answer} from './types.js' */
@@ -25,12 +26,15 @@ const LASTING = 60000; // ms for which they do
 /** Messages that have no answer, or that nobody misses. */
 const PASSING = ['show', 'here', 'move', 'watch', 'drive', 'let_go', 'drop', 'list', 'ping', 'person', 'draw_with', 'raise_hand', 'grab', 'follow'];
 
-export class Connection {
+/**
+ * Events: messages by their type in the protocol; frame, ghost_frame, open, silent, heard, closed, sent, unsent, again,
+ * world; any: each of these.
+ */
+export class Connection extends Emitter {
   /** @param {string} path of the socket on the server */
   constructor(path = '/ws') {
+    super();
     this.path = path;
-    /** @type {Map<string, ((message: any) => void)[]>} */
-    this.listeners = new Map();
     /** @type {Map<string, (answer: Answer) => void>} */
     this.waiting = new Map();
     this.number = 0;
@@ -49,14 +53,6 @@ export class Connection {
     this.on('welcome', ({received}) => this.#sendAgain(received));
   }
 
-  /**
-   * @param {string} type of messages: one of the protocol, or frame, ghost_frame, open, silent, heard, closed, sent, unsent, again, world; any: each of these
-   * @param {(message: any) => void} listener
-   */
-  on(type, listener) {
-    this.listeners.set(type, [...this.listeners.get(type) ?? [], listener]);
-  }
-
   connect() {
     const query = new URLSearchParams(location.search);
     query.set('person', sessionStorage.getItem(PERSON) ?? '');
@@ -66,7 +62,7 @@ export class Connection {
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => {
       this.opened = true;
-      this.#emit('open', null);
+      this.#tell('open', null);
     };
     this.socket.onmessage = ({data}) => this.#receive(data);
     this.socket.onclose = ({code}) => {
@@ -82,7 +78,7 @@ export class Connection {
    */
   send(type, fields = {}) {
     if (this.socket?.readyState !== WebSocket.OPEN) {
-      this.#emit('unsent', {type, ...fields});
+      this.#tell('unsent', {type, ...fields});
       return '';
     }
     const message = {id: String(++this.number), type, ...fields};
@@ -94,7 +90,7 @@ export class Connection {
   #sendOut(message) {
     this.socket?.send(JSON.stringify(message));
     if (!PASSING.includes(message.type)) this.unanswered.set(message.id, {message, at: Date.now()});
-    this.#emit('sent', message);
+    this.#tell('sent', message);
   }
 
   /**
@@ -106,7 +102,7 @@ export class Connection {
     this.unanswered.clear();
     const again = missed.filter(({message: {type}, at}) => received && AGAIN.includes(type) && Date.now() - at < LASTING);
     for (const {message} of again) this.#sendOut({...message, id: String(++this.number)});
-    if (missed.length) this.#emit('again', {sent: again.length, lost: missed.length - again.length});
+    if (missed.length) this.#tell('again', {sent: again.length, lost: missed.length - again.length});
   }
 
   /** Ask a silent server whether it is there, tell that it does not answer, and connect anew. */
@@ -114,7 +110,7 @@ export class Connection {
     if (!this.socket) return;
     this.silence++;
     if (this.silence === ASKS && this.socket.readyState === WebSocket.OPEN) this.send('ping');
-    if (this.silence === TELLS) this.#emit('silent', null);
+    if (this.silence === TELLS) this.#tell('silent', null);
     if (this.silence < LEAVES) return;
     this.socket.onclose = this.socket.onmessage = this.socket.onopen = null;
     this.socket.close();
@@ -152,7 +148,7 @@ export class Connection {
 
   /** @param {string | ArrayBuffer} data */
   #receive(data) {
-    if (this.silence >= TELLS) this.#emit('heard', null);
+    if (this.silence >= TELLS) this.#tell('heard', null);
     this.silence = 0;
     if (typeof data !== 'string') {
       // Only a frame tells that the server keeps a socket open: until then the pauses grow.
@@ -160,10 +156,10 @@ export class Connection {
       const frame = decodeFrame(data);
       // Without a frame the bodies of a scene are nowhere.
       if (!frame.ghost && this.scene?.epoch === frame.epoch) {
-        this.#emit('scene', this.scene);
+        this.#tell('scene', this.scene);
         this.scene = null;
       }
-      this.#emit(frame.ghost ? 'ghost_frame' : 'frame', frame);
+      this.#tell(frame.ghost ? 'ghost_frame' : 'frame', frame);
       return;
     }
     const message = JSON.parse(data);
@@ -176,16 +172,16 @@ export class Connection {
       this.waiting.get(message.request)?.(message);
       this.waiting.delete(message.request);
     }
-    this.#emit(message.type, message);
-    if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.#emit('world', message);
+    this.#tell(message.type, message);
+    if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.#tell('world', message);
   }
 
   /**
    * @param {string} type
    * @param {any} message
    */
-  #emit(type, message) {
-    for (const each of [type, 'any']) for (const listener of this.listeners.get(each) ?? []) listener(message);
+  #tell(type, message) {
+    for (const each of [type, 'any']) this.emit(each, message);
   }
 
   /**
@@ -203,7 +199,7 @@ export class Connection {
       this.connect();
       return;
     }
-    this.#emit('closed', {status, opened: this.opened});
+    this.#tell('closed', {status, opened: this.opened});
     setTimeout(() => status ? this.connect() : this.#retry(true), this.pause);
     this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
   }

@@ -327,12 +327,20 @@ export interface ClickUse {
   arrow?: boolean;
 }
 
-/** What works a pointer: a tool of the toolbar, or the arrow of a velocity. */
+/** What a pointer works: a tool of the toolbar, a handle, or an end of a stylus. */
 export interface Tool {
-  down?(touch: Touch): void;
+  /** Where the pointer has been, as the machine of gestures keeps it; empty while it is lifted. */
+  path: Touch[];
+  begin?(touch: Touch): void;
+  /** The path ends there. */
   move?(touch: Touch): void;
-  up(touch: Touch): void;
+  end?(touch: Touch): void;
+  /** Forget the gesture, and the clicks before it. */
   cancel?(): void;
+  /** @param touch of a pointer that is not pressed */
+  point?(touch: Touch): void;
+  /** @returns the place on the grid, or the one that is meant */
+  snap?(touch: Touch): Touch;
   draw?(view: SceneView): void;
   /** Whether wheel, R and a second finger turn the body in the tool. */
   turns?: boolean;
@@ -351,6 +359,3 @@ export interface Tool {
   /** Colour of the body that it is pointed at. */
   aims?: 'accent' | 'warn';
 }
-
-/** What a pointer works: a tool, or a handle. */
-export type Worked = Pick<Tool, 'down' | 'move' | 'up' | 'cancel' | 'clicks'>;

@@ -33,6 +33,9 @@ export class Handles extends Gesture {
     this.dragged = '';
     this.until = 0; // [ms] until then the handles are shown
     app.view.overlays.push((view) => this.#draw(view));
+    app.gestures.handles = this;
+    app.gestures.on('point', (touch) => this.#point(touch));
+    app.gestures.on('end', ({touch, isFinger}) => this.#point(touch, isFinger));
   }
 
   /** @returns {boolean} whether the handles are there: a pointer is near, or has been */
@@ -45,7 +48,7 @@ export class Handles extends Gesture {
    * @param {?Touch} touch null where it has left
    * @param {boolean} isFinger
    */
-  point(touch, isFinger = false) {
+  #point(touch, isFinger = false) {
     const {app} = this, places = this.places();
     const near = (/** @type {?Point} */ place, /** @type {number} */ reach) => place && touch && distance(touch.page, place) <= reach;
     const isNear = places && (near(places.center, places.reach + TURN_GAP + NEAR) || near(places.velocity, 2 * NEAR));
@@ -63,8 +66,7 @@ export class Handles extends Gesture {
   }
 
   /** @param {Touch} touch */
-  down(touch) {
-    super.down(touch);
+  begin(touch) {
     this.dragged = this.#handleAt(touch);
     this.app.arrows.frozen = this.dragged === 'velocity';
   }
@@ -84,7 +86,6 @@ export class Handles extends Gesture {
   }
 
   cancel() {
-    super.cancel();
     this.dragged = '';
     this.app.arrows.frozen = false;
   }

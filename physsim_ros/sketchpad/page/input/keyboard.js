@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The keys of the page, which `?` shows, and the cursor on the canvas that they move. */
+/** The keys of the page, which `?` shows. */
 
 import {TOOLS} from '../tools/tools.js';
 import {ARROWS} from '../ui/toolbar.js';
 
-/** @import {App, Point, SceneView, Touch, Worked} from '../types.js' */
+/** @import {App} from '../types.js' */
 
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
@@ -26,12 +26,12 @@ export class Keyboard {
     document.addEventListener('pointerup', () => this.#takeBack(), true);
     app.view.canvas.addEventListener('blur', () => app.view.canvas.classList.remove('reached'));
     app.view.canvas.addEventListener('blur', () => app.driving.liftAll());
-    addEventListener('blur', () => { app.pointers.space = false; });
+    addEventListener('blur', () => { app.gestures.space = false; });
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
       '?': () => app.showHelp(), f: () => app.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
-      r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
+      r: () => app.gestures.tool.turn?.(TURN), R: () => app.gestures.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
       j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
@@ -77,9 +77,9 @@ export class Keyboard {
       target instanceof HTMLInputElement && target.type !== 'range';
     if (key === ' ' && !button) {
       if (!event.repeat) this.since = event.timeStamp;
-      app.pointers.space = true;
+      app.gestures.space = true;
     } else if (key === 'Enter' && !button) {
-      if (app.cursor.shown || !app.tool.finish?.()) app.cursor.press();
+      if (app.cursor.shown || !app.gestures.tool.finish?.()) app.cursor.press();
     } else if (key in ARROWS && !button) {
       app.cursor.move(...ARROWS[key], event.shiftKey);
     } else if (target === app.view.canvas && app.driving.press(event.code)) {
@@ -94,9 +94,9 @@ export class Keyboard {
   #up({key, code, timeStamp}) {
     const {app} = this;
     app.driving.lift(code);
-    if (key !== ' ' || !app.pointers.space) return;
-    app.pointers.space = false;
-    if (timeStamp - this.since < TAP && !app.pointers.down.size) app.time.toggle();
+    if (key !== ' ' || !app.gestures.space) return;
+    app.gestures.space = false;
+    if (timeStamp - this.since < TAP && !app.gestures.down.size) app.time.toggle();
   }
 
   /** @param {number} factor */
@@ -119,83 +119,9 @@ export class Keyboard {
   #drop() {
     const {app} = this, {plotWindow} = app;
     if (plotWindow?.isOpen) return plotWindow.close();
-    app.tool.cancel?.();
+    app.gestures.cancelAll();
     app.readings.dismiss();
     app.cursor.hide();
     app.panel.close();
-  }
-}
-
-const STEP = 16, FINE = 2; // px
-
-export class Cursor {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    this.x = this.y = -1; // px
-    this.shown = false;
-    /** @type {?Worked} what it presses */
-    this.pressed = null;
-    app.view.overlays.push((view) => this.#draw(view));
-  }
-
-  /** @returns {Touch} */
-  get touch() {
-    const {camera} = this.app;
-    return {at: camera.toWorld(this.x, this.y), page: [this.x, this.y],
-      time: performance.now() / 1000, slop: 6 / camera.scale, grid: 0, copies: false};
-  }
-
-  /** @param {Point} page where it is put [px] */
-  put([x, y]) {
-    [this.x, this.y] = [x, y];
-    this.move(0, 0, false);
-  }
-
-  hide() {
-    this.pressed?.cancel?.();
-    this.shown = false;
-    this.pressed = null;
-  }
-
-  /**
-   * @param {number} dx -1, 0 or 1
-   * @param {number} dy
-   * @param {boolean} fine
-   */
-  move(dx, dy, fine) {
-    const {camera} = this.app, step = fine ? FINE : STEP;
-    if (!this.shown && this.x < 0) [this.x, this.y] = [camera.width / 2, camera.height / 2];
-    this.shown = true;
-    this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
-    this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
-    const {app: {pointers, tool}, touch} = this;
-    (this.pressed ?? tool).move?.(touch);
-    if (!this.pressed) pointers.point(touch);
-  }
-
-  /** Press the tool, or a handle, or lift it; a tool of clicks clicks. */
-  press() {
-    const {pointers} = this.app;
-    if (!this.shown) {
-      this.move(0, 0, false);
-      return;
-    }
-    const lifts = this.pressed !== null, worked = this.pressed ?? pointers.press(this.touch);
-    this.pressed = lifts || worked.clicks ? null : worked;
-    if (!this.pressed) pointers.lift(worked, this.touch);
-  }
-
-  /** @param {SceneView} view */
-  #draw({ctx, palette}) {
-    if (!this.shown) return;
-    ctx.strokeStyle = palette.accent;
-    ctx.lineWidth = 2;
-    ctx.beginPath();
-    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
-      ctx.moveTo(this.x + 4 * dx, this.y + 4 * dy);
-      ctx.lineTo(this.x + 14 * dx, this.y + 14 * dy);
-    }
-    ctx.stroke();
   }
 }

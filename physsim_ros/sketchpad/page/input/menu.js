@@ -6,27 +6,18 @@
 
 import {createElement, textButton} from '../dom.js';
 import {t} from '../strings.js';
-import {distance} from '../vectors.js';
 
 /** @import {App, Point} from '../types.js' */
 
-const STILL = 4; // px: a right button that is dragged further moves the view
+const GAP = 4; // px to the edges of the page
 
 export class Menu {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
     this.element = document.body.appendChild(createElement('div', {id: 'menu', role: 'menu', 'aria-label': t('Menu'), hidden: true}));
-    /** @type {Point} where the right button was pressed [px] */
-    this.pressed = [0, 0];
-    const {canvas} = app.view;
-    canvas.addEventListener('pointerdown', ({button, clientX, clientY}) => {
-      this.close();
-      if (button === 2) this.pressed = [clientX, clientY];
-    });
-    canvas.addEventListener('pointerup', ({button, pointerType, clientX, clientY}) => {
-      if (button === 2 && pointerType === 'mouse' && distance(this.pressed, [clientX, clientY]) < STILL) this.open([clientX, clientY]);
-    });
+    app.gestures.on('press', () => this.close());
+    app.gestures.on('menu', (page) => this.open(page));
     this.element.addEventListener('focusout', ({relatedTarget}) => this.element.contains(/** @type {?Node} */ (relatedTarget)) || this.close());
     this.element.addEventListener('keydown', (event) => this.#move(event));
   }
@@ -55,8 +46,8 @@ export class Menu {
     element.hidden = false;
     // The view makes room for the panel of what was selected.
     [x, y] = camera.toPage(...at);
-    element.style.left = `${Math.min(x, innerWidth - element.offsetWidth - STILL)}px`;
-    element.style.top = `${Math.min(y, innerHeight - element.offsetHeight - STILL)}px`;
+    element.style.left = `${Math.min(x, innerWidth - element.offsetWidth - GAP)}px`;
+    element.style.top = `${Math.min(y, innerHeight - element.offsetHeight - GAP)}px`;
     element.querySelector('button')?.focus();
   }
 

@@ -20,6 +20,8 @@ export class Selection {
     /** @type {Point | undefined} [px] */
     this.hoveredAt = undefined;
     app.view.overlays.push((view) => this.#draw(view));
+    app.gestures.on('press', () => this.#hover(null));
+    app.gestures.on('point', (touch) => this.#hover(touch));
     app.connection.on('scene', ({bodies}) => {
       const known = new Set(bodies.map((/** @type {Body} */ {name}) => name));
       for (const name of this.names) if (!known.has(name)) this.names.delete(name);
@@ -81,7 +83,7 @@ export class Selection {
   }
 
   /** @param {?Touch} touch */
-  hover(touch) {
+  #hover(touch) {
     const {world, view} = this.app, row = touch ? world.bodyAt(touch.at, touch.slop) : -1;
     const name = row < 0 ? '' : world.scene.bodies[row].name;
     view.canvas.classList.toggle('over', row >= 0);
@@ -91,7 +93,7 @@ export class Selection {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {palette} = view, {world, tool} = this.app;
+    const {palette} = view, {world, gestures: {tool}} = this.app;
     for (const name of this.names) {
       const row = world.row(name);
       if (row >= 0) view.outline(row, palette.accent);

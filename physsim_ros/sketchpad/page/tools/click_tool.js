@@ -45,23 +45,25 @@ export class ClickTool extends Gesture {
     return this.points.length > 0;
   }
 
-  /** @param {Touch} raw */
-  down(raw) {
-    const touch = this.pointed = this.#onGrid(raw);
-    super.down(touch);
+  /** @param {Touch} touch */
+  begin(touch) {
+    this.pointed = touch;
     this.begun = !this.open && this.clicks > 1;
     if (this.begun) this.#click(touch);
   }
 
-  /** @param {Touch} raw */
-  move(raw) {
-    this.pointed = this.#onGrid(raw);
-    super.move(this.pointed);
+  /** @param {Touch} touch */
+  move(touch) {
+    this.pointed = touch;
   }
 
-  /** @param {Touch} raw */
-  end(raw) {
-    const touch = this.#onGrid(raw);
+  /** @param {Touch} touch */
+  point(touch) {
+    this.pointed = this.snap(touch);
+  }
+
+  /** @param {Touch} touch */
+  end(touch) {
     if (this.#isUpright(touch)) this.#click({...touch, at: [touch.at[0], this.points[0].at[1]]});
     if (!this.begun || !isTap(this.path[0], touch)) this.#click(touch);
   }
@@ -69,7 +71,6 @@ export class ClickTool extends Gesture {
   cancel() {
     if (this.open) this.app.connection.send('drop');
     this.points = [];
-    super.cancel();
   }
 
   /**
@@ -86,7 +87,7 @@ export class ClickTool extends Gesture {
    * @param {Touch} touch
    * @returns {Touch} on the grid, where the key is held and no body is meant
    */
-  #onGrid(touch) {
+  snap(touch) {
     if (!touch.grid || this.aims) return touch;
     const {grid} = touch, [first] = this.points;
     let at = onGrid(touch.at, grid);

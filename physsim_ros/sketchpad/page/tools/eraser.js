@@ -16,8 +16,7 @@ export class Eraser extends Gesture {
   joints = new Set();
 
   /** @param {Touch} touch */
-  down(touch) {
-    super.down(touch);
+  begin(touch) {
     this.bodies.clear();
     this.joints.clear();
     this.#meet(touch);
@@ -25,13 +24,11 @@ export class Eraser extends Gesture {
 
   /** @param {Touch} touch */
   move(touch) {
-    const {last} = this;
-    if (!last) return;
-    const steps = Math.ceil(distance(last.page, touch.page) / STEP), [x, y] = last.at, [toX, toY] = touch.at;
+    const before = this.path[this.path.length - 2];
+    const steps = Math.ceil(distance(before.page, touch.page) / STEP), [x, y] = before.at, [toX, toY] = touch.at;
     for (let step = 1; step <= steps; step++) {
       this.#meet({...touch, at: [x + (toX - x) * step / steps, y + (toY - y) * step / steps]});
     }
-    super.move(touch);
   }
 
   end() {

@@ -15,19 +15,14 @@ export class Pen extends Gesture {
   kept = 1; // one in so many samples: a long stroke is thinned out evenly
   count = 0; // of samples after the first
 
-  /** @param {Touch} touch */
-  down(touch) {
-    super.down(touch);
+  begin() {
     this.kept = 1;
     this.count = 0;
   }
 
-  /** @param {Touch} touch */
-  move(touch) {
-    if (!this.last) return;
+  move() {
     // The newest sample is always there.
-    if (this.count++ % this.kept) this.path.pop();
-    super.move(touch);
+    if (this.count++ % this.kept) this.path.splice(-2, 1);
     if (this.path.length <= MOST_SAMPLES) return;
     this.path.splice(0, Infinity, ...this.path.filter((_, i) => i % 2 === 0));
     this.kept *= 2;
@@ -58,10 +53,9 @@ export class Lasso extends Gesture {
   carrying = false;
 
   /** @param {Touch} touch */
-  down(touch) {
+  begin(touch) {
     const {world, selection} = this.app, row = world.bodyAt(touch.at, touch.slop);
     this.carrying = row >= 0 && selection.names.has(world.scene.bodies[row].name);
-    super.down(touch);
   }
 
   /** @param {Touch} touch */

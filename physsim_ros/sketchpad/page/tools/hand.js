@@ -40,9 +40,8 @@ export class Hand extends Gesture {
   }
 
   /** @param {Touch} touch */
-  down(touch) {
+  begin(touch) {
     const {world} = this.app, row = world.bodyAt(touch.at, touch.slop);
-    super.down(touch);
     this.moved = false;
     if (row < 0) this.state = 'panning';
     else {
@@ -58,15 +57,13 @@ export class Hand extends Gesture {
 
   /** @param {Touch} touch */
   move(touch) {
-    const {start, last, app} = this;
-    if (!start || !last) return;
-    const far = !isTap(start, touch);
+    const {path} = this, far = !isTap(path[0], touch);
     this.moved ||= far;
     if (this.state === 'pressed' && far) this.#grab();
     if (this.state === 'panning' && this.moved) {
-      app.camera.pan(touch.page[0] - last.page[0], touch.page[1] - last.page[1]);
+      const [x, y] = path[path.length - 2].page;
+      this.app.camera.pan(touch.page[0] - x, touch.page[1] - y);
     }
-    super.move(touch);
     if (this.state === 'holding') this.#sendSoon();
   }
 
@@ -93,7 +90,6 @@ export class Hand extends Gesture {
     clearTimeout(this.timer);
     if (this.state === 'holding') this.app.connection.send('let_go');
     this.state = '';
-    super.cancel();
   }
 
   /** @param {number} angle [rad] */

@@ -22,15 +22,12 @@ export class Ruler extends Gesture {
     app.view.overlays.push((view) => this.#draw(view));
   }
 
-  /** @param {Touch} touch */
-  down(touch) {
-    super.down(touch);
+  begin() {
     this.ends = [];
   }
 
   /** @param {Touch} touch */
   move(touch) {
-    super.move(touch);
     if (this.start) this.ends = [onGrid(this.start.at, touch.grid), onGrid(touch.at, touch.grid)];
   }
 
@@ -40,7 +37,6 @@ export class Ruler extends Gesture {
 
   cancel() {
     if (this.start) this.ends = [];
-    super.cancel();
   }
 
   /** @param {SceneView} view */
@@ -83,17 +79,18 @@ export class Protractor extends Gesture {
   }
 
   /** @param {Touch} touch */
-  down(touch) {
-    super.down(touch);
+  begin(touch) {
     if (!this.open) this.points = [onGrid(touch.at, touch.grid)];
   }
 
   /** @param {Touch} touch */
   move(touch) {
-    super.move(touch);
-    const at = onGrid(touch.at, touch.grid);
-    if (this.open) this.points[2] = at;
-    else if (this.start) this.points[1] = at;
+    this.points[this.open ? 2 : 1] = onGrid(touch.at, touch.grid);
+  }
+
+  /** @param {Touch} touch */
+  point(touch) {
+    if (this.open) this.move(touch);
   }
 
   /** @param {Touch} touch */
@@ -106,7 +103,6 @@ export class Protractor extends Gesture {
   cancel() {
     if (this.open || this.start) this.points = [];
     this.open = false;
-    super.cancel();
   }
 
   /** @param {SceneView} view */

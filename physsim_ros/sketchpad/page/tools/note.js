@@ -2,6 +2,7 @@
 /** Notes on the world: anchored sensors that are boxes as large as their label. */
 
 import {elementOf, textOf, textField} from '../dom.js';
+import {Gesture} from './gesture.js';
 import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
 
@@ -10,15 +11,11 @@ import {t} from '../strings.js';
 const LETTERS = 16, HALF = 140; // px: size of letters where a note is written, half the width of its field
 const LOOK = {anchored: true, sensor: true, color: '#ffe680'};
 
-export class Note {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    this.clicks = 1;
-  }
+export class Note extends Gesture {
+  clicks = 1;
 
   /** @param {Touch} touch */
-  up({at, page: [x, y]}) {
+  end({at, page: [x, y]}) {
     const {app} = this, em = LETTERS / app.camera.scale;
     const field = textField({'aria-label': t('Note'), onblur: () => field.remove(), onchange: () => {
       const label = textOf(field).trim();

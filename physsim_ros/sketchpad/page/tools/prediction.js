@@ -29,11 +29,10 @@ export class Prediction extends Gesture {
   }
 
   /** @param {Touch} touch */
-  down(touch) {
+  begin(touch) {
     const {world, notes} = this.app, row = world.bodyAt(touch.at, touch.slop);
     this.name = row < 0 ? '' : world.scene.bodies[row].name;
     if (!this.name) notes.showMessage(t('Begin at the body whose way you draw'), {ok: false});
-    super.down(touch);
   }
 
   end() {

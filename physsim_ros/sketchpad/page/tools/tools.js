@@ -13,7 +13,7 @@ import {WaterTool} from './water.js';
 
 /** @import {App, ClickUse, Tool} from '../types.js' */
 
-/** @typedef {{id: string, name: string, key: string, hint: string, make: (app: App) => Tool}} Entry id: of its icon, too */
+/** @typedef {{id: string, name: string, key: string, keyName: string, hint: string, make: (app: App) => Tool}} Entry id: of its icon, too; keyName: as help tells it */
 
 /**
  * @param {string} id
@@ -24,7 +24,7 @@ import {WaterTool} from './water.js';
  * @returns {Entry}
  */
 function tool(id, name, key, hint, use) {
-  return {id, name, key, hint, make: (app) => typeof use === 'function' ? new use(app) : new ClickTool(app, id, use)};
+  return {id, name, key: key.replace('Shift+', ''), keyName: key.length > 1 ? key : key.toUpperCase(), hint, make: (app) => typeof use === 'function' ? new use(app) : new ClickTool(app, id, use)};
 }
 
 /** In the groups of the toolbar. */
@@ -39,7 +39,7 @@ export const TOOLS = [[
   tool('polygon', t('Polygon'), 'g', t('click each corner; click the first one again to close it'), {clicks: Infinity}),
   tool('wall', t('Wall'), 'w', t('a fixed line'), {clicks: 2, angled: true}),
   tool('incline', t('Inclined plane'), '3', t('drag along the slope, or tap; its panel has its angle and length'), InclineTool),
-  tool('water', t('Water'), '6', t('drag from corner to corner: bodies float in it'), WaterTool),
+  tool('water', t('Water'), 'Shift+W', t('drag from corner to corner: bodies float in it'), WaterTool),
 ], [
   tool('anchor', t('Anchor'), 'a', t('fix a body to the background'), {clicks: 1, aims: 'accent'}),
   tool('release', t('Release'), 'e', t('remove anchor, pins and axles of a body'), {clicks: 1, aims: 'accent'}),
@@ -48,7 +48,7 @@ export const TOOLS = [[
   tool('spring', t('Spring'), 'z', t('from body to body, or to the background'), {clicks: 2, joins: true}),
   tool('rod', t('Rod'), 'o', t('keeps two points at a distance'), {clicks: 2, joins: true}),
   tool('rope', t('Rope'), 'y', t('pulls, but does not push'), {clicks: 2, joins: true}),
-  tool('pulley', t('Pulley'), '7', t('a rope: click its end, each wheel or ring that it passes, and its other end twice'), {clicks: Infinity, joins: true}),
+  tool('pulley', t('Pulley'), 'Shift+Y', t('a rope: click its end, each wheel or ring that it passes, and its other end twice'), {clicks: Infinity, joins: true}),
   tool('chain', t('Chain'), '8', t('links from end to end; for a slack one, draw it with the pen as a rope'), {clicks: 2, joins: true}),
 ], [
   tool('velocity', t('Velocity'), 'v', t('drag an arrow from a body: 1 m is 1 m/s'), {clicks: 2, angled: true, arrow: true, aims: 'accent'}),

@@ -42,7 +42,7 @@ const MOVING = [
 /** @param {App} app */
 export function showHelp(app) {
   const key = (/** @type {string} */ name) => createElement('kbd', {}, name);
-  const keys = [...TOOLS.flat().map(({name, key: letter}) => [key(letter.toUpperCase()), name]),
+  const keys = [...TOOLS.flat().map(({name, keyName}) => [key(keyName), name]),
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
   const tools = TOOLS.flat().map(({id, name, hint}) => [icon(id), `${name}: ${hint}`]);
   const strokes = [createElement('h3', {}, t('What the pen understands')), strokeCard()];

@@ -49,6 +49,7 @@ export class Hints {
       if (this.shown !== 'tool' && this.#step()?.[0] !== this.shown) this.#showStep();
     });
     connection.on('scene', () => this.shown === 'tool' || this.#showStep());
+    app.gestures.on('end', ({tool}) => tool === app.gestures.tool && this.#noteUse());
     this.#showStep();
   }
 
@@ -89,7 +90,7 @@ export class Hints {
   }
 
   /** Note that the tool in hand was used. */
-  noteUse() {
+  #noteUse() {
     if (!this.tool) return;
     this.used[this.tool] = (this.used[this.tool] ?? 0) + 1;
     this.tool = '';

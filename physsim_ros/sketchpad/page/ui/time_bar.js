@@ -64,6 +64,7 @@ export class TimeBar {
       this.asked = 0;
     });
     app.view.overlays.push(() => this.#showTime());
+    app.gestures.on('begin', () => this.#endRewind());
   }
 
   /** @param {string} service */
@@ -89,7 +90,7 @@ export class TimeBar {
   }
 
   /** Pause a world that runs back: it would go back beyond a change at once. */
-  endRewind() {
+  #endRewind() {
     if (this.app.world.frame.speed < 0) this.callService('pause');
   }
 

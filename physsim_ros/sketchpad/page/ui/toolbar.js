@@ -23,8 +23,8 @@ export class Toolbar {
     this.few = false; // those alone are shown
     for (const group of TOOLS) {
       const box = createElement('div', {role: 'group'});
-      for (const {id, name, key, hint, make} of group) {
-        const button = iconButton(name, id, () => this.selectTool(id), `${name} (${key.toUpperCase()}): ${hint}`);
+      for (const {id, name, keyName, hint, make} of group) {
+        const button = iconButton(name, id, () => this.selectTool(id), `${name} (${keyName}): ${hint}`);
         this.tools.set(id, {tool: make(app), button, hint: `${name}: ${hint}.`});
         box.append(button);
       }
@@ -73,8 +73,7 @@ export class Toolbar {
   #select(id) {
     const selected = this.tools.get(id);
     if (!selected) return;
-    this.app.tool?.cancel?.();
-    this.app.tool = selected.tool;
+    this.app.gestures.take(selected.tool);
     this.app.view.canvas.dataset.tool = id;
     for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
   }

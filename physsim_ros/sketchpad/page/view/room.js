@@ -33,7 +33,7 @@ export class Room {
     this.extent = [0, 0, 0, 0];
     this.late = false; // whether the world is framed when the gesture ends
     app.view.overlays.push(() => {
-      if (this.late && !this.#isInGesture) this.fit();
+      if (this.late && !this.app.gestures.isBusy) this.fit();
     });
     new ResizeObserver(() => this.fit()).observe(app.view.canvas);
     new ResizeObserver(() => this.#follow()).observe(this.element);
@@ -46,11 +46,6 @@ export class Room {
   get #worldNow() {
     const {bounds, lesson} = this.app.world.scene;
     return `${bounds} ${lesson?.view ?? ''}`;
-  }
-
-  get #isInGesture() {
-    const {pointers, tool} = this.app;
-    return pointers?.down.size > 0 || tool.open === true;
   }
 
   /** @returns {{left: number, top: number, right: number, bottom: number}} what is covered at each edge [px] */
@@ -106,7 +101,7 @@ export class Room {
     document.body.classList.toggle('wide', xmax - xmin > FLAT * (ymax - ymin));
     view.insets = this.#insets;
     view.dirty = true;
-    this.late = camera.fitted && this.#isInGesture;
+    this.late = camera.fitted && this.app.gestures.isBusy;
     if (!camera.fitted || this.late) return;
     const {left, top, right, bottom} = view.insets, gap = isRoomy() ? GAP : SMALL_GAP;
     camera.fit(this.extent, {left: left + gap + (isRoomy() ? LABELS : 0), top: top + gap, right: right + gap, bottom: bottom + gap});
