@@ -9,13 +9,14 @@ import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
 import {inclineFields} from '../tools/incline.js';
 import {sendNote} from '../tools/note.js';
-import {isDrawn} from '../words.js';
+import {capital, isDrawn, thingWord} from '../words.js';
 import {materialFields} from './world_panel.js';
 
 /** @import {App, Body} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 const BESIDE = 0.5; // m: where a copy is put
+const MOST_JOINTS = 12; // that are listed
 
 /**
  * @param {App} app
@@ -49,6 +50,7 @@ export function bodyContent(app, [name]) {
       createElement('label', {}, t('Rolling resistance'), numberField(body.rolling_resistance ?? 0,
         (share) => change({rolling_resistance: share ?? 0}))),
       ...body.robot ? [] : oneWayFields(body, change),
+      jointRow(app, name),
       ...forceFields(app, body, change),
       ...body.robot ? [] : mediumFields(app, body, change),
       inRow(
@@ -78,6 +80,19 @@ function oneWayFields({one_way: way, closed_sides: closed}, change) {
   const field = choice(label, ways, now, (chosen) => change({one_way: chosen.split(',').map(Number)}));
   return [createElement('label', {}, label, field),
     ...way ? [checkField(t('Its sides are closed'), Boolean(closed), (closed_sides) => change({closed_sides}))] : []];
+}
+
+/**
+ * @param {App} app
+ * @param {string} name of a body
+ * @returns {HTMLElement} its joints, each a button to the panel of that: a gear is nowhere to be tapped
+ */
+function jointRow({world, selection, panel}, name) {
+  const row = world.row(name), joints = world.scene.joints.filter(({a, b}) => a === row || b === row).slice(0, MOST_JOINTS);
+  return inRow(...joints.map((joint) => textButton(capital(thingWord(joint.kind)), () => {
+    selection.select([]);
+    panel.show('joint', [joint.name]);
+  })));
 }
 
 /**
