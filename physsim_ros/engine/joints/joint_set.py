@@ -178,8 +178,9 @@ class JointSet:
                 self._table.command(command, begun)
         self._table.place_ends(places)
         table = self._table
-        self._core.use_joints(table.joints, table.parts, table.rows, table.guides)
+        # The core marks the bodies that motors hold as it takes over the joints.
         self._core.use(motors=table.motors)
+        self._core.use_joints(table.joints, table.parts, table.rows, table.guides)
 
     def command(self, command: MotorCommand, begun: int) -> None:
         """
