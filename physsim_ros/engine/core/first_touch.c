@@ -20,9 +20,10 @@
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc first meets the
 //    other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over.
+//    That of a disc gets it in each step, since Chipmunk has it point to the corner until the disc has passed it.
 // 4. What `cpArbiterPreStep` had made of the old contacts is made anew.
 //
-// Cost: 0.3 µs a contact that begins.
+// Cost: 0.3 µs a contact that begins, 50 ns one of a disc.
 //
 // Without part 1 law 3 (head-on impacts of squares) fails; without part 2 laws 6 (discs part along the normal of their
 // impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over seams
@@ -58,6 +59,15 @@ static bool is_false(cpArbiter *arbiter) {
     return false;
 }
 
+// Turn the contact of a disc, which has begun before.
+static void roll_over_edge(cpArbiter *arbiter) {
+    Touch touch = touch_of(arbiter);
+    if (slide_over_edge(&touch)) {
+        write_touch(&touch);
+        prepare_contact(arbiter);
+    }
+}
+
 // Have Chipmunk ignore a contact in this step; in the next one it begins.
 static void ignore(cpArbiter *arbiter) {
     arbiter->data = arbiter;
@@ -87,6 +97,8 @@ void correct_first_touches(World *world) {
             arbiter->data = NULL;
             arbiter->state = ARBITER_FIRST_COLLISION;
             touches[count++] = touch_of(arbiter);
+        } else if (has_stage(world, STAGE_EDGES) && kind_of(arbiter->a) == SHAPE_CIRCLE) {
+            roll_over_edge(arbiter);
         }
     }
     for (int number = 0; number < count; number++) {

@@ -68,20 +68,20 @@ static void find_slide(const Touch *touch, int side, Vec velocity, Slide *best) 
     }
 }
 
-void slide_over_edge(Touch *touch) {
+bool slide_over_edge(Touch *touch) {
     if (!is_at_corner(touch, 0) || !is_at_corner(touch, 1)) {
-        return;
+        return false;
     }
     Vec velocity = relative_velocity(touch);
     double approach = -dot(velocity, touch->normal);
     if (approach <= 0.0) {
-        return;
+        return false;
     }
     Slide slide = {.side = -1, .approach = least(approach, gliding * length(velocity))};
     find_slide(touch, 0, velocity, &slide);
     find_slide(touch, 1, velocity, &slide);
     if (slide.side < 0) {
-        return;
+        return false;
     }
     const cpShape *other = touch->shapes[1 - slide.side];
     Vec along = slide.side == 0 ? slide.outwards : negated(slide.outwards), half = scaled(along, slide.depth / 2.0);
@@ -95,4 +95,5 @@ void slide_over_edge(Touch *touch) {
         touch->places[point][0] = add(middle, half);
         touch->places[point][1] = sub(middle, half);
     }
+    return true;
 }

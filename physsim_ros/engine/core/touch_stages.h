@@ -11,7 +11,7 @@
 // Replace normal and places of the contact of a disc by those of its impact.
 void move_to_impact(const World *world, Touch *touch);
 
-// Replace a contact at a seam by one with the face that the shapes approach slowest.
-void slide_over_edge(Touch *touch);
+// Replace a contact at a seam by one with the face that the shapes approach slowest; return whether it is at one.
+bool slide_over_edge(Touch *touch);
 
 #endif
