@@ -372,6 +372,29 @@ def test_gusts_have_their_mean_square_and_come_back_by_seed(report):
     assert not np.array_equal(one, speeds(2))
 
 
+@pytest.mark.parametrize('angle', [0.0, 0.3, 0.8, math.pi / 2])
+def test_wind_presses_a_plate_along_itself_by_the_width_across_it(report, angle):
+    sim = simulation(gravity=(0.0, 0.0), air_density=1.2, air_drag=1.1, wind=(8.0, 0.0))
+    plate = Box(width=2.0, height=0.02)
+    spawn(sim, 'plate/0', plate, (0.0, 0.0, angle), mass=50.0)
+    sim.world.step(1)
+    push = sim.world.snapshot().twists[0] / DT * 50.0
+    exact = 0.5 * 1.1 * 1.2 * 8.0**2 * width_across(plate, math.pi / 2 - angle)
+    report.check(71, 'push of wind on a plate', push[0] / exact, 1.0, 1e-3, '-')
+    report.check(71, 'lift of wind on a plate', push[1] / exact, 0.0, 1e-9, '-')
+
+
+def test_a_gust_is_the_same_to_the_bit_when_it_is_played_again():
+    sim = simulation(gravity=(0.0, 0.0), air_density=1.2, wind=(5.0, 0.0), gusts=3.0, seed=4)
+    spawn(sim, 'ball/0', Disc(radius=0.2), mass=0.1)
+    blown = [run(sim, 0.5).twists[0] for _ in range(10)]
+    sim.seek(0)
+    sim.apply_requests()
+    again = [run(sim, 0.5).twists[0] for _ in range(10)]
+    assert np.array_equal(blown, again)
+    assert len({twist[1] for twist in blown}) == 10
+
+
 @pytest.mark.parametrize('viscosity', [0.0, 1e-3, 1.0, 1e6])
 @pytest.mark.parametrize('density', [0.0, 1e-3, 1.0, 1e6])
 def test_a_medium_at_rest_never_gives_energy(report, viscosity, density):

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import math
+
 from physsim_ros.testing import box, disc, PhysSim
 import pytest
 from rclpy.parameter import Parameter
@@ -47,3 +49,18 @@ def test_charges_attract_each_other_by_a_parameter(physsim: PhysSim) -> None:
 
     # 4 / 10² N on 1 kg.
     assert physsim.pose('ion/0').x + 5.0 == pytest.approx(0.02, rel=0.01)
+
+
+def test_a_planet_is_back_after_the_period_of_kepler(physsim: PhysSim) -> None:
+    set_parameters(physsim, gravity=[0.0, 0.0], gravitation=0.04)
+    physsim.spawn(disc('sun/0', diameter=0.1, at=(0.0, 0.0), mass=100.0, anchored=True))
+    # The perihelion of an ellipse of eccentricity 0.3 and semi-major axis 1.
+    speed = math.sqrt(4.0 * 1.3 / 0.7)
+    planet = disc('planet/0', diameter=0.04, at=(0.7, 0.0), mass=1e-3, velocity=[0.0, speed])
+    physsim.spawn(planet)
+
+    physsim.run(math.tau / math.sqrt(4.0))
+
+    pose = physsim.pose('planet/0')
+    # A frame is 1/60 s, in which it goes 4.5 cm.
+    assert (pose.x, pose.y) == pytest.approx((0.7, 0.0), abs=0.03)

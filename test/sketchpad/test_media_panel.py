@@ -53,7 +53,7 @@ def test_a_body_becomes_water_and_a_block_floats_in_it(sheet: Sheet) -> None:
     assert sheet.pose('block/0') == pytest.approx([0.0, 4.2, 0.0], abs=1e-3)
 
 
-def test_a_pool_without_water_is_left_by_what_floated(sheet: Sheet) -> None:
+def test_a_pool_without_water_is_the_body_that_it_was(sheet: Sheet) -> None:
     sheet.page.mouse.click(*sheet.place(2.0, 1.0))
     water = sheet.page.get_by_label('Water: bodies float in it')
     water.check()
@@ -61,9 +61,9 @@ def test_a_pool_without_water_is_left_by_what_floated(sheet: Sheet) -> None:
     density.wait_for()
     water.uncheck()
     density.wait_for(state='hidden')
-    # It is a gate still: the block falls through it.
+    # The block lies on it.
     sheet.play_until(2.0)
-    assert sheet.pose('block/0')[1] == pytest.approx(0.4, abs=1e-3)
+    assert sheet.pose('block/0')[1] == pytest.approx(4.4, abs=1e-3)
 
 
 def test_the_air_of_the_world_has_the_wind_that_is_typed(sheet: Sheet) -> None:

@@ -224,9 +224,18 @@ export class WorldState {
     return unionOf(this.#keptInSight);
   }
 
+  /** @returns {?Bounds} a square about the heaviest body that attracts the others, as they go around it; null where none does */
+  #orbits() {
+    const {scene: {bodies, gravitation}, frame: {x, y}} = this;
+    if (!gravitation || !this.count) return null;
+    const sun = bodies.reduce((heaviest, {mass}, row) => mass > bodies[heaviest].mass ? row : heaviest, 0);
+    const reach = 1.1 * Math.max(...bodies.map((_, row) => Math.hypot(x[row] - x[sun], y[row] - y[sun])));
+    return [x[sun] - reach, y[sun] - reach, x[sun] + reach, y[sun] + reach];
+  }
+
   /** @returns {Bounds} of what a lesson shows first; of the world, or of its bodies */
   extent() {
-    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.bodiesExtent());
+    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.#orbits() ?? this.bodiesExtent());
     return box.every(Number.isFinite) ? box : [-6, -1, 6, 6];
   }
 }

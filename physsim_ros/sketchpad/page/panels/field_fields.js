@@ -27,7 +27,7 @@ export function mediumFields({world}, {name, medium, charge = 0}, change) {
   };
   const flow = () => world.scene.bodies[world.row(name)]?.medium?.flow ?? medium.flow;
   return [
-    checkField(t('Water: bodies float in it'), true, () => change({medium: null})),
+    checkField(t('Water: bodies float in it'), true, () => change({medium: null, sensor: false})),
     createElement('fieldset', {className: 'force'}, createElement('legend', {}, t('Water or air')),
       range(t('Density of the medium [kg/m²]'), 0, 20, 0.1, medium.density, (density) => set({density})),
       range(t('Viscosity [N s/m²]'), 0, 10, 0.1, medium.viscosity, (viscosity) => set({viscosity})),
