@@ -29,8 +29,7 @@ class BodyPool:
     def __init__(self, retired: Space | None = None) -> None:
         self.bodies: dict[str, RigidBody] = {}
         self._retired = retired
-        if retired is not None:
-            _clear_contacts(retired)
+        self._has_contacts = retired is not None
         # The scene of the next rebuild, and the row of the next body to make.
         self._scene: Scene | None = None
         self._row = 0
@@ -41,6 +40,11 @@ class BodyPool:
 
     def build_bodies(self, scene: Scene, count: int) -> None:
         """Make up to a number of further bodies of a scene."""
+        if self._has_contacts and self._retired is not None:
+            # Not in the frame of the checkpoint, which takes long.
+            _clear_contacts(self._retired)
+            self._has_contacts = False
+            return
         while count and self._retired is not None and self._retired.bodies.by_name:
             rigid = _extract_body(self._retired)
             self.bodies[rigid.body.name] = rigid

@@ -15,11 +15,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 import math
+from typing import Any
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.body import BODY_STATE, engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
+from physsim_ros.engine.scene_columns import columns_of
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import (
@@ -138,14 +140,10 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
     :param dt: of a sub-step [s]
     """
     motions = [saved.motion or engine_motion(saved, state.settings, dt) for saved in state.bodies]
-    bodies = (saved.body for saved in state.bodies)
     return Checkpoint(
-        step=step,
+        **_timed(state, step),
         scene=Scene(
-            bodies=tuple(
-                body if body.expires is None else replace(body, expires=body.expires + step)
-                for body in bodies
-            ),
+            bodies=_bodies_at(state, step),
             settings=state.settings,
             joints=state.joints,
             lesson=state.lesson,
@@ -155,16 +153,56 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
         field_leads=np.array(
             [saved.field_lead or (math.nan,) * 3 for saved in state.bodies], np.float64
         ).reshape(-1, 3),
-        wrenches=tuple(
+        memory=state.memory or _no_impulses(state),
+        unstepped=frozenset(joint.name for joint in state.joints),
+    )
+
+
+def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int) -> Checkpoint:
+    """
+    Have a space that was built for a step, and has made none, begin at another one.
+
+    :param checkpoint: from which it was built
+    :param state: of which that is the checkpoint
+    :param step: steps that the world has made
+    :return: the checkpoint of the state at that step
+    """
+    scene, rigids = checkpoint.scene, tuple(space.bodies.by_name.values())
+    if columns_of(scene, space.dt).expiries:
+        scene = replace(scene, bodies=_bodies_at(state, step))
+        for rigid, body in zip(rigids, scene.bodies, strict=True):
+            rigid.body = body
+        space.lay_out(scene)
+    checkpoint = replace(checkpoint, scene=scene, **_timed(state, step))
+    for row, wrench, until in checkpoint.wrenches:
+        space.put_wrench(rigids[row], wrench, until)
+    space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
+    for command, begun in checkpoint.commands:
+        space.joints.command(command, begun)
+    return checkpoint
+
+
+def _bodies_at(state: WorldState, step: int) -> tuple[Body, ...]:
+    """Return the bodies of a state in a world that has made a number of steps."""
+    bodies = (saved.body for saved in state.bodies)
+    return tuple(
+        body if body.expires is None else replace(body, expires=body.expires + step)
+        for body in bodies
+    )
+
+
+def _timed(state: WorldState, step: int) -> dict[str, Any]:
+    """Return what the checkpoint of a state has of steps, but for its bodies, by field."""
+    return {
+        'step': step,
+        'wrenches': tuple(
             (row, saved.wrench, None if steps is None else step + steps)
             for row, saved in enumerate(state.bodies)
             for steps in (saved.wrench_steps,)
             if saved.wrench != NO_WRENCH
         ),
-        memory=state.memory or _no_impulses(state),
-        unstepped=frozenset(joint.name for joint in state.joints),
-        commands=_shifted(state.commands, step),
-        robots=np.array(
+        'commands': _shifted(state.commands, step),
+        'robots': np.array(
             [
                 (saved.driven or SPAWNED).shifted(step)
                 for saved in state.bodies
@@ -172,7 +210,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
             ],
             ROBOT_STATE,
         ),
-        actors=np.array(
+        'actors': np.array(
             [
                 (saved.acting or WAITING).shifted(step)
                 for saved in state.bodies
@@ -180,7 +218,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
             ],
             ACTOR_STATE,
         ),
-    )
+    }
 
 
 def _shifted(commands: Commands, steps: int) -> Commands:

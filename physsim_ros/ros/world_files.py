@@ -25,7 +25,7 @@ from physsim_ros.model.texts import counted
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.simulation.parts import at_once
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import beginning_of
+from physsim_ros.simulation.world import Beginning, beginning_of
 
 
 class WorldFiles:
@@ -62,8 +62,8 @@ class WorldFiles:
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
         :raises Refusal: there is no such file, or it is refused
         """
-        state, path = await self._read(confined=confined)
-        return f'{self._simulation.load(state)} from {path.name}'
+        beginning, path = await self._build(confined=confined)
+        return f'{self._simulation.load(beginning)} from {path.name}'
 
     async def open_world(self) -> str:
         """
@@ -73,10 +73,8 @@ class WorldFiles:
 
         :raises Refusal: there is no such file, or it is refused
         """
-        state, path = await self._read(confined=True)
-        begin = partial(beginning_of, state, self._simulation.physics_rate)
-        beginning = await on_thread(begin)
-        return f'{self._simulation.open_world(state, beginning)} from {path.name}'
+        beginning, path = await self._build(confined=True)
+        return f'{self._simulation.open_world(beginning)} from {path.name}'
 
     def save(self) -> str:
         """
@@ -95,6 +93,11 @@ class WorldFiles:
         if hides_shipped(path, world_dir=self.directory):
             message += '; from now on it comes before the shipped world of that name'
         return message
+
+    async def _build(self, *, confined: bool) -> tuple[Beginning, Path]:
+        state, path = await self._read(confined=confined)
+        begin = partial(beginning_of, state, self._simulation.physics_rate)
+        return await on_thread(begin), path
 
     async def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
         name, simulation = self._values['world_file'], self._simulation

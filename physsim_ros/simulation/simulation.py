@@ -194,10 +194,22 @@ class Simulation(FrameMaker):
         self.stop_driving()
         self.requests.note_jump()
 
-    def load(self, state: WorldState) -> str:
-        """Replace the world by a state, to which `reset` returns; time goes on."""
+    def load(self, world: WorldState | Beginning) -> str:
+        """
+        Replace the world by a state, to which `reset` returns; time goes on. Return a message.
+
+        :param world: the state, or its beginning, as any thread makes it
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        """
         self.stop_driving()
-        return self.perform(Restore(state=state))
+        return self.perform(Restore(state=self._put_ahead(world)))
+
+    def _put_ahead(self, world: WorldState | Beginning) -> WorldState:
+        """Return a state, with which the world begins as it was built, where it was."""
+        if isinstance(world, WorldState):
+            return world
+        self.at_shown_moment().cursor.world.put_ahead(world)
+        return world.state
 
     def save(self) -> WorldState:
         """
@@ -282,15 +294,16 @@ class Simulation(FrameMaker):
             done = past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
-    def open_world(self, state: WorldState, beginning: Beginning | None = None) -> str:
+    def open_world(self, world: WorldState | Beginning) -> str:
         """
         Begin with another state, at time 0; `undo` reverts it. Return a message.
 
-        :param beginning: that of the state, as any thread makes it; None is to be made
+        :param world: the state, or its beginning, as any thread makes it
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
-        with self._jump():
-            self.past.open_world(state, beginning)
+        with self._jump() as past:
+            state = self._put_ahead(world)
+            past.open_world(state)
             self.requests.hands.clear()
             self.stop_driving()
         return loaded(state)

@@ -127,5 +127,4 @@ async def opened(simulation: Simulation, content: Mapping[str, Any]) -> str:
     """
     settings, rate = simulation.settings, simulation.physics_rate
     state = await on_thread(partial(state_from, content, settings, rate))
-    beginning = await on_thread(partial(beginning_of, state, rate))
-    return simulation.open_world(state, beginning)
+    return simulation.open_world(await on_thread(partial(beginning_of, state, rate)))

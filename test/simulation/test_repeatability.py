@@ -39,7 +39,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import beginning_of, World
 import pytest
 
 from ..building import (
@@ -302,6 +302,31 @@ def test_a_restored_world_goes_on_alike_with_the_requests_that_follow():
         each.step(120)
 
     assert worlds[0].digest() == worlds[1].digest()
+
+
+def test_lifetimes_and_wrenches_of_a_world_that_was_built_ahead_count_from_its_restoring():
+    world = busy_world()
+    world.apply(Command(names=('mix/1',), wrenches=((1.0, 0.0, 0.0),)))
+    state = world.save()
+    now, ahead = World(), World()
+    ahead.put_ahead(beginning_of(state, ahead.physics_rate))
+    for each in (now, ahead):
+        each.step(50)
+        each.apply(Restore(state=state))
+
+    assert repr(now.renew()) == repr(ahead.renew())
+    now.step(120)
+    ahead.step(120)
+    assert now.digest() == ahead.digest()
+
+
+def test_a_world_that_was_built_ahead_of_another_one_is_not_begun_with():
+    world = World()
+    world.put_ahead(beginning_of(busy_world().save(), world.physics_rate))
+
+    world.apply(Restore(state=World().save()))
+
+    assert len(world) == 0
 
 
 def test_restoring_replaces_everything_but_the_time():

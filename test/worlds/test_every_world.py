@@ -9,7 +9,7 @@ from pathlib import Path
 from physsim_ros.files import load_world, save_world, shipped_worlds
 from physsim_ros.model.requests import Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import beginning_of, World
 import pytest
 
 from .film import RATE, simulation, state_of
@@ -46,6 +46,23 @@ def test_it_is_saved_and_loaded_to_the_bit(name, tmp_path):
     one.step(30)
     other.step(30)
     assert one.digest() == other.digest()
+
+
+@pytest.mark.parametrize('name', WORLDS)
+def test_it_begins_alike_at_any_step_whether_it_was_built_ahead_or_is_built_then(name):
+    saved = simulation(name)
+    saved.run(0.1)
+    state = saved.save()
+    now, ahead = World(physics_rate=RATE), World(physics_rate=RATE)
+    ahead.put_ahead(beginning_of(state, RATE))
+    for world in (now, ahead):
+        world.step(7)
+        world.apply(Restore(state=state))
+
+    assert repr(now.renew()) == repr(ahead.renew())
+    now.step(30)
+    ahead.step(30)
+    assert now.digest() == ahead.digest()
 
 
 @pytest.mark.parametrize('name', WORLDS)

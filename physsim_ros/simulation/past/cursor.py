@@ -27,7 +27,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.line import Keyframe, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
-from physsim_ros.simulation.world import Beginning, World
+from physsim_ros.simulation.world import World
 
 # Share of the time between two checkpoints in which the bodies for the next one are built [1], so
 # that no frame builds all.
@@ -267,15 +267,14 @@ class Cursor(Replay):
 
     # To another moment
 
-    def begin(self, state: WorldState, beginning: Beginning | None = None) -> None:
+    def begin(self, state: WorldState) -> None:
         """
         Begin a line with a state, at time 0.
 
-        :param beginning: that of the state; None is to be made
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         self.finish_amendment()
-        self._world.begin(state, 0, beginning)
+        self._world.begin(state, 0)
         self._begin_line(state, self._world.renew())
 
     def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:

@@ -27,7 +27,7 @@ from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.line import CachedFrame, Line, Moment
 from physsim_ros.simulation.past.tree import Budget, Tree
-from physsim_ros.simulation.world import Beginning, World
+from physsim_ros.simulation.world import World
 
 # Check of the times of a past [s].
 _SPAN = Within(0.0, LONGEST, 's')
@@ -276,18 +276,15 @@ class Past:
         self._begin_anew(state, 'reset')
         return True
 
-    def open_world(self, state: WorldState, beginning: Beginning | None = None) -> None:
+    def open_world(self, state: WorldState) -> None:
         """
         Begin with another state, at time 0; undo reverts it.
 
-        :param beginning: that of the state; None is to be made
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
-        self._begin_anew(state, 'open world', beginning)
+        self._begin_anew(state, 'open world')
 
-    def _begin_anew(
-        self, state: WorldState, words: str, beginning: Beginning | None = None
-    ) -> None:
+    def _begin_anew(self, state: WorldState, words: str) -> None:
         """
         Put a line in force that begins with a state, at time 0.
 
@@ -298,7 +295,7 @@ class Past:
         before = tree.line(self.cursor.moment)
         before.words = words
         try:
-            self.cursor.begin(state, beginning)
+            self.cursor.begin(state)
         except Refusal:
             tree.drop(before)
             raise

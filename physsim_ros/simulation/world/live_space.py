@@ -18,7 +18,12 @@ from typing import NamedTuple
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.body_pool import BodyPool
-from physsim_ros.engine.checkpoint import checkpoint_of, restore_checkpoint, take_checkpoint
+from physsim_ros.engine.checkpoint import (
+    begin_at,
+    checkpoint_of,
+    restore_checkpoint,
+    take_checkpoint,
+)
 from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -52,6 +57,7 @@ class LiveSpace:
         self.dt = 1.0 / physics_rate
         self._sub_step = sub_step_of(physics_rate)
         self.step_count = 0
+        self._ahead: Beginning | None = None
         self._replace(Space(settings, self._sub_step), BodyPool())
 
     @property
@@ -92,16 +98,21 @@ class LiveSpace:
         self._replace(space, BodyPool())
         self.step_count = checkpoint.step
 
-    def begin(self, state: WorldState, step: int, beginning: Beginning | None = None) -> None:
+    def put_ahead(self, beginning: Beginning) -> None:
+        """Have the next `begin` take a beginning, if it is that of the same state."""
+        self._ahead = beginning
+
+    def begin(self, state: WorldState, step: int) -> None:
         """
         Replace the space by one that begins with a saved state.
 
         :param step: number of steps that the world has made then
-        :param beginning: that of the state at that step, of which nothing has begun yet; None is
-            to be made
         :raises WorldFull: the state is too large; nothing is changed
         """
-        if beginning is None:
+        beginning, self._ahead = self._ahead, None
+        if beginning is not None and beginning.state is state:
+            beginning = beginning.at(step)
+        else:
             if self.capacity.checking:
                 check_state(state)
             beginning = _beginning_of(state, step, self._sub_step)
@@ -126,12 +137,20 @@ class Beginning(NamedTuple):
     """
     The checkpoint of a loaded state, and the space that was built from it.
 
+    :ivar state: that was loaded
     :ivar changes: count of changes of that space when it was built
     """
 
+    state: WorldState
     checkpoint: Checkpoint
     space: Space
     changes: int
+
+    def at(self, step: int) -> Beginning:
+        """Have the space, which has made no step, begin at one; return that beginning."""
+        if step == self.checkpoint.step:
+            return self
+        return self._replace(checkpoint=begin_at(self.space, self.checkpoint, self.state, step))
 
     def is_unchanged(self, space: Space, step: int) -> bool:
         """Return whether a space at a step is this one, unchanged."""
@@ -153,7 +172,7 @@ def beginning_of(state: WorldState, physics_rate: float) -> Beginning:
 def _beginning_of(state: WorldState, step: int, sub_step: float) -> Beginning:
     checkpoint = checkpoint_of(state, step, sub_step)
     space = restore_checkpoint(checkpoint, sub_step)
-    return Beginning(checkpoint, space, space.changes)
+    return Beginning(state, checkpoint, space, space.changes)
 
 
 def steps_in(seconds: float, physics_rate: float) -> int:
