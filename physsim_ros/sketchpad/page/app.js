@@ -33,7 +33,6 @@ import {Lasso} from './tools/freehand.js';
 import {Classroom} from './ui/classroom.js';
 import {Dialog} from './ui/dialog.js';
 import {Files} from './ui/files.js';
-import {Gallery} from './ui/gallery.js';
 import {Hints, Tips} from './ui/hints.js';
 import {Lessons} from './ui/lessons.js';
 import {Links} from './ui/links.js';
@@ -76,7 +75,6 @@ const time = new TimeBar({connection, gestures, notes, people, view, words, worl
 const files = new Files({connection, dialog, notes, people, room, words});
 const lessons = new Lessons({connection, files, people, room, selection, time, words, world});
 const links = new Links({connection, dialog, files, lessons, notes, people, world});
-const gallery = new Gallery({connection, dialog, files, lessons, links, notes, view});
 const plotting = new Plotting({connection, lessons, notes, records, room, selection, view, words, world});
 const plots = new Plots({connection, plotting, records, selection, view, world});
 const driving = new Driving({connection, people, selection, world});
@@ -93,7 +91,7 @@ gestures.ends = {eraser: new Eraser(toolParts), button: new Lasso(toolParts)};
 const menu = new Menu({camera, gestures, people, plotting, room, selection, view, world});
 new Keyboard({camera, cursor, dialog, driving, gestures, menu, panel, people, plotting, readings, room, selection, settings, stopwatch,
   time, toolbar, view, world});
-new TopBar({arrows, camera, connection, gallery, room, selection, settings, view});
+new TopBar({arrows, camera, connection, dialog, files, lessons, links, notes, room, selection, settings, view});
 new Classroom({camera, connection, dialog, lessons, notes, people, selection, view});
 new Narrator({connection, selection, settings, words, world});
 new Tips();

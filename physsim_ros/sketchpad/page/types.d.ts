@@ -30,7 +30,6 @@ import type {Panel} from './panels/panel.js';
 import type {People} from './people.js';
 import type {Dialog} from './ui/dialog.js';
 import type {Files} from './ui/files.js';
-import type {Gallery} from './ui/gallery.js';
 import type {Hints} from './ui/hints.js';
 import type {Lessons} from './ui/lessons.js';
 import type {Links} from './ui/links.js';
@@ -57,7 +56,6 @@ interface Page {
   driving: Driving;
   files: Files;
   frames: FrameParts;
-  gallery: Gallery;
   gestures: Gestures;
   hints: Hints;
   lessons: Lessons;

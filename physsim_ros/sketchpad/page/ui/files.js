@@ -10,10 +10,15 @@ import {language, t} from '../strings.js';
 const UNSAVED = 30000; // ms for which the unsaved world is offered beside the world; then it is in the list
 export const LARGEST = 1 << 20; // bytes of a world
 
+/** @typedef {{name: string, title: string, picture: string, shipped: boolean}} World */
+
 export class Files {
   /** @param {Parts<'connection' | 'dialog' | 'notes' | 'people' | 'room' | 'words'>} parts */
   constructor(parts) {
     this.parts = parts;
+    /** @type {World[]} that can be opened */
+    this.worlds = [];
+    parts.connection.on('worlds', ({worlds}) => { this.worlds = worlds; });
     this.offered = 0; // [s since 1970] the unsaved world that was offered
     this.unsaved = ''; // date of the unsaved world, and who drew it, until it is opened or discarded
     this.dismiss = () => {};

@@ -6,22 +6,20 @@ import {t} from '../strings.js';
 import {capital} from '../words.js';
 
 /** @import {Parts} from '../types.js' */
+/** @import {World} from './files.js' */
+
+/** @typedef {Parts<'connection' | 'dialog' | 'files' | 'lessons' | 'links' | 'notes' | 'view'>} GalleryParts */
 
 const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
 const WORLDS = t('Worlds'); // title
 
 export class Gallery {
-  /** @param {Parts<'connection' | 'dialog' | 'files' | 'lessons' | 'links' | 'notes' | 'view'>} parts */
+  /** @param {GalleryParts} parts */
   constructor(parts) {
     this.parts = parts;
-    /** @type {{name: string, title: string, picture: string, shipped: boolean}[]} */
-    this.worlds = [];
-    parts.connection.on('worlds', ({worlds}) => {
-      this.worlds = worlds;
-      // The picture of a world comes after the world.
-      parts.dialog.renew(WORLDS, () => this.showWorlds());
-    });
+    // The picture of a world comes after the world.
+    parts.connection.on('worlds', () => parts.dialog.renew(WORLDS, () => this.showWorlds()));
   }
 
   /** Show the list, and again as the files are now: a lesson may have been written since. */
@@ -31,7 +29,7 @@ export class Gallery {
   }
 
   showWorlds() {
-    const {files} = this.parts, own = this.worlds.filter(({shipped}) => !shipped), shipped = this.worlds.filter((each) => each.shipped);
+    const {files} = this.parts, own = files.worlds.filter(({shipped}) => !shipped), shipped = files.worlds.filter((each) => each.shipped);
     const cards = (/** @type {typeof own} */ worlds) =>
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
@@ -43,7 +41,7 @@ export class Gallery {
     ...this.parts.lessons.section(), createElement('h3', {}, t('To explore, simplest first')), cards(shipped));
   }
 
-  /** @param {typeof this.worlds[0]} world */
+  /** @param {World} world */
   #card({name, title, picture, shipped}) {
     const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
     const open = () => this.parts.files.follow(this.parts.connection.openWorld(name), heading, shipped ? '' : name);
@@ -96,7 +94,7 @@ export class Gallery {
    * @returns {string} that name, with a number where it is taken
    */
   #freeName(name) {
-    const taken = new Set(this.worlds.map((each) => each.name)), stem = name.replace(/ \d+$/, '');
+    const taken = new Set(this.parts.files.worlds.map((each) => each.name)), stem = name.replace(/ \d+$/, '');
     for (let number = 1; ; number++) {
       const free = number > 1 ? `${stem} ${number}` : stem;
       if (!taken.has(free)) return free;
@@ -118,7 +116,7 @@ export class Gallery {
       return;
     }
     if (code !== 'exists') return;
-    const free = this.#freeName(name), own = this.worlds.some((each) => each.name === name && !each.shipped);
+    const free = this.#freeName(name), own = this.parts.files.worlds.some((each) => each.name === name && !each.shipped);
     const choices = [textButton(t('Save as {name}', {name: free}), () => this.#save(free))];
     if (own) choices.push(textButton(t('Replace {name}', {name}), () => this.#save(name, true), 'danger'));
     this.parts.dialog.show(own ? t('There is a world {name} already', {name}) : t('{name} is a world that ships with physsim', {name}), inRow(...choices));

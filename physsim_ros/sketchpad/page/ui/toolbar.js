@@ -9,6 +9,7 @@ import {switchTheme} from '../view/theme.js';
 import {t} from '../strings.js';
 import {TOOLS} from '../tools/tools.js';
 
+/** @import {Gallery, GalleryParts} from './gallery.js' */
 /** @import {Parts, Tool, ToolParts} from '../types.js' */
 
 const FEW = ['hand', 'ruler', 'protractor', 'predict', 'note']; // tools that a lesson needs
@@ -77,16 +78,18 @@ export class Toolbar {
 }
 
 export class TopBar {
-  /** @param {Parts<'arrows' | 'camera' | 'connection' | 'gallery' | 'room' | 'selection' | 'settings' | 'view'>} parts */
+  /** @param {GalleryParts & Parts<'arrows' | 'camera' | 'connection' | 'room' | 'selection' | 'settings' | 'view'>} parts */
   constructor(parts) {
     this.parts = parts;
+    /** @type {?Gallery} null until it is asked for */
+    this.gallery = null;
     const zoom = createElement('span', {className: 'zoom'});
     parts.view.overlays.push(() => showText(zoom, `${Math.round(100 * parts.camera.scale / parts.camera.whole)} %`));
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: t('The recording')});
     elementOf('files').append(
-      iconButton(t('Worlds'), 'worlds', () => parts.gallery.openWorlds(), t('Worlds to open')),
-      iconButton(t('Save'), 'save', () => parts.gallery.showSave(), t('Save, link, picture')));
+      iconButton(t('Worlds'), 'worlds', () => this.#openGallery((gallery) => gallery.openWorlds()), t('Worlds to open')),
+      iconButton(t('Save'), 'save', () => this.#openGallery((gallery) => gallery.showSave()), t('Save, link, picture')));
     elementOf('looks').append(
       this.#toggle('velocities', t('Show velocities'), 'velocities', t('Velocities as arrows, in m/s')),
       this.#toggle('forces', t('Show forces'), 'forces', t('Forces as arrows, in newtons; on a body that you tap, all')),
@@ -97,6 +100,12 @@ export class TopBar {
     elementOf('looks').after(this.recording);
     parts.connection.on('recording', ({rerun}) => this.#link(rerun));
     parts.connection.on('welcome', ({rerun}) => this.#link(rerun));
+  }
+
+  /** @param {(gallery: Gallery) => void} work */
+  #openGallery(work) {
+    const {parts} = this;
+    parts.notes.load(import('./gallery.js'), ({Gallery: Worlds}) => work(this.gallery ??= new Worlds(parts)));
   }
 
   /**
