@@ -45,7 +45,7 @@ from physsim_ros.model.requests import (
     Release,
     Request,
 )
-from physsim_ros.model.shapes import MOST_POINTS
+from physsim_ros.model.shapes import Box, MOST_POINTS
 from physsim_ros.model.snapshot import Line, Preview
 from physsim_ros.model.transform import Point
 
@@ -243,6 +243,57 @@ def chain(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings)
     return ClickResult(requests=requests, message=chains.message(requests, (first, last)))
 
 
+def gear(clicks: Sequence[Click], scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
+    """Couple two wheels by their teeth, at the ratio of their radii: one wheel, then the other."""
+    names = [click.hit_body(scene) for click in clicks]
+    if len(names) < 2:
+        return _next_click(f'{names[0]} is a gear', 'the other one')
+    a, b = names
+    centers = scene.centroid(a), scene.centroid(b)
+    radii = [scene.body(name).shape.form.outer for name in names]
+    # A wheel within a ring turns the same way as the ring.
+    sense = 1.0 if math.dist(*centers) < max(radii) else -1.0
+    properties = JointProperties(ratio=sense * radii[1] / radii[0])
+    return _finished(
+        Join(
+            name=scene.next_joint(),
+            kind=JointKind.GEAR,
+            points=centers[:1],
+            a=a,
+            b=b,
+            properties=properties,
+        )
+    )
+
+
+def rack(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Let a wheel roll on a rack: the wheel, then a bar, along which the rack goes, or a point."""
+    pinion = clicks[0].hit_body(scene)
+    if len(clicks) < 2:
+        return _next_click(f'{pinion} is the pinion', 'its rack')
+    center, other = scene.centroid(pinion), clicks[1].body or WORLD
+    foot = clicks[1].current_point(scene)
+    if other != WORLD and isinstance(bar := scene.body(other).shape, Box):
+        (x, y, yaw), across = scene.pose(other), bar.width < bar.height
+        along = yaw + math.pi / 2 * across
+        away = (y - center[1]) * math.cos(along) - (x - center[0]) * math.sin(along)
+        foot = center[0] - away * math.sin(along), center[1] + away * math.cos(along)
+    distance = checked_distance(center, foot, settings, 'the rack')
+    share = scene.body(pinion).shape.form.outer / distance
+    met = tuple(share * (end - begin) + begin for begin, end in zip(center, foot, strict=True))
+    return _finished(
+        Join(
+            name=scene.next_joint(),
+            kind=JointKind.RACK,
+            points=(center, (met[0], met[1])),
+            a=pinion,
+            b=other,
+            # A pinion without an axle lies on its rack.
+            properties=JointProperties(collide=True),
+        )
+    )
+
+
 TOOLS: dict[Tool, Draw] = {
     Tool.CIRCLE: circle,
     Tool.CIRCLE_DIAMETER: circle_diameter,
@@ -259,6 +310,9 @@ TOOLS: dict[Tool, Draw] = {
     Tool.ROPE: partial(join, JointKind.ROPE),
     Tool.PULLEY: pulley,
     Tool.CHAIN: chain,
+    Tool.SLIDER: partial(join, JointKind.SLIDER),
+    Tool.GEAR: gear,
+    Tool.RACK: rack,
     Tool.VELOCITY: velocity,
     Tool.GRAVITY: gravity,
     Tool.FORCE: force,

@@ -84,6 +84,9 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         commands=tuple(space.joints.commands.values()),
         bounds=space.joints.bounds(),
         robots=table.robot_states,
+        coming=tuple(
+            (table.columns.rows[rigid.body.name], rigid.coming) for rigid in space.commanded()
+        ),
         actors=table.actor_states,
     )
 
@@ -119,6 +122,7 @@ def saved_state(space: Space, step: int) -> WorldState:
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
                 driven=driven[row].shifted(-step) if row in driven else None,
+                coming=tuple(command.shifted(-step) for command in rigid.coming),
                 acting=acting[row].shifted(-step) if row in acting else None,
             )
         )
@@ -176,6 +180,8 @@ def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int)
     checkpoint = replace(checkpoint, scene=scene, **_timed(state, step))
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
+    for row, coming in checkpoint.coming:
+        space.put_coming(rigids[row], coming)
     space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
     for command, begun in checkpoint.commands:
         space.joints.command(command, begun)
@@ -209,6 +215,11 @@ def _timed(state: WorldState, step: int) -> dict[str, Any]:
                 if saved.body.robot is not None
             ],
             ROBOT_STATE,
+        ),
+        'coming': tuple(
+            (row, tuple(command.shifted(step) for command in saved.coming))
+            for row, saved in enumerate(state.bodies)
+            if saved.coming
         ),
         'actors': np.array(
             [
@@ -273,6 +284,8 @@ def restore_checkpoint(
     space.bodies.add_without_shapes(rigids)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
+    for row, coming in checkpoint.coming:
+        space.put_coming(rigids[row], coming)
     space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0

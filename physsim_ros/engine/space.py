@@ -32,6 +32,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
+from physsim_ros.model.states import ComingCommand, ComingCommands
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
 
@@ -80,6 +81,8 @@ class Space:
         self._fields: tuple[object, ...] | None = None
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
+        # Robots with commands that their drives do not obey yet, by name.
+        self._commanded: dict[str, RigidBody] = {}
         self.grips = GripSet()
         self._settings = WorldSettings(gravity=(0.0, 0.0))
         self.configure(settings)
@@ -195,6 +198,7 @@ class Space:
             self.changes += body != old.body
             old.take_over_roles(old, body)
             old.body = body
+            self._keep_coming(old, old.coming)
             if pose != old.pose:
                 self.set_pose(old, pose)
             if twist != self.twist_of(old):
@@ -213,6 +217,7 @@ class Space:
         if not body.dynamic:
             self.grips.remove_from(body.name)
         rigid.take_over_roles(old, body)
+        self._keep_coming(rigid, old.coming)
         self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
@@ -309,12 +314,50 @@ class Space:
         drive = None if robot is None else robot.drive
         assert drive is not None  # noqa: S101 - its caller refuses other bodies
         aim = drive.aim(velocity)
-        self.changes += self.drive_of(rigid) != (aim, until)
+        self.changes += self._obeyed_by(rigid) != (aim, until)
         rigid.driven['aim'], rigid.driven['until'] = aim, until
         rigid.pm_body.activate()
 
+    def drive_later(self, rigid: RigidBody, command: ComingCommand) -> None:
+        """
+        Have a robot drive from a step to come on; commands are obeyed in their order.
+
+        A command that would begin before the last one begins with it, in its place.
+        """
+        coming, begun = rigid.coming, command.begun
+        if coming and coming[-1].begun >= begun:
+            begun = coming[-1].begun
+            coming = coming[:-1]
+        self.put_coming(rigid, (*coming, command._replace(begun=begun)))
+        self.changes += 1
+
+    def put_coming(self, rigid: RigidBody, coming: ComingCommands) -> None:
+        """Set the commands that the drive of a robot does not obey yet."""
+        rigid.coming = coming
+        if coming:
+            self._commanded[rigid.body.name] = rigid
+        else:
+            self._commanded.pop(rigid.body.name, None)
+
+    def _keep_coming(self, rigid: RigidBody, coming: ComingCommands) -> None:
+        """Set the commands to come after a change of a body, none where it has no drive."""
+        robot = rigid.body.robot
+        self.put_coming(rigid, () if robot is None or robot.drive is None else coming)
+
+    def commanded(self) -> list[RigidBody]:
+        """Return the robots with commands that their drives do not obey yet, in spawn order."""
+        rows = self.table.columns.rows
+        return sorted(self._commanded.values(), key=lambda rigid: rows[rigid.body.name])
+
     def drive_of(self, rigid: RigidBody) -> tuple[Twist, int]:
-        """Return the velocity that a robot aims at [m/s, rad/s], and the step up to which."""
+        """Return the velocity of the last command [m/s, rad/s], and the step at which it ends."""
+        if rigid.coming:
+            return rigid.coming[-1].aim, rigid.coming[-1].until
+        return self._obeyed_by(rigid)
+
+    @staticmethod
+    def _obeyed_by(rigid: RigidBody) -> tuple[Twist, int]:
+        """Return velocity [m/s, rad/s] and end of the command that the drive of a robot obeys."""
         ahead, aside, turn = rigid.driven['aim'].tolist()
         return (ahead, aside, turn), int(rigid.driven['until'])
 
@@ -379,6 +422,8 @@ class Space:
         """
         if self._wrenched:
             self._end_wrenches(number)
+        if self._commanded:
+            self._begin_commands(number)
         table, core, made = self.table, self.core, self._steps_until_event(number, count)
         if table.columns.moving:
             if not self.grips.is_told:
@@ -418,12 +463,25 @@ class Space:
             if rigid.wrench_until is not None and rigid.wrench_until <= number:
                 self.set_wrench(rigid, NO_WRENCH, None)
 
+    def _begin_commands(self, number: int) -> None:
+        """Have drives obey the commands that begin at a step, or have begun."""
+        for rigid in self.commanded():
+            begun = [command for command in rigid.coming if command.begun <= number]
+            if begun:
+                later = (command for command in rigid.coming if command.begun > number)
+                self.put_coming(rigid, tuple(later))
+                self.drive(rigid, begun[-1].aim, begun[-1].until)
+
     def _steps_until_event(self, number: int, count: int) -> int:
         """Return how many of some steps follow each other without anything between them."""
-        if not (self._wrenched or self.table.columns.expiries):
+        if not (self._wrenched or self._commanded or self.table.columns.expiries):
             return count
         ends = (rigid.wrench_until for rigid in self._wrenched.values())
-        events = (*self.table.columns.expiries, *(end for end in ends if end is not None))
+        events = (
+            *self.table.columns.expiries,
+            *(end for end in ends if end is not None),
+            *(rigid.coming[0].begun for rigid in self._commanded.values()),
+        )
         return min([count, *(event - number for event in events if event > number)])
 
     # Inside
@@ -472,6 +530,7 @@ class Space:
         self.changes += 1
         self.bodies.take_out(rigid)
         self._wrenched.pop(rigid.body.name, None)
+        self._commanded.pop(rigid.body.name, None)
 
     def _drop_table(self) -> None:
         """Drop the table, before a body or joint is added, removed or changed."""

@@ -11,6 +11,7 @@ have written is refused.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+import itertools
 import operator
 from typing import Annotated, Any, TypeVar
 
@@ -20,12 +21,15 @@ from physsim_ros.engine.body_table import LOST
 from physsim_ros.engine.core import sub_step_of
 from physsim_ros.files.world_schema import ROUNDING
 from physsim_ros.model.checkpoint import BodyState, Motion
-from physsim_ros.model.checks import LONGEST, number, pair, Row, Whole, Within
+from physsim_ros.model.checks import ListOf, LONGEST, number, pair, Row, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Command
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.states import (
     ActorState,
+    ComingCommand,
+    ComingCommands,
     Covariance,
     NEVER,
     RobotState,
@@ -43,6 +47,8 @@ _POSE = Row((Within(-_GREATEST, _GREATEST),) * 3)
 _PRODUCTS = Row((Within(-(_GREATEST**2), _GREATEST**2),) * len(SPAWNED.covariance))
 # Greatest number of points that an actor has reached, and of steps that a wrench acts.
 _MOST_REACHED, _MOST_STEPS = 2**53, 10**14
+# Greatest number of commands on their way to a drive: one for each step of the longest latency.
+_MOST_COMING = 100_000
 
 
 def _covariance(value: object, name: str) -> Covariance:
@@ -65,6 +71,15 @@ class _Wrench(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class _Coming(Checked):
+    """A command that a drive does not obey yet, as of `ComingCommand`."""
+
+    begins: Annotated[float, Within(0.0, LONGEST, 's'), 'until the drive obeys it']
+    aim: Annotated[Pose, _POSE, 'commanded velocity'] = ORIGIN
+    seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until it ends'] = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class _Driven(Checked):
     """The state of a robot, as of `RobotState`."""
 
@@ -74,6 +89,11 @@ class _Driven(Checked):
     odometry: Annotated[Pose, _POSE, 'pose by odometry'] = ORIGIN
     covariance: Annotated[Covariance, _covariance, 'of that pose'] = SPAWNED.covariance
     seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until the command ends'] = None
+    coming: Annotated[
+        tuple[_Coming, ...],
+        ListOf(lambda value, name: _saved(_Coming, value, name), 'mappings', _MOST_COMING),
+        'commands on their way',
+    ] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -107,8 +127,11 @@ def state_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
     if state.driven is not None:
         driven = state.driven._asdict()
         until = driven.pop('until')
-        seconds = None if until == NEVER else until / physics_rate
-        entry['driven'] = {key: list(each) for key, each in driven.items()} | {'seconds': seconds}
+        entry['driven'] = {
+            **{key: list(each) for key, each in driven.items()},
+            'seconds': _seconds_to(until, physics_rate),
+            **_coming_entry(state.coming, physics_rate),
+        }
     if state.acting is not None:
         begun, reached = state.acting
         seconds = None if begun == NEVER else -begun / physics_rate
@@ -118,6 +141,48 @@ def state_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
     if state.field_lead is not None:
         entry['field_lead'] = list(state.field_lead)
     return entry
+
+
+def _seconds_to(step: int, physics_rate: float) -> float | None:
+    """Return the time up to the end of a command [s]; None where it has none."""
+    return None if step == NEVER else step / physics_rate
+
+
+def _step_in(seconds: float | None, physics_rate: float) -> int:
+    """Return the step at which a command ends after a time [s]; None is never."""
+    return NEVER if seconds is None else round(seconds * physics_rate)
+
+
+def _coming_entry(coming: ComingCommands, physics_rate: float) -> dict[str, object]:
+    """Return the key of the commands that a drive does not obey yet; nothing where none is."""
+    commands = [
+        {
+            'begins': begun / physics_rate,
+            'aim': list(aim),
+            'seconds': _seconds_to(until, physics_rate),
+        }
+        for begun, aim, until in coming
+    ]
+    return {'coming': commands} if commands else {}
+
+
+def _coming(robot: Robot, commands: tuple[_Coming, ...], physics_rate: float) -> ComingCommands:
+    """
+    Return the commands that the drive of a robot does not obey yet.
+
+    :raises BadProperty: it has no drive, or they are out of order
+    """
+    coming = tuple(
+        ComingCommand(
+            round(each.begins * physics_rate), each.aim, _step_in(each.seconds, physics_rate)
+        )
+        for each in commands
+    )
+    if coming and robot.drive is None:
+        raise BadProperty('commands are on their way to no drive', field='driven')
+    if any(b.begun < a.begun for a, b in itertools.pairwise(coming)):
+        raise BadProperty('commands on their way begin one after another', field='driven')
+    return coming
 
 
 def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: float) -> BodyState:
@@ -144,9 +209,13 @@ def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: f
         driven = _saved(_Driven, entry['driven'], 'driven')
         if body.robot is None:
             raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
-        until = NEVER if driven.seconds is None else round(driven.seconds * physics_rate)
         kept = {key: getattr(driven, key) for key in RobotState._fields if key != 'until'}
-        state = replace(state, driven=RobotState(until=until, **kept))
+        until = _step_in(driven.seconds, physics_rate)
+        state = replace(
+            state,
+            driven=RobotState(until=until, **kept),
+            coming=_coming(body.robot, driven.coming, physics_rate),
+        )
     if 'acting' in entry:
         acting = _saved(_Acting, entry['acting'], 'acting')
         if body.actor is None:

@@ -21,7 +21,14 @@ from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
-from physsim_ros.model.states import ActorState, NO_ACTORS, NO_ROBOTS, Records, RobotState
+from physsim_ros.model.states import (
+    ActorState,
+    ComingCommands,
+    NO_ACTORS,
+    NO_ROBOTS,
+    Records,
+    RobotState,
+)
 from physsim_ros.model.transform import NO_WRENCH, Pose, REST, Twist, Wrench
 
 
@@ -55,6 +62,7 @@ class BodyState:
     :param wrench: force [N] and torque [N m] that act on it
     :param wrench_steps: number of further steps in which the wrench acts; None is for ever
     :param driven: of a robot, the state of its drive and odometry, whose `until` counts from now
+    :param coming: of a robot, the commands that its drive does not obey yet, counted from now
     :param acting: of an actor, its state, whose `begun` counts from now
     """
 
@@ -66,6 +74,7 @@ class BodyState:
     wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
     driven: RobotState | None = None
+    coming: ComingCommands = ()
     acting: ActorState | None = None
 
 
@@ -156,6 +165,7 @@ class Checkpoint:
     :param commands: of motors, with the step of each
     :param bounds: `lower` and `upper` of the rows of joints of which one moves, by name
     :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of the scene
+    :param coming: row of the body of a robot, and the commands that its drive does not obey yet
     :param actors: (a,) `ACTOR_STATE`: states of the actors, in the order of the scene
     """
 
@@ -171,6 +181,7 @@ class Checkpoint:
     commands: Commands = ()
     bounds: Mapping[str, NDArray[np.void]] = field(default_factory=dict)
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
+    coming: tuple[tuple[int, ComingCommands], ...] = ()
     actors: Records = field(default_factory=lambda: NO_ACTORS)
 
     @property

@@ -51,6 +51,18 @@ def normals(seed: int, name: str, step: int, count: int) -> Floats:
     return result
 
 
+def uniform(seed: int, name: str, step: int) -> float:
+    """
+    Return a number of 0 .. 1, each equally likely, as `normals`.
+
+    :param seed: of all noise
+    :param name: of what is random; two names have independent numbers
+    :param step: number of steps since the world began, >= 0
+    """
+    generator = np.random.Philox(key=_key(seed, name), counter=[0, 0, 0, step])
+    return int(generator.random_raw()) / 2**64
+
+
 @lru_cache(maxsize=4096)
 def _key(seed: int, name: str) -> NDArray[np.uint64]:
     """Return (2,) uint64: the key of a seed and a name."""

@@ -55,6 +55,29 @@ class RobotState(NamedTuple):
         return self._replace(until=max(self.until + steps, 0))
 
 
+class ComingCommand(NamedTuple):
+    """
+    A command that a robot has received, and that its drive does not obey yet.
+
+    :ivar begun: step at which the drive obeys it, in a saved state from the moment of saving
+    :ivar aim: velocity that it aims at, as of `RobotState`
+    :ivar until: step at which it ends, likewise; NEVER is none
+    """
+
+    begun: int
+    aim: Twist
+    until: int
+
+    def shifted(self, steps: int) -> Self:
+        """Return the command in a world that counts its steps from so many earlier."""
+        until = self.until if self.until == NEVER else self.until + steps
+        return self._replace(begun=self.begun + steps, until=until)
+
+
+# Those of a robot, in the order in which they begin.
+ComingCommands = tuple[ComingCommand, ...]
+
+
 class ActorState(NamedTuple):
     """
     The state of an actor.

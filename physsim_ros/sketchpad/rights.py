@@ -211,6 +211,13 @@ def _of_joint(name: str, query: SceneQuery) -> tuple[str, ...]:
     return next((each.bodies for each in query.joints if each.name == name), ())
 
 
+def _joints_of(request: requests.Unjoin | requests.CommandMotors) -> tuple[str, ...]:
+    """Return the names of the joints that a request is about."""
+    if isinstance(request, requests.Unjoin):
+        return (request.name,)
+    return tuple(each.joint for each in request.commands)
+
+
 def _joined(request: requests.Join, query: SceneQuery) -> tuple[str, ...]:
     """Return the bodies that a joint has, or will have."""
     points, properties = request.points, request.properties
@@ -240,8 +247,8 @@ def _named(request: Request, query: SceneQuery) -> tuple[str, ...]:
         case requests.Cut(pieces=pieces, joints=moved, severed=severed):
             parts = (_named(each, query) for each in (*pieces, *moved, *severed))
             return tuple(name for names in parts for name in names)
-        case requests.Unjoin(name=name):
-            return _of_joint(name, query)
+        case requests.Unjoin() | requests.CommandMotors():
+            return tuple(name for each in _joints_of(request) for name in _of_joint(each, query))
         case requests.Grab(point=point):
             under = query.bodies_at(point)
             return tuple(each for each in under if query.body(each).dynamic)[:1] or under[:1]

@@ -457,6 +457,51 @@ def test_a_weight_hangs_on_a_chain_of_links_from_surface_to_nail() -> None:
     assert isinstance(axle, Join)
 
 
+def test_gears_turn_at_the_ratio_of_their_radii() -> None:
+    world = World()
+    for name, x, radius in (('small/0', 0.0, 0.5), ('large/0', 1.5, 1.0)):
+        world.apply(spawning(name, Disc(radius=radius), (x, 0.0, 0.0)))
+        world.apply(Axle(point=(x, 0.0)))
+    for request in draw(Tool.GEAR, (0.1, 0.0), (1.6, 0.0), world=world):
+        world.apply(request)
+    world.apply(Command(names=('small/0',), twists=np.array(((0.0, 0.0, 4.0),))))
+    world.step(10)
+    small, large = world.snapshot().twists[:, 2]
+    assert small == pytest.approx(-2.0 * large, abs=1e-9)
+    assert small > 0.5
+    with pytest.raises(NothingThere):
+        draw(Tool.GEAR, (0.1, 0.0), (9.0, 9.0), world=world)
+
+
+def test_a_pinion_rolls_along_its_rack_wherever_that_is_clicked() -> None:
+    for click in ((0.0, -0.6), (1.7, -0.55)):
+        world = World()
+        world.apply(spawning('pinion/0', Disc(radius=0.5)))
+        pose, anchored = (0.0, -0.6, 0.0), Properties(anchored=True)
+        bar = Box(width=4.0, height=0.2)
+        world.apply(Spawn(name='bar/0', shape=bar, pose=pose, properties=anchored))
+        (join,) = draw(Tool.RACK, (0.1, 0.1), click, world=world)
+        world.apply(join)
+        world.apply(Command(names=('pinion/0',), twists=np.array(((0.5, 0.0, -1.0),))))
+        world.step(240)
+        x, y, yaw = world.snapshot().poses[0]
+        assert y == pytest.approx(0.0, abs=1e-3)
+        assert x == pytest.approx(-0.5 * yaw, abs=1e-6)
+        assert x > 0.3
+
+
+def test_a_slider_moves_along_the_line_that_is_drawn() -> None:
+    world = World(settings=WEIGHTLESS)
+    world.apply(disc('block/0', 0.0, 0.0))
+    (join,) = draw(Tool.SLIDER, (0.0, 0.0), (2.0, 2.0), world=world)
+    world.apply(join)
+    world.apply(Command(names=('block/0',), twists=np.array(((2.0, 0.0, 0.0),))))
+    world.step(60)
+    x, y, yaw = world.snapshot().poses[0]
+    assert (x - y, yaw) == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert x > 0.1
+
+
 def test_another_tool_drops_what_is_half_drawn_and_the_same_one_keeps_it() -> None:
     hand, snapshot = pen(Tool.CIRCLE), World().snapshot()
     hand.click((0.0, 0.0), '', snapshot)

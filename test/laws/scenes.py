@@ -18,6 +18,23 @@ DT = 1 / 240
 NOWHERE = (0.0, 0.0)
 
 
+def integrated(change, state, seconds, count):
+    """
+    Return a state after some time, by the method of Runge and Kutta of fourth order.
+
+    :param change: gives the derivative of a state by time [1/s]
+    :param count: of equal parts of the time
+    """
+    dt = seconds / count
+    for _ in range(count):
+        a = change(state)
+        b = change(state + dt / 2 * a)
+        c = change(state + dt / 2 * b)
+        d = change(state + dt * c)
+        state = state + dt / 6 * (a + 2 * b + 2 * c + d)
+    return state
+
+
 def simulation(**settings):
     """Make an empty world at the default settings, save those that are named."""
     return Simulation(settings=WorldSettings(**settings))

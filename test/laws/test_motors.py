@@ -10,7 +10,9 @@ from physsim_ros import Box, Properties, Robot, robot_spawn, Simulation, Spawn, 
 from physsim_ros.model.requests import ChangeBody, CommandMotors
 import pytest
 
-NOWHERE, DOWN = (0.0, 0.0), (0.0, -9.81)
+from .scenes import integrated, NOWHERE
+
+DOWN = (0.0, -9.81)
 # Of the shipped arm: lengths [m], masses [kg], and moments of inertia about the middles [kg m²].
 LENGTHS, MASSES = (0.4, 0.3), (1.2, 0.6)
 MOMENTS = tuple(
@@ -64,20 +66,12 @@ def accelerations(angles, rates, torques, gravity):
 
 
 def exact(torques, gravity, seconds, yaw):
-    """Return the angles of the joints after some time from rest, by Runge and Kutta's method."""
-    state, count = np.array([yaw, 0.0, 0.0, 0.0]), 2000
-    dt = seconds / count
+    """Return the angles of the joints after some time from rest."""
 
-    def rate(now):
+    def change(now):
         return np.concatenate((now[2:], accelerations(now[:2], now[2:], torques, gravity)))
 
-    for _ in range(count):
-        k1 = rate(state)
-        k2 = rate(state + dt / 2.0 * k1)
-        k3 = rate(state + dt / 2.0 * k2)
-        k4 = rate(state + dt * k3)
-        state = state + dt / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-    return state[:2] - (yaw, 0.0)
+    return integrated(change, np.array([yaw, 0.0, 0.0, 0.0]), seconds, 200)[:2] - (yaw, 0.0)
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def test_a_key_of_another_kind_is_refused_with_those_of_this_one():
 
     assert str(refused.value) == (
         'drives of kind omni have no wheelbase; they have max_speed, max_turn, acceleration, '
-        'traction, timeout, track, wheel_radius'
+        'traction, timeout, latency, command_rate, track, wheel_radius'
     )
     assert refused.value.field == 'wheelbase'
 

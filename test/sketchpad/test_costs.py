@@ -72,6 +72,7 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('watch', {'name': 'b/0'}),
     ('drive', {'name': 'b/0', 'velocity': [1.0, 0.0, 0.0]}),
     ('change_joint', {'name': 'j/0', 'properties': {'stiffness': 50.0}}),
+    ('motor', {'name': 'j/0', 'position': 1.0}),
     ('unjoin', {'name': 'j/0'}),
     ('gravity', {'gravity': [0.0, -9.0]}),
     ('air', {'damping': 0.1}),

@@ -108,3 +108,22 @@ def test_a_joint_is_deleted_and_a_second_tap_means_the_body_below(sheet: Sheet) 
     sheet.press('Play')
     # It falls.
     sheet.wait('physsim.bodies["beam/0"][1] < 1')
+
+
+def test_a_gear_is_made_by_its_tool_and_reached_from_its_wheels(sheet: Sheet) -> None:
+    for tool, place in (('Circle', (-2.0, 2.0)), ('Circle', (0.0, 2.0))):
+        sheet.press(tool)
+        for x, y in (place, (place[0] + 1.0 + place[0] / 4.0, place[1])):
+            sheet.page.mouse.click(*sheet.place(x, y))
+    sheet.wait('Object.keys(physsim.bodies).length === 4')
+    sheet.press('Gears')
+    for x in (-2.0, 0.0):
+        sheet.page.mouse.click(*sheet.place(x + 0.2, 2.0))
+    sheet.page.get_by_role('status').get_by_text('Gear added').wait_for()
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.2, 2.0))
+    sheet.press('Gear')
+    # Of radii of 0.5 m and 1 m.
+    ratio = sheet.page.get_by_label('Ratio, typed')
+    assert ratio.input_value() == '−2'
+    sheet.page.get_by_text('Force now: 0 N m').wait_for()

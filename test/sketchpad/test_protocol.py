@@ -549,6 +549,22 @@ def test_a_page_drives_a_robot_and_undoes_it_as_one(browser: Browser) -> None:
     assert 'tb3/0' in physsim.names
 
 
+def test_a_page_moves_a_motor_of_a_robot(browser: Browser) -> None:
+    page = browser.open_page()
+    assert page.spawn('arm/0', 0, 0, robot='arm')['ok']
+    page.until(lambda: page.of_type('scene')[-1]['joints'])
+    joint = next(each for each in page.of_type('scene')[-1]['joints'] if 'effort' in each)
+    rows = joint['b'], joint['a']
+    before = np.diff([page.frames[-1].poses[row, 2] for row in rows if row >= 0] or [0.0])
+    assert page.ask('motor', name=joint['name'], position=0.3)['ok']
+    browser.physsim.run(3.0)
+    page.until(lambda: page.frames[-1].time > 2.9)
+    after = np.diff([page.frames[-1].poses[row, 2] for row in rows if row >= 0] or [0.0])
+    assert abs(after - before) == pytest.approx(0.3, abs=0.01)
+    assert page.ask('motor', name=joint['name'], position=1e9)['code'] == 'bad_property'
+    assert page.ask('motor', name='nobody', position=0.3)['code'] == 'unknown_joint'
+
+
 def test_a_drive_that_is_no_drive_is_refused(browser: Browser) -> None:
     page = browser.open_page()
     spawned_robot(page)

@@ -355,3 +355,14 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
     sheet.press('Personen')
     sheet.page.locator('.people').get_by_text(re.compile(r'Seite \d+ \(du\)')).wait_for()
     sheet.close()
+
+
+def test_no_key_of_a_tool_has_another_meaning() -> None:
+    table = (PAGE / 'input' / 'keyboard.js').read_text().partition('this.keys = {')[2]
+    taken = re.findall(r"(?:^|, |\s)'?(\S)'?: (?:\(|call)", table.partition('};')[0])
+    tools = re.findall(
+        r"tool\('\w+', t\('[^']+'\), '(?:Shift\+)?(.)'", (PAGE / 'tools' / 'tools.js').read_text()
+    )
+    assert {'7', '6', 'f', 'J'} <= set(taken)
+    assert len(tools) > 25
+    assert len({*tools, *taken}) == len(tools) + len(taken)

@@ -5,9 +5,9 @@
 `make sanitize`: tests and random histories with a core that checks its memory and arithmetic.
 
 The core is compiled by gcc in a copy of the source tree, with AddressSanitizer and
-UndefinedBehaviorSanitizer. Python takes its memory from the heap there piece by piece, so that the
-ends of its arrays are known, too. The first defect ends the run with the report of the sanitizer,
-and the exit code is 1.
+UndefinedBehaviorSanitizer. What the core is handed are arrays of NumPy, which takes each from the
+heap, so that their ends are known, too. The first defect ends the run with the report of the
+sanitizer, and the exit code is 1.
 
 The tests are the laws and those of the engine, but for slow ones. `HISTORIES=40 make sanitize`
 chooses the number of histories, which is 200, and `make sanitize ARGS='test/drawing -k time'`
@@ -56,7 +56,6 @@ def environment(tree: Path) -> dict[str, str]:
     """Return the variables with which the tests of a tree run."""
     return os.environ | {
         'PYTHONPATH': str(tree),
-        'PYTHONMALLOC': 'malloc',
         # The wheels of ROS start Python anew, but for this mark.
         '_ROS_WHEELS_BOOTSTRAP_COMPLETE': '1',
         'LD_PRELOAD': ' '.join(libraries()),
@@ -71,7 +70,7 @@ def run_tests(tree: Path, words: list[str]) -> tuple[int, str]:
     """Run tests of a tree; return the exit code, and what was written to the standard error."""
     pytest = [sys.executable, '-m', 'pytest', '-p', 'no:faulthandler', '--exitfirst']
     # A worker that is ended has no time to hand over what pytest has captured.
-    pytest += ['--capture=sys', '--numprocesses=auto', '--maxprocesses=8']
+    pytest += ['--capture=sys', '--numprocesses=auto', '--maxprocesses=8', '--dist=worksteal']
     pytest += ['--max-worker-restart=0', '-m', 'not slow']
     with TemporaryFile(mode='w+', errors='replace') as errors:
         done = subprocess.run(

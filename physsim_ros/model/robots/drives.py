@@ -12,19 +12,22 @@ vy to the left [m/s], turn counter-clockwise [rad/s], at the origin of the body 
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import math
 from typing import Annotated, ClassVar
 
 from physsim_ros.model.checks import FASTEST, Within
 from physsim_ros.model.declarations import Checked, OfKind
+from physsim_ros.model.robots.latency import delays
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.transform import Pose, Twist
+from physsim_ros.model.transform import Point, Pose, Twist
 
 # Greatest acceleration of wheels [m/s²]: 0.4 m/s in a step.
 _STRONGEST = 1e2
 # Longest time for which a command counts [s].
 _LONGEST = 1e6
+# Most looks for a command in a second: as many as a world makes steps.
+_OFTENEST = 1e4
 
 LENGTH = Within(SMALLEST, LARGEST, 'm')
 
@@ -55,6 +58,19 @@ class Drive(Checked, ABC):
         Within(0.0, _LONGEST, 's'),
         'simulation time after which it stops without another command; 0 is no limit',
     ] = 0.5
+    # Not part of the text, so that digests of worlds are those of ever: commands on their way are
+    # part of the state.
+    latency: Annotated[
+        Point,
+        delays,
+        'least and greatest time from a command to the wheels, drawn by `seed`; one number is '
+        'both [s]',
+    ] = field(default=(0.0, 0.0), repr=False)
+    command_rate: Annotated[
+        float,
+        Within(0.0, _OFTENEST, 'Hz'),
+        'times a second at which it looks for a new command; 0 is each step',
+    ] = field(default=0.0, repr=False)
     track: Annotated[
         float,
         LENGTH,

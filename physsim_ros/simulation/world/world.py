@@ -178,7 +178,7 @@ class World(LiveSpace):
         self.space.clear_contacts()
 
     def digest(self) -> str:
-        """Return a hash of time, scene, poses, velocities, wrenches, grips, robots, actors."""
+        """Return a hash of time, scene, poses, velocities, wrenches, commands, grips and roles."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         state, free, _ = self.space.core.read_state()
@@ -187,6 +187,8 @@ class World(LiveSpace):
         digest.update(free.tobytes())
         for rigid in self.space.wrenched():
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
+        for rigid in self.space.commanded():
+            digest.update(f'{rigid.body.name} {rigid.coming!r}'.encode())
         for command in self.space.joints.commands.values():
             digest.update(repr(command).encode())
         for grip in self.grips:

@@ -14,14 +14,16 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import flag, HEAVIEST, pair, VELOCITY, Within
+from physsim_ros.model.checks import FASTEST, flag, HEAVIEST, pair, VELOCITY, Within
 from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.media import FLUID_DENSITY, GUSTS, VISCOSITY
+from physsim_ros.model.motor_command import CommandPoint, MotorCommand
 from physsim_ros.model.requests import (
     ChangeBody,
     Command,
+    CommandMotors,
     Configure,
     DeleteBodies,
     DriveRobot,
@@ -177,6 +179,13 @@ def change_joint(page: PageSession, origin: Origin, name: str, properties: dict[
         **properties,
     )
     page.submit(origin, (request,))
+
+
+@message('motor', '~/join', name=fields.text, position=Within(-FASTEST, FASTEST))
+def motor(page: PageSession, origin: Origin, name: str, position: float) -> None:
+    """Have the motor of a joint with an `effort` go to a position [rad, m], and stay there."""
+    command = MotorCommand(joint=name, mode='position', points=(CommandPoint(0.0, position),))
+    page.submit(origin, (CommandMotors(commands=(command,)),))
 
 
 @message('unjoin', '~/join', name=fields.text)

@@ -213,6 +213,8 @@ export interface Joint {
   carrier?: string;
   /** 1 of an axle that turns counter-clockwise only, -1 of one that turns clockwise. */
   ratchet?: number;
+  /** Greatest torque or force of its motor, if that is commanded [N m, N]. */
+  effort?: number;
   max_force?: number;
   break_force?: number;
 }

@@ -9,13 +9,14 @@ import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
 import {inclineFields} from '../tools/incline.js';
 import {sendNote} from '../tools/note.js';
-import {isDrawn} from '../words.js';
+import {capital, isDrawn, thingWord} from '../words.js';
 import {materialFields} from './world_panel.js';
 
 /** @import {Body, Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 const BESIDE = 0.5; // m: where a copy is put
+const MOST_JOINTS = 12; // that are listed
 
 /**
  * @param {Parts<'connection' | 'driving' | 'meters' | 'notes' | 'numbers' | 'plots' | 'selection' | 'trail' | 'view' | 'words' | 'world'>} parts
@@ -50,6 +51,7 @@ export function bodyContent(parts, [name], render) {
       createElement('label', {}, t('Rolling resistance'), numberField(body.rolling_resistance ?? 0,
         (share) => change({rolling_resistance: share ?? 0}))),
       ...body.robot ? [] : oneWayFields(body, change),
+      jointRow(parts, name),
       ...forceFields(parts, body, change),
       ...body.robot ? [] : mediumFields(parts, body, change),
       inRow(
@@ -82,6 +84,7 @@ function oneWayFields({one_way: way, closed_sides: closed}, change) {
 }
 
 /**
+      jointRow(parts, name),
  * @param {Parts<'connection' | 'world'>} parts
  * @param {string} name of the body
  */

@@ -26,6 +26,8 @@ const CONSTANTS = {
 };
 const SIGNED = ['rate', 'ratio', 'rest_angle'];
 const MEASURED = ['spring', 'rod', 'rope'], LIMITED = ['axle', 'slider'];
+/** What an axle bears a torque by. @type {(keyof Joint)[]} */
+const TURNED = ['stiffness', 'damping', 'friction', 'ratchet', 'effort', 'lower', 'upper'];
 const RING = 9; // px: at its ends
 
 /**
@@ -47,6 +49,8 @@ export function jointContent({world, connection, selection, meters, words}, [nam
       const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
       return range(label, SIGNED.includes(key) ? -most : 0, most, step, value, (now) => change({[key]: now}));
     }),
+    ...joint.effort === undefined ? [] : [range(t('Motor goes to [{unit}]', {unit}), joint.lower ?? -Math.PI, joint.upper ?? Math.PI, 0.01, 0,
+      (position) => connection.send('motor', {name, position}))],
     ...joint.kind === 'axle' ? [ratchetField(joint, (ratchet) => change({ratchet}))] : [],
     ...joint.kind === 'gear' ? [carrierField(joint, world, words, (carrier) => change({carrier}))] : [],
     ...limits.map(([key, label]) =>
@@ -93,8 +97,18 @@ function carrierField(gear, world, words, change) {
  */
 export function jointTexts(world, joint) {
   const {kind, a, b, points: [p, q], rest_length: rest, stiffness = 100, guides} = joint;
-  const force = `${threeDigits(world.frame.forces?.[world.scene.joints.indexOf(joint)] ?? 0)} N`;
+  const force = `${threeDigits(world.frame.forces?.[world.scene.joints.indexOf(joint)] ?? 0)} ${unitOf(joint)}`;
   if (!MEASURED.includes(kind) || guides) return [force];
   const length = distance(world.place(a, p), world.place(b, q)), texts = [force, t('length {length} m', {length: threeDigits(length)})];
   return kind === 'spring' ? [...texts, t('energy {energy} J', {energy: threeDigits(stiffness * (length - rest) ** 2 / 2)})] : texts;
+}
+
+/**
+ * @param {Joint} joint
+ * @returns {string} the unit of its force; of one that bears a torque, too, the greater number counts
+ */
+function unitOf(joint) {
+  if (joint.kind === 'gear') return 'N m';
+  const bearsBoth = ['pin', 'motor', 'slider'].includes(joint.kind) || joint.kind === 'axle' && TURNED.some((key) => joint[key]);
+  return bearsBoth ? t('N or N m') : 'N';
 }

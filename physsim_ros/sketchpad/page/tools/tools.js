@@ -49,6 +49,9 @@ export const TOOLS = [[
   tool('rod', t('Rod'), 'o', t('keeps two points at a distance'), {clicks: 2, joins: true}),
   tool('rope', t('Rope'), 'y', t('pulls, but does not push'), {clicks: 2, joins: true}),
   tool('pulley', t('Pulley'), 'Shift+Y', t('a rope: click its end, each wheel or ring that it passes, and its other end twice'), {clicks: Infinity, joins: true}),
+  tool('slider', t('Slider'), 'Shift+S', t('from a body along its rail, to another body or the background'), {clicks: 2, joins: true}),
+  tool('gear', t('Gears'), 'Shift+G', t('one wheel, then the other'), {clicks: 2, joins: true}),
+  tool('rack', t('Rack and pinion'), 'Shift+T', t('a wheel, then the bar that it rolls on'), {clicks: 2, joins: true}),
   tool('chain', t('Chain'), '8', t('links from end to end; for a slack one, draw it with the pen as a rope'), {clicks: 2, joins: true}),
 ], [
   tool('velocity', t('Velocity'), 'v', t('drag an arrow from a body: 1 m is 1 m/s'), {clicks: 2, angled: true, arrow: true, aims: 'accent'}),

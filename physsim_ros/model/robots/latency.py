@@ -1,0 +1,46 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Latency: the time on the way from a controller to a drive, or from a sensor to its topic.
+
+Law: it depends on seed, name and step alone, so that a rewind repeats it.
+"""
+
+from physsim_ros.model.checks import Row, Within
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.noise import uniform
+from physsim_ros.model.transform import Point
+
+# Longest latency [s]. Commands on their way are part of the state, at most one for each step.
+LONGEST_DELAY = 5.0
+_DELAY = Within(0.0, LONGEST_DELAY, 's')
+
+
+def delays(value: object, name: str) -> Point:
+    """
+    Return the least and the greatest latency [s] of a list of both, or of a number that is both.
+
+    :param name: of the field, for the refusal
+    :raises Malformed: there are not two numbers, or one is not finite
+    :raises BadProperty: one is out of range, or they are out of order
+    """
+    if not isinstance(value, list | tuple):
+        value = (value, value)
+    low, high = Row((_DELAY, _DELAY))(value, name)
+    if low > high:
+        raise BadProperty(f'{name} is [{low:g}, {high:g}]; the least time is first', field=name)
+    return low, high
+
+
+def delay(latency: Point, seed: int, name: str, step: int) -> float:
+    """
+    Return how long something is on its way that leaves at a step [s].
+
+    :param latency: least and greatest time [s]
+    :param seed: of all noise
+    :param name: of what is on its way
+    :param step: number of steps since the world began
+    """
+    low, high = latency
+    return low if low == high else low + (high - low) * uniform(seed, name, step)
