@@ -84,7 +84,16 @@ function oneWayFields({one_way: way, closed_sides: closed}, change) {
 }
 
 /**
-      jointRow(parts, name),
+ * @param {Parts<'selection' | 'world'>} parts
+ * @param {string} name of a body
+ * @returns {HTMLElement} its joints, each a button to the panel of that: a gear is nowhere to be tapped
+ */
+function jointRow({world, selection}, name) {
+  const row = world.row(name), joints = world.scene.joints.filter(({a, b}) => a === row || b === row).slice(0, MOST_JOINTS);
+  return inRow(...joints.map((joint) => textButton(capital(thingWord(joint.kind)), () => selection.show('joint', [joint.name]))));
+}
+
+/**
  * @param {Parts<'connection' | 'world'>} parts
  * @param {string} name of the body
  */
