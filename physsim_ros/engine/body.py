@@ -164,6 +164,15 @@ class RigidBody:
         self.pm_body.angular_velocity = twist[2] + ahead[2]
         self.state['free'] = free
 
+    def begin_fields(self) -> None:
+        """Have the lead by fields be found as the next step begins; the true velocity stays."""
+        x, y, turn = self.state['field'].tolist()
+        if self.state['free'] and any((x, y, turn)):
+            vx, vy = self.pm_body.velocity
+            self.pm_body.velocity = vx - x, vy - y
+            self.pm_body.angular_velocity -= turn
+        self.state['field'], self.state['fresh'] = 0.0, True
+
 
 def index_at_rest(pm_body: pymunk.Body) -> None:
     """

@@ -105,8 +105,8 @@ class CoreWorld:
         """Have the core step no joints, before one of them comes or goes."""
         if 'joints' not in self._tables:
             return
-        lib.core_use_joints(self._world, *(ffi.NULL, 0) * 4)
         self._world.motor_count = 0
+        lib.core_use_joints(self._world, *(ffi.NULL, 0) * 4)
         del self._tables['joints']
 
     def use(self, **tables: Table) -> None:

@@ -151,7 +151,7 @@ class Space:
         if self._fields not in (None, fields):
             wake_bodies(rigid.pm_body for rigid in self.bodies.by_name.values())
             for rigid in self.bodies.by_name.values():
-                rigid.state['fresh'] = True
+                rigid.begin_fields()
         self._fields = fields
 
     def lay_out_joints(self) -> None:
@@ -245,7 +245,7 @@ class Space:
         # It attracts others from another place.
         attracting = len(self._table.columns.attractors) if self._table is not None else 0
         for each in self.bodies.by_name.values() if attracting else (rigid,):
-            each.state['fresh'] = True
+            each.begin_fields()
         self._release(touching)
         self.changes += 1
 
@@ -255,7 +255,7 @@ class Space:
         rigid.set_twist(twist, self._settings.gravity, self.dt, free=free)
         if not rigid.body.anchored:
             rigid.state['thrown'] = True
-        rigid.state['fresh'] = True
+        rigid.begin_fields()
         self.changes += 1
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:

@@ -128,8 +128,9 @@ def test_a_stroke_is_read_by_itself_when_the_time_is_over(pause: float, meaning:
         return looks[-1]
 
     session = DrawingSession(DrawingSettings(), clock=clock)
-    # Lines that are no sides of the square make more groups than there is time for.
-    corners = [(-1, 3), (-1, 5), (-1, 7), (-1, 9), (0, 0), (1, 0), (1, 1), (0, 1), (0, 0)]
+    # Lines that lead to a square make more groups than there is time for; their far ends, and
+    # their loop, are those of no figure.
+    corners = [(-8, 0), (-6, 0), (-4, 0), (-2, 0), (0, 0), (0, 1), (1, 1), (1, 0), (0, 0)]
     for number, ends in enumerate(itertools.pairwise(corners)):
         line = np.column_stack((np.array(ends, dtype=np.float64), (0.0, 0.2)))
         looks.clear()

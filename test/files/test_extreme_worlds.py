@@ -19,10 +19,10 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_RATIO
-from physsim_ros.model.requests import Join, Spawn
+from physsim_ros.model.requests import Delete, Join, Spawn
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc, Shape
+from physsim_ros.model.shapes import Box, Disc, LARGEST, Shape
 from physsim_ros.model.states import ActorState, NEVER, RobotState
 import pytest
 
@@ -124,4 +124,35 @@ def test_robots_and_actors_in_any_state_are_saved(number: float, until: int) -> 
     )
     world = Simulation()
     world.begin(WorldState(settings=FLOATING, bodies=bodies))
+    assert_saved(world)
+
+
+def test_a_world_whose_media_have_just_changed_is_saved() -> None:
+    world = Simulation(settings=WorldSettings(air_density=0.5, air_viscosity=0.5))
+    pool = Properties(anchored=True, sensor=True, medium={'density': 2.0, 'flow': (1.0, 0.0)})
+    world.perform(Spawn(name='first/0', shape=Disc(radius=0.3), pose=(9.0, 0.0, 0.0)))
+    world.perform(Spawn(name='pool/0', shape=Box(width=4.0, height=4.0), properties=pool))
+    world.perform(Spawn(name='boat/0', shape=Disc(radius=0.3)))
+    world.run(0.2)
+    before = world.world.snapshot().twists[2]
+    world.perform(Delete(name='first/0'))
+    assert world.world.snapshot().twists[1] == pytest.approx(before, abs=1e-12)
+    assert_saved(world)
+
+
+def test_a_winch_winds_out_no_longer_than_a_rope_that_can_be_saved() -> None:
+    world = Simulation(settings=FLOATING)
+    for name, x in (('a/0', 0.0), ('b/0', 2.0)):
+        world.perform(Spawn(name=name, shape=Disc(radius=0.3), pose=(x, 0.0, 0.0)))
+    rope = Join(
+        name='j/0',
+        kind=JointKind.ROPE,
+        points=((0.0, 0.0), (2.0, 0.0)),
+        a='a/0',
+        b='b/0',
+        properties=JointProperties(rate=1e5),
+    )
+    world.perform(rope)
+    world.run(2.0)
+    assert world.save().joints[0].properties.length == LARGEST
     assert_saved(world)

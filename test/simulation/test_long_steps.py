@@ -75,16 +75,16 @@ def test_what_reads_the_world_meanwhile_finds_whole_steps(in_sub_steps):
     one.run(1 / 60)
     other.advance(0, is_overdue=lambda: True)
     other.advance(SECOND // 60, is_overdue=lambda: True)
-    assert other.past.cursor.is_stepping
+    assert other.past.cursor.is_working
     assert other.world.digest() == one.world.digest()
-    assert not other.past.cursor.is_stepping
+    assert not other.past.cursor.is_working
 
 
 def test_requests_wait_for_the_end_of_the_frame(in_sub_steps):
     simulation = in_sub_steps(FREE['stack of ten'])
     simulation.advance(0, is_overdue=lambda: True)
     simulation.advance(SECOND // 60, is_overdue=lambda: True)
-    assert simulation.past.cursor.is_stepping
+    assert simulation.past.cursor.is_working
     simulation.requests.submit(spawning('late/0', DISC, (9.0, 1.0, 0.0)), topic='~/spawn')
     simulation.apply_up_to_seek()
     assert 'late/0' not in simulation.world
@@ -115,7 +115,7 @@ def test_a_seek_in_the_middle_of_a_step_goes_to_its_goal(in_sub_steps):
     at_half, step = simulation.world.digest(), simulation.step
     for tick in range(3):
         simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
-    assert simulation.past.cursor.is_stepping
+    assert simulation.past.cursor.is_working
     simulation.past.frames.drop_from(0)
     simulation.speed = 0.0
     simulation.playback.seek(round(step * SECOND / 240))

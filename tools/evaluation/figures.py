@@ -181,6 +181,9 @@ def cross(rng: Random) -> Figure:
     if rng.random() < 0.3:
         # Arms of unequal lengths.
         way *= rng.uniform(0.6, 1.4, (4, 1))
+    if rng.random() < 0.15:
+        # From the end of a diagonal back to the crossing, and along both arms of the other one.
+        way = np.insert(way, 2, rng.normal(0.0, 0.03, 2), axis=0)
     if rng.random() < 0.4:
         way = _rounded(way, rng.uniform(0.03, 0.09))
     return _any_way_round(way, rng)

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 import csv
 from dataclasses import dataclass
+from io import StringIO
 import itertools
 from pathlib import Path
 import sys
@@ -191,16 +192,14 @@ def _newton(blocks: list[Block], penalties: list[Floats]) -> Floats:
     return found
 
 
-def main() -> None:
-    """Fit the table and write it beside the module that reads it."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else _COUNT
-    rows = fit(list(examples(count, 'tuning')))
-    path = Path(evidence.__file__).with_name(TABLE)
-    with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow(('sign', 'measure', 'knots', 'values'))
-        for sign, measure, knots, values in rows:
-            writer.writerow((sign, measure, _text(knots, 4), _text(values, 2)))
+def table(count: int = _COUNT) -> str:
+    """Return the table, fitted to so many strokes of each kind."""
+    file = StringIO()
+    writer = csv.writer(file, lineterminator='\n')
+    writer.writerow(('sign', 'measure', 'knots', 'values'))
+    for sign, measure, knots, values in fit(list(examples(count, 'tuning'))):
+        writer.writerow((sign, measure, _text(knots, 4), _text(values, 2)))
+    return file.getvalue()
 
 
 def _text(numbers: Floats, digits: int) -> str:
@@ -208,4 +207,4 @@ def _text(numbers: Floats, digits: int) -> str:
 
 
 if __name__ == '__main__':
-    main()
+    Path(evidence.__file__).with_name(TABLE).write_text(table(*map(int, sys.argv[1:])), 'utf-8')

@@ -144,12 +144,12 @@ def _show(samples: Floats, way: Floats, somebody: Hand) -> bool:
 
     The long first step of a finger does not count.
     """
-    start, end = samples[:-1, :2], samples[1:, :2]
-    along = end - start
-    away = way[:, None] - start
-    share = np.einsum('ijk,jk->ij', away, along) / np.maximum((along**2).sum(axis=1), 1e-12)
-    off = np.hypot(*(away - np.clip(share, 0.0, 1.0)[..., None] * along).transpose(2, 0, 1))
-    off = off.min(axis=1)
+    x, y = samples[:, :2].T
+    along_x, along_y = np.diff(x), np.diff(y)
+    away_x, away_y = way[:, :1] - x[:-1], way[:, 1:] - y[:-1]
+    length = np.maximum(along_x**2 + along_y**2, 1e-12)
+    share = np.clip((away_x * along_x + away_y * along_y) / length, 0.0, 1.0)
+    off = np.sqrt(((away_x - share * along_x) ** 2 + (away_y - share * along_y) ** 2).min(axis=1))
     begun = np.hypot(*(way - way[0]).T) > somebody.first_step * somebody.size
     late = np.maximum.accumulate(begun)
     trembling = somebody.drift + somebody.tremor + somebody.noise + somebody.wander

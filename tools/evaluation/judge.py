@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 import csv
+from io import StringIO
 import itertools
 from pathlib import Path
 import sys
@@ -121,23 +122,17 @@ def _values(tree: Tree, values: Floats, names: list[str]) -> Floats:
     return np.array([tree[each].value for each in at.tolist()])
 
 
-def write(trees: list[Tree]) -> None:
-    """Write the trees beside the module that reads them."""
-    path = Path(judge.__file__).with_name(TABLE)
-    with path.open('w', newline='', encoding='utf-8') as file:
-        writer = csv.writer(file, lineterminator='\n')
-        writer.writerow(('tree', 'node', 'measure', 'limit', 'value'))
-        for number, tree in enumerate(trees):
-            for place, node in sorted(tree.items()):
-                row = number, place, node.measure, f'{node.limit:.6g}', f'{node.value:.4f}'
-                writer.writerow(row)
-
-
-def main() -> None:
-    """Fit the trees and write them."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else _COUNT
-    write(fit(list(examples(count, 'tuning'))))
+def table(count: int = _COUNT) -> str:
+    """Return the trees as a table, fitted to so many strokes of each kind."""
+    file = StringIO()
+    writer = csv.writer(file, lineterminator='\n')
+    writer.writerow(('tree', 'node', 'measure', 'limit', 'value'))
+    for number, tree in enumerate(fit(list(examples(count, 'tuning')))):
+        for place, node in sorted(tree.items()):
+            row = number, place, node.measure, f'{node.limit:.6g}', f'{node.value:.4f}'
+            writer.writerow(row)
+    return file.getvalue()
 
 
 if __name__ == '__main__':
-    main()
+    Path(judge.__file__).with_name(TABLE).write_text(table(*map(int, sys.argv[1:])), 'utf-8')

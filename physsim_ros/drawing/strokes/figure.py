@@ -21,6 +21,7 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.forms import sign_forms
 from physsim_ros.drawing.strokes.geometry import COUNT, few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
     connected,
@@ -44,6 +45,7 @@ from physsim_ros.drawing.strokes.reading import (
     is_likely,
 )
 from physsim_ros.drawing.strokes.signs import x
+from physsim_ros.drawing.strokes.signs.arrow import ARROW
 from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
@@ -214,7 +216,10 @@ def _contexts_together(
         return
     arrow = joined_arrow(strokes)
     if arrow is not None:
-        yield in_scene(_joined(arrow), scene, settings), _ARROWS
+        # The looks of the way from the one part to the other tell nothing.
+        features = features_of(_joined(arrow))
+        forms, _ = sign_forms(features, (ARROW,))
+        yield Context(features=features, forms=forms, scene=scene, settings=settings), _ARROWS
     # A solid, or a scribble, is part of an arrow alone; several lines may be an arrow so far.
     *before, last = group
     if last.is_line and all(

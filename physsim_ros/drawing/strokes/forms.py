@@ -10,26 +10,35 @@ is left.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from physsim_ros.drawing.strokes.evidence import evidence, Form, LEAST, probabilities
 from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.meanings import Sign
 from physsim_ros.drawing.strokes.plain_forms import line_forms, outline_forms
 from physsim_ros.drawing.strokes.signs import SIGNS
 
 
 def forms_of(features: Features) -> tuple[Form, ...]:
     """Return the forms that a stroke may have, by falling weight."""
-    signs, plain = _signs(features)
+    signs, plain = sign_forms(features)
     forms = *signs, *line_forms(features, plain), *outline_forms(features, plain)
     likely = (each for each in forms if each.weight >= LEAST)
     return tuple(sorted(likely, key=lambda each: -each.weight))
 
 
-def _signs(features: Features) -> tuple[list[Form], float]:
-    """Return the form of each sign, and the weight of the stroke being no sign."""
-    candidates = [(sign.name, each) for sign in SIGNS for each in sign.candidates(features)]
+def sign_forms(
+    features: Features, signs: Sequence[Sign] = SIGNS
+) -> tuple[tuple[Form, ...], float]:
+    """
+    Return the form of each sign, and the weight of the stroke being no sign.
+
+    :param signs: that the stroke may be
+    """
+    candidates = [(sign.name, each) for sign in signs for each in sign.candidates(features)]
     weights = probabilities([evidence(name, each.measures) for name, each in candidates])
     best: dict[str, Form] = {}
     for (name, each), weight in zip(candidates, weights, strict=True):
         if name not in best or weight > best[name].weight:
             best[name] = Form(name=name, weight=weight, points=each.points)
-    return list(best.values()), 1.0 - sum(weights)
+    return tuple(best.values()), 1.0 - sum(weights)

@@ -40,7 +40,7 @@ _BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
 _STRAIGHT, _WIDEST, _BALANCE, _LONGEST, _NECK = 0.8, 2.3, 0.35, 1.1, 0.35
 # A closed head: its least length by that of the hull around it, whose greatest distance from a
 # triangle, in lengths of its longer side.
-_ROUND, _OFF = 0.7, 0.16
+_ROUND, _OFF = 0.7, 0.2
 # The number of points along the way between two strokes, which is then no jump of the pen.
 _BETWEEN = 32
 
@@ -125,8 +125,7 @@ def _open_headed(shaft: Floats, head: Floats) -> list[Floats] | None:
         return None
     if math.dist(shaft[0], head[tip]) < math.dist(shaft[-1], head[tip]):
         shaft = shaft[::-1]
-    gap = math.dist(shaft[-1], head[tip])
-    if gap > min(_NECK * chord, float(norms(head[[0, -1]] - shaft[-1]).min())):
+    if math.dist(shaft[-1], head[tip]) > min(_NECK * chord, more):
         return None
     # A shaft that goes beyond the tip ends beside it.
     shaft = shaft[: int(norms(shaft - head[tip]).argmin()) + 1]

@@ -23,7 +23,7 @@ static const double opposed = 1e-6;
 enum { NEVER = -2 };
 
 // A pair of bodies that touches, or has touched in this frame.
-typedef struct Pair {
+typedef struct ReportedPair {
     int a, b; // places in the table, the lesser first
     // Of the last step in which they touched: impulse on the second body; sums over points of normals, from the first
     // body to the second, and of places; the highest normal, for those that are opposed; count of points.
@@ -33,11 +33,11 @@ typedef struct Pair {
     int64_t stamp; // number of the last report in which they touched
     bool in_frame; // they touched in this frame
     bool counts;   // the pair is one of this table, not a free slot
-} Pair;
+} ReportedPair;
 
 // What the report keeps between steps.
 typedef struct Report {
-    Pair *pairs; // a hash table with open addressing, of a power of two
+    ReportedPair *pairs; // a hash table with open addressing, of a power of two
     int room, count;
     int64_t stamp; // number of the last step that was reported
     bool follows;  // the step before was reported, too
@@ -61,7 +61,7 @@ void free_report(World *world) {
 }
 
 // Where a pair is in the table, or belongs (Fibonacci hashing; Knuth, The Art of Computer Programming 3, 6.4).
-static Pair *slot_of(const Report *report, int a, int b) {
+static ReportedPair *slot_of(const Report *report, int a, int b) {
     uint64_t key = ((uint64_t)(uint32_t)a << 32U) | (uint32_t)b;
     uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = (uint64_t)report->room - 1U;
     // A free slot ends the search.
@@ -76,13 +76,13 @@ static Pair *slot_of(const Report *report, int a, int b) {
 
 // Make the table anew, with room for twice the pairs that it has; without those whose last touch was before a stamp.
 static void make_room(Report *report, int64_t first) {
-    Pair *old = report->pairs;
+    ReportedPair *old = report->pairs;
     int old_room = report->room;
     report->room = 64;
     while (report->room < 4 * (report->count + 1)) {
         report->room *= 2;
     }
-    report->pairs = allocated((size_t)report->room, sizeof(Pair));
+    report->pairs = allocated((size_t)report->room, sizeof(ReportedPair));
     report->count = 0;
     for (int slot = 0; slot < old_room; slot++) {
         if (old[slot].counts && old[slot].stamp >= first) {
@@ -93,14 +93,14 @@ static void make_room(Report *report, int64_t first) {
     free(old);
 }
 
-static Pair *pair_of(Report *report, int a, int b) {
+static ReportedPair *reported_pair(Report *report, int a, int b) {
     assert(a >= 0 && a <= b);
     if (report->room < 2 * (report->count + 1)) {
         make_room(report, NEVER);
     }
-    Pair *pair = slot_of(report, a, b);
+    ReportedPair *pair = slot_of(report, a, b);
     if (!pair->counts) {
-        *pair = (Pair){.a = a, .b = b, .counts = true, .stamp = NEVER};
+        *pair = (ReportedPair){.a = a, .b = b, .counts = true, .stamp = NEVER};
         report->count++;
     }
     return pair;
@@ -128,7 +128,7 @@ static void add_begun(World *world, Report *report, Begun added) {
 }
 
 // Begin the step of a pair, unless another contact of it has.
-static void touch(World *world, Report *report, Pair *pair) {
+static void touch(World *world, Report *report, ReportedPair *pair) {
     if (pair->stamp == report->stamp) {
         return;
     }
@@ -149,7 +149,7 @@ static bool is_higher(Vec normal, Vec than) {
 
 static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) {
     int a = place_of(world, arbiter->body_a), b = place_of(world, arbiter->body_b);
-    Pair *pair = pair_of(report, a < b ? a : b, a < b ? b : a);
+    ReportedPair *pair = reported_pair(report, a < b ? a : b, a < b ? b : a);
     touch(world, report, pair);
     double sign = a < b ? 1.0 : -1.0;
     Vec normal = scaled(arbiter->n, sign);
@@ -184,7 +184,7 @@ static bool may_sleep(const Body *body) {
 }
 
 // Whether a pair sleeps: a body of it does, and none is awake.
-static bool pair_sleeps(const World *world, const Pair *pair) {
+static bool pair_sleeps(const World *world, const ReportedPair *pair) {
     const Body *a = world->bodies + pair->a, *b = world->bodies + pair->b;
     return (sleeps(a) || sleeps(b)) && may_sleep(a) && may_sleep(b);
 }
@@ -192,7 +192,7 @@ static bool pair_sleeps(const World *world, const Pair *pair) {
 // Keep pairs of the step before that sleep now.
 static void add_sleeping(World *world, Report *report) {
     for (int slot = 0; slot < report->room; slot++) {
-        Pair *pair = report->pairs + slot;
+        ReportedPair *pair = report->pairs + slot;
         if (pair->counts && pair->stamp == report->stamp - 1 && pair_sleeps(world, pair)) {
             pair->stamp = report->stamp;
             pair->in_frame = true;
@@ -218,7 +218,7 @@ static void read_sleeping(World *world, Report *report) {
 static void add_crossing(World *world, const Body *body, const Body *sensor) {
     Report *report = report_of(world);
     int a = place_of(world, body->engine), b = place_of(world, sensor->engine);
-    Pair *pair = pair_of(report, a < b ? a : b, a < b ? b : a);
+    ReportedPair *pair = reported_pair(report, a < b ? a : b, a < b ? b : a);
     if (pair->stamp < report->stamp - 1) {
         touch(world, report, pair);
     }
@@ -240,7 +240,7 @@ void report_contacts(World *world) {
     find_crossings(world, add_crossing);
     add_sleeping(world, report);
     for (int slot = 0; slot < report->room; slot++) {
-        Pair *pair = report->pairs + slot;
+        ReportedPair *pair = report->pairs + slot;
         if (pair->counts && pair->stamp == report->stamp) {
             pair->sum = add(pair->sum, pair->impulse);
         }
@@ -252,7 +252,7 @@ void core_clear_contacts(World *world) {
     Report *report = report_of(world);
     bool over = false;
     for (int slot = 0; slot < report->room; slot++) {
-        Pair *pair = report->pairs + slot;
+        ReportedPair *pair = report->pairs + slot;
         pair->sum = vec(0.0, 0.0);
         pair->in_frame = false;
         over = over || (pair->counts && pair->stamp != report->stamp);
@@ -267,7 +267,7 @@ void forget_contacts(World *world) {
     Report *report = world->own->report;
     if (report != NULL && (report->follows || report->count > 0)) {
         if (report->room > 0) {
-            memset(report->pairs, 0, (size_t)report->room * sizeof(Pair));
+            memset(report->pairs, 0, (size_t)report->room * sizeof(ReportedPair));
         }
         report->count = 0;
         report->follows = false;
@@ -292,7 +292,7 @@ static int by_time_and_rows(const void *one, const void *other) {
     return x->rows[0] != y->rows[0] ? by_number(x->rows[0], y->rows[0]) : by_number(x->rows[1], y->rows[1]);
 }
 
-static Contact contact_of(const World *world, const Pair *pair) {
+static Contact contact_of(const World *world, const ReportedPair *pair) {
     double size = length(pair->normals), count = pair->points > 0 ? (double)pair->points : 1.0;
     bool directed = size > opposed * count;
     return (Contact){.rows = {pair->a, pair->b == world->body_count - 1 ? -1 : pair->b},
@@ -308,7 +308,7 @@ void core_take_contacts(World *world) {
     world->contacts = allocated((size_t)report->count, sizeof(Contact));
     world->contact_count = 0;
     for (int slot = 0; slot < report->room; slot++) {
-        const Pair *pair = report->pairs + slot;
+        const ReportedPair *pair = report->pairs + slot;
         // Pairs of the background with itself are left out.
         if (pair->counts && pair->in_frame && pair->a < world->body_count - 1) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
@@ -338,11 +338,11 @@ void rename_contacts(World *world, const int32_t *former, int count) {
         }
     }
     int old_room = report->room;
-    Pair *old = report->pairs;
-    report->pairs = allocated((size_t)old_room, sizeof(Pair));
+    ReportedPair *old = report->pairs;
+    report->pairs = allocated((size_t)old_room, sizeof(ReportedPair));
     report->count = 0;
     for (int slot = 0; slot < old_room; slot++) {
-        Pair pair = old[slot];
+        ReportedPair pair = old[slot];
         if (pair.counts && places[pair.a] >= 0 && places[pair.b] >= 0) {
             // The order of bodies stays, so that the lesser place is that of the same body.
             pair.a = places[pair.a];
@@ -377,8 +377,8 @@ void core_copy_contacts(World *world, const World *old) {
     report->begun_room = 0;
     // A world that resumes here does not know the step before, either.
     report->follows = false;
-    report->pairs = allocated((size_t)from->room, sizeof(Pair));
-    memcpy(report->pairs, from->pairs, (size_t)from->room * sizeof(Pair));
+    report->pairs = allocated((size_t)from->room, sizeof(ReportedPair));
+    memcpy(report->pairs, from->pairs, (size_t)from->room * sizeof(ReportedPair));
     free(world->begun);
     world->begun = NULL;
     world->begun_count = 0;

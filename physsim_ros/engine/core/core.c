@@ -64,8 +64,8 @@ static void list_jointed(World *world) {
     }
 }
 
-// Mark bodies that springs pull, and those in islands of joints that hang by a spring from something fixed: such a body
-// has no half-step lead.
+// Mark bodies that springs pull, and those in islands of joints that hang by a spring from something fixed, or that
+// motors hold there: such a body has no half-step lead.
 static void mark_sprung(World *world) {
     arena_reset(&world->own->arena);
     int *parents = sets_of(world);
@@ -93,6 +93,10 @@ static void mark_sprung(World *world) {
                 body->on_spring = body->on_spring || is_spring;
             }
         }
+    }
+    for (int number = 0; number < world->motor_count; number++) {
+        const Joint *joint = world->joints + world->motors[number].joint;
+        swings[root_of(parents, joint->a)] = swings[root_of(parents, joint->b)] = true;
     }
     for (int place = 0; place < world->body_count; place++) {
         int root = root_of(parents, place);

@@ -74,7 +74,7 @@ static int point_count(const cpBody *body) {
     return count;
 }
 
-// The bodies all of whose contacts are rows: those with joints, then those that they touch.
+// The bodies all of whose contacts are rows: those with joints, then those that they touch, and do not pass.
 typedef struct Members {
     int *places, count;
     bool *marks; // of all bodies
@@ -93,7 +93,8 @@ static Members members_of(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
             int place = place_of(world, other);
-            if (!members.marks[place] && world->bodies[place].dynamic && point_count(other) <= MOST_BEARINGS) {
+            bool bears = each->count > 0 && world->bodies[place].dynamic && point_count(other) <= MOST_BEARINGS;
+            if (bears && !members.marks[place]) {
                 members.marks[place] = true;
                 members.places[members.count++] = place;
             }

@@ -111,7 +111,7 @@ static bool are_closed_at(const cpArbiter *arbiter) {
 }
 
 // Whether a contact is where the bodies pass: at the side that others enter by, or within a one-way body.
-static bool is_within(const World *world, const cpArbiter *arbiter) {
+static bool is_where_bodies_pass(const World *world, const cpArbiter *arbiter) {
     const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
     double rise = least(rise_of(body_of(a), a->a, arbiter->n), rise_of(body_of(b), b->a, negated(arbiter->n)));
     return rise < -least_rise || (are_closed_at(arbiter) && !comes_from_outside(world, arbiter));
@@ -129,7 +129,7 @@ void find_passing(World *world) {
     own->passing_count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
-        if (is_of_one_way(arbiter) && !bears_on(world, arbiter) && is_within(world, arbiter)) {
+        if (is_of_one_way(arbiter) && !bears_on(world, arbiter) && is_where_bodies_pass(world, arbiter)) {
             own->passing[own->passing_count++] = bodies_of(world, arbiter);
         }
     }

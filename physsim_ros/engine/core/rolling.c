@@ -54,7 +54,7 @@ static void resist(cpConstraint *hook, double dt) {
 }
 
 // Whether the joint solver has the row of a contact.
-static bool is_borne(const World *world, const cpArbiter *arbiter) {
+static bool has_joint_row(const World *world, const cpArbiter *arbiter) {
     const bool *bearers = world->own->bearers;
     return bearers != NULL && (bearers[place_of(world, arbiter->body_a)] || bearers[place_of(world, arbiter->body_b)]);
 }
@@ -66,7 +66,7 @@ void find_rolls(World *world) {
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         double arm = rolling_arm(arbiter), inverse = arbiter->body_a->i_inv + arbiter->body_b->i_inv;
-        if (arm > 0.0 && !is_borne(world, arbiter)) {
+        if (arm > 0.0 && !has_joint_row(world, arbiter)) {
             own->rolls[own->roll_count++] = (Roll){arbiter, arm, inverse, 0.0};
         }
     }

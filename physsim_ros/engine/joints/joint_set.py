@@ -27,6 +27,7 @@ from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.scene import Joint
+from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
@@ -178,8 +179,9 @@ class JointSet:
                 self._table.command(command, begun)
         self._table.place_ends(places)
         table = self._table
-        self._core.use_joints(table.joints, table.parts, table.rows, table.guides)
+        # The core marks the bodies that motors hold as it takes over the joints.
         self._core.use(motors=table.motors)
+        self._core.use_joints(table.joints, table.parts, table.rows, table.guides)
 
     def command(self, command: MotorCommand, begun: int) -> None:
         """
@@ -247,7 +249,10 @@ class JointSet:
         return tuple(
             replace(
                 joint,
-                properties=replace(joint.properties, length=float(bounds[name]['upper'][-1])),
+                # Drawn between bodies far away, it may be longer than a length that is set.
+                properties=replace(
+                    joint.properties, length=min(float(bounds[name]['upper'][-1]), LARGEST)
+                ),
             )
             if name in bounds
             else joint

@@ -23,7 +23,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.rope_path import arc
 from physsim_ros.model.scene import Guide, Joint
-from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Point
 import pymunk
 
@@ -151,8 +151,13 @@ def _turn(joint: Joint, ends: Ends) -> Part:
     phase, ratio = joint.seat.phase, joint.number('ratio')
     constraint = pymunk.GearJoint(ends.a, ends.b, phase, ratio)
     constraint.error_bias = _NO_BIAS
-    row = Row(lib.ROW_ANGLE, phase, phase, 1.0 / ratio, 1.0 / ratio)
-    return Part(lib.PART_GEAR, constraint, (row,))
+    return Part(lib.PART_GEAR, constraint, (_angle_row(joint),))
+
+
+def _angle_row(joint: Joint) -> Row:
+    """Return the row of ratio yaw_b - yaw_a = phase."""
+    phase, share = joint.seat.phase, 1.0 / joint.number('ratio')
+    return Row(lib.ROW_ANGLE, phase, phase, share, share)
 
 
 def _weld(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -288,7 +293,7 @@ def _winch(joint: Joint, row: Row) -> Row:
     """Return the row of a rope whose upper bound has a rate."""
     lower, upper = joint.properties.lower, joint.properties.upper
     # A rope without a length has no direction in which it could pull.
-    reach = max(lower or 0.0, SMALLEST), math.inf if upper is None else upper
+    reach = max(lower or 0.0, SMALLEST), LARGEST if upper is None else upper
     return row._replace(rate=joint.properties.rate or 0.0, reach=reach)
 
 
@@ -346,12 +351,10 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """Return a body whose turn about a carrier is that of the other times a ratio, and a phase."""
-    turn = _turn(joint, ends)
     if not ends.guides:
-        return (turn,)
-    # Chipmunk's gear would not load the carrier.
-    (row,) = turn.rows
-    return (_own(lib.PART_OWN, ends, row._replace(guides=ends.guides)),)
+        return (_turn(joint, ends),)
+    # Chipmunk's gear would not load the carrier, which may be the only dynamic body.
+    return (_own(lib.PART_OWN, ends, _angle_row(joint)._replace(guides=ends.guides)),)
 
 
 def _rack(joint: Joint, ends: Ends) -> tuple[Part, ...]:

@@ -29,7 +29,6 @@ from physsim_ros.ros.robots.command_topic import CommandTopic
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 from rclpy.time import Time
 from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -230,10 +229,7 @@ class Commands(CommandTopic):
         if last is None:
             return None
         kind, data = last
-        try:
-            message: Any = deserialize_message(data, kind)
-        except rclpy_implementation.RMWError as error:
-            raise Malformed(f'the message is not a {kind.__name__}') from error
+        message = self.decoded(data, kind)
         request = DriveRobot(name=self._body, velocity=self._velocity_of(message))
         self.velocity = request.velocity
         return request
@@ -259,8 +255,8 @@ class Commands(CommandTopic):
     def _receive(self, kind: type, data: bytes) -> None:
         self._last, self._spoke = (kind, data), time.monotonic()
         if kind is not Twist:
-            with suppress(rclpy_implementation.RMWError):
-                message: Any = deserialize_message(data, kind)
+            with suppress(Malformed):
+                message = self.decoded(data, kind)
                 stamp = Time.from_msg(message.header.stamp).nanoseconds
                 self._unstamped = stamp == 0
                 if self.awaited is not None and stamp >= self.awaited:

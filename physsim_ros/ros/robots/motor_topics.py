@@ -48,25 +48,30 @@ class MotorTopic(CommandTopic):
         self, node: Node, topic: str, kind: type, commands: Callable[[Any], list[MotorCommand]]
     ) -> None:
         super().__init__(topic)
-        self._node, self._commands = node, commands
-        self._last: Any = None
-        self._subscription = node.create_subscription(kind, topic, self._receive, _DEPTH)
+        self._node, self._kind, self._commands = node, kind, commands
+        # Bytes of the last command: rclpy would take seconds for a trajectory of megabytes.
+        self._last: bytes | None = None
+        self._subscription = node.create_subscription(kind, topic, self._receive, _DEPTH, raw=True)
 
     def take(self) -> CommandMotors | None:
         """
         Return the request of the last command since the last call; None where none came.
 
-        :raises Refusal: it names what the robot has not, or a value is out of range
+        :raises Refusal: it is too large or cannot be decoded, names what the robot has not, or a
+            value is out of range
         """
-        last, self._last = self._last, None
-        return None if last is None else CommandMotors(commands=tuple(self._commands(last)))
+        data, self._last = self._last, None
+        if data is None:
+            return None
+        commands = self._commands(self.decoded(data, self._kind))
+        return CommandMotors(commands=tuple(commands))
 
     def close(self) -> None:
         """Unsubscribe."""
         self._node.destroy_subscription(self._subscription)
 
-    def _receive(self, message: Any) -> None:
-        self._last = message
+    def _receive(self, data: bytes) -> None:
+        self._last = data
 
 
 def motor_topics(

@@ -222,11 +222,6 @@ class Cursor(Replay):
         return self._work is not None and self._work.kind is _Kind.SEEK
 
     @property
-    def is_stepping(self) -> bool:
-        """Whether steps are under way."""
-        return self._work is not None and self._work.kind is _Kind.STEPS
-
-    @property
     def is_amending(self) -> bool:
         """Whether an amendment is under way."""
         return self._work is not None and self._work.kind is _Kind.AMENDMENT

@@ -4,15 +4,18 @@
 """The table has every measure of every sign; probabilities are shares, confidences grow."""
 
 from collections.abc import Iterator
+from importlib.resources import files
 import itertools
 
 import numpy as np
+from physsim_ros.drawing.strokes import evidence
 from physsim_ros.drawing.strokes.evidence import (
     Candidate,
     CONSTANT,
     group_confidence,
     probabilities,
     share_confidence,
+    TABLE,
     Term,
     terms_of,
 )
@@ -22,6 +25,7 @@ from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 import pytest
 from tools.evaluation import arrows, figures
+from tools.evaluation.fit import table
 from tools.evaluation.hands import stroke
 
 
@@ -67,6 +71,12 @@ def test_the_table_has_the_measures_of_a_sign_and_no_others(sign: Sign) -> None:
 
     assert {term.measure for term in terms_of(sign.name)} == {CONSTANT, *candidate.measures}
     assert all(list(term.knots) == sorted(set(term.knots)) for term in terms_of(sign.name))
+
+
+@pytest.mark.slow
+def test_the_table_is_what_its_command_makes() -> None:
+    """`python -m tools.evaluation.fit` makes it anew, then the judge's is made anew, too."""
+    assert (files(evidence.__package__) / TABLE).read_text('utf-8') == table()
 
 
 def _candidates(sign: Sign) -> Iterator[Candidate]:

@@ -20,7 +20,7 @@ from physsim_ros.drawing.strokes.reading import (
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 import pytest
-from tools.evaluation.judge import Example, fit
+from tools.evaluation.judge import Example, fit, table
 from tools.evaluation.scenes import Scene, scenes
 
 
@@ -77,3 +77,9 @@ def test_trees_learn_which_readings_are_wrong(monkeypatch: pytest.MonkeyPatch) -
 
     assert np.mean(right) > 0.9
     assert np.mean(wrong) < 0.3
+
+
+@pytest.mark.slow
+def test_the_trees_are_what_their_command_makes() -> None:
+    """`python -m tools.evaluation.judge` makes them anew."""
+    assert (files(judge.__package__) / TABLE).read_text('utf-8') == table()

@@ -10,8 +10,10 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 from builtin_interfaces.msg import Duration
+from physsim_ros.ros.robots import command_topic
 from physsim_ros.testing import PhysSim
 import pytest
+from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, String
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -89,6 +91,7 @@ def test_a_joint_without_a_number_of_one_kind_takes_that_of_the_next(arm: Arm) -
     [
         ('position_controller/commands', Float64MultiArray(data=[0.5]), 'malformed'),
         ('position_controller/commands', Float64MultiArray(data=[0.5, math.inf]), 'malformed'),
+        ('effort_controller/commands', Float64MultiArray(data=[0.0] * 200_000), 'malformed'),
         ('joint_command', JointState(name=['wrist'], position=[0.0]), 'unknown_joint'),
         ('joint_command', JointState(name=JOINTS, position=[0.0]), 'malformed'),
         ('joint_command', JointState(name=JOINTS), 'malformed'),
@@ -149,3 +152,23 @@ def test_the_base_of_an_arm_stands_fast_however_it_is_spawned(arm: Arm) -> None:
     scene = arm.flat.node.fleet.view.snapshot.scene
     assert scene.bodies[0].anchored
     assert scene.names[1:] == ('robot/0/upper/0', 'robot/0/lower/0')
+
+
+def test_a_trajectory_of_megabytes_is_refused_before_it_is_decoded(
+    arm: Arm, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    decoded: list[int] = []
+
+    def decode(data: bytes, kind: type) -> Any:
+        decoded.append(len(data))
+        return deserialize_message(data, kind)
+
+    monkeypatch.setattr(command_topic, 'deserialize_message', decode)
+    points = [JointTrajectoryPoint(positions=[0.0] * 1000) for _ in range(200)]
+    topic = 'joint_trajectory_controller/joint_trajectory'
+    arm.send(topic, JointTrajectory(joint_names=JOINTS, points=points))
+    arm.flat.run(0.1)
+    assert decoded == []
+    arm.send(topic, JointTrajectory(joint_names=JOINTS))
+    arm.flat.run(0.1)
+    assert len(decoded) == 1
