@@ -288,7 +288,7 @@ class Sheet:
     def close(self) -> None:
         """Close the page; it has had no errors."""
         self.context.close()
-        assert self.errors == []
+        assert self.errors == [], self.errors
 
 
 class Fingers:

@@ -43,7 +43,7 @@ WORDS = re.compile(r'[A-Za-z]{2,} [A-Za-z(]|^\W*[A-Z][a-z]+')
 OTHER = re.compile(
     r"""\.js(on)?$ | system-ui | \((max|min)-width | ^[#.\[] | ^format: | ^Content-Type$ |
     ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End)$ |
-    ^(Shift\+[JLWY]?|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
+    ^(Shift\+[A-Z]?|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
     ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
     ^(in\ the\ past|set\ (velocity|motion)\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
     ^the\ stroke\ passes\  |

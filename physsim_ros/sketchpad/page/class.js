@@ -5,7 +5,8 @@
  */
 
 import {Camera} from './view/camera.js';
-import {personWord, sayForm} from './ui/classroom.js';
+import {personWord} from './people.js';
+import {sayForm} from './ui/classroom.js';
 import {Connection} from './connection.js';
 import {Dialog} from './ui/dialog.js';
 import {choice, createElement, elementOf, iconButton, inRow, languageField, showText, soon, textButton} from './dom.js';

@@ -5,14 +5,93 @@
  * The browser never loads this file; `make lint` and editors read it.
  */
 
-export type {App} from './app.js';
 export type {Camera} from './view/camera.js';
 export type {Connection} from './connection.js';
 export type {Palette} from './view/theme.js';
 export type {SceneView} from './view/scene_view.js';
 export type {WorldState} from './world_state.js';
 
+import type {Connection} from './connection.js';
+import type {FrameParts} from './frame_parts.js';
+import type {Cursor} from './input/cursor.js';
+import type {Gestures} from './input/gestures.js';
+import type {Menu} from './input/menu.js';
+import type {Selection} from './input/selection.js';
+import type {Meters} from './measures/meters.js';
+import type {Numbers} from './measures/numbers.js';
+import type {Plots} from './measures/plots.js';
+import type {Plotting} from './measures/plotting.js';
+import type {Records} from './measures/records.js';
+import type {Trail} from './measures/records.js';
+import type {Stopwatch} from './measures/stopwatch.js';
+import type {Driving} from './panels/driving.js';
+import type {Material} from './panels/material.js';
+import type {Panel} from './panels/panel.js';
+import type {People} from './people.js';
+import type {Dialog} from './ui/dialog.js';
+import type {Files} from './ui/files.js';
+import type {Hints} from './ui/hints.js';
+import type {Lessons} from './ui/lessons.js';
+import type {Links} from './ui/links.js';
+import type {Sound} from './ui/narrator.js';
+import type {Notes} from './ui/notes.js';
+import type {Settings} from './ui/settings.js';
+import type {Readings} from './ui/strokes.js';
+import type {TimeBar} from './ui/time_bar.js';
+import type {Toolbar} from './ui/toolbar.js';
+import type {Arrows} from './view/arrows.js';
+import type {Camera} from './view/camera.js';
+import type {Room} from './view/room.js';
 import type {SceneView} from './view/scene_view.js';
+import type {Words} from './words.js';
+import type {WorldState} from './world_state.js';
+
+/** What parts of the page work with, by the names that app.js gives to them. */
+interface Page {
+  arrows: Arrows;
+  camera: Camera;
+  connection: Connection;
+  cursor: Cursor;
+  dialog: Dialog;
+  driving: Driving;
+  files: Files;
+  frames: FrameParts;
+  gestures: Gestures;
+  hints: Hints;
+  lessons: Lessons;
+  links: Links;
+  material: Material;
+  menu: Menu;
+  meters: Meters;
+  notes: Notes;
+  numbers: Numbers;
+  panel: Panel;
+  people: People;
+  plots: Plots;
+  plotting: Plotting;
+  readings: Readings;
+  records: Records;
+  room: Room;
+  selection: Selection;
+  settings: Settings;
+  sound: Sound;
+  stopwatch: Stopwatch;
+  time: TimeBar;
+  toolbar: Toolbar;
+  trail: Trail;
+  view: SceneView;
+  words: Words;
+  world: WorldState;
+}
+
+/** What a part of the page works with: others, by their names. They are made before it. */
+export type Parts<Names extends keyof Page> = Pick<Page, Names>;
+
+/** What tools work with. */
+export type ToolParts = Parts<'camera' | 'connection' | 'frames' | 'hints' | 'notes' | 'people' | 'readings' | 'records' | 'selection' | 'view' | 'world'>;
+
+/** What the panel works with, and what it shows. */
+export type PanelParts = Parts<'connection' | 'driving' | 'material' | 'meters' | 'notes' | 'numbers' | 'plots' | 'plotting' | 'records' | 'room' | 'selection' | 'sound' | 'stopwatch' | 'trail' | 'view' | 'words' | 'world'>;
 
 /** x, y [m]; on the page [px]. */
 export type Point = [number, number];

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The cursor on the canvas that keys move: a pointer that Enter presses and lifts. */
 
-/** @import {App, Point, SceneView, Touch} from '../types.js' */
+/** @import {Parts, Point, SceneView, Touch} from '../types.js' */
 
 const STEP = 16, FINE = 2; // px
 const POINTER = -1; // its number among pointers
 
 export class Cursor {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'camera' | 'gestures' | 'view'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.x = this.y = -1; // px
     this.shown = false;
-    app.view.overlays.push((view) => this.#draw(view));
-    app.gestures.on('press', () => this.hide());
+    parts.view.overlays.push((view) => this.#draw(view));
+    parts.gestures.on('press', () => this.hide());
   }
 
   /** @returns {Touch} */
   get touch() {
-    const {camera} = this.app;
+    const {camera} = this.parts;
     return {at: camera.toWorld(this.x, this.y), page: [this.x, this.y],
       time: performance.now() / 1000, slop: 6 / camera.scale, grid: 0, copies: false};
   }
 
   get #isPressed() {
-    return this.app.gestures.working?.pointer === POINTER;
+    return this.parts.gestures.working?.pointer === POINTER;
   }
 
   /** @param {Point} page where it is put [px] */
@@ -34,7 +34,7 @@ export class Cursor {
   }
 
   hide() {
-    if (this.#isPressed) this.app.gestures.cancel();
+    if (this.#isPressed) this.parts.gestures.cancel();
     this.shown = false;
   }
 
@@ -44,7 +44,7 @@ export class Cursor {
    * @param {boolean} fine
    */
   move(dx, dy, fine) {
-    const {camera, gestures} = this.app, step = fine ? FINE : STEP;
+    const {camera, gestures} = this.parts, step = fine ? FINE : STEP;
     if (!this.shown && this.x < 0) [this.x, this.y] = [camera.width / 2, camera.height / 2];
     this.shown = true;
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
@@ -55,7 +55,7 @@ export class Cursor {
 
   /** Press the tool, or a handle, or lift it; a tool of clicks clicks. */
   press() {
-    const {gestures} = this.app, wasPressed = this.#isPressed;
+    const {gestures} = this.parts, wasPressed = this.#isPressed;
     if (!this.shown) {
       this.move(0, 0, false);
       return;

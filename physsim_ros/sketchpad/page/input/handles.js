@@ -11,7 +11,7 @@ import {t} from '../strings.js';
 import {Gesture} from '../tools/gesture.js';
 import {distance, onGrid, polar} from '../vectors.js';
 
-/** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
+/** @import {Body, Parts, Point, SceneView, Touch} from '../types.js' */
 
 /** @typedef {'' | 'velocity' | 'turn' | 'scale'} Handle '' is none */
 
@@ -25,17 +25,20 @@ const SLOWEST = 5e-4; // m/s: a lower speed is that of a body at rest
 const NEAR = 20; // px beyond the handles within which a pointer shows them
 const TOUCHED = 4000, READ = 2500; // ms for which they are shown after a finger, and beside arrows that are read
 
+/** @typedef {Parts<'arrows' | 'camera' | 'connection' | 'gestures' | 'people' | 'selection' | 'view' | 'world'>} Needed */
+
+/** @extends {Gesture<Needed>} */
 export class Handles extends Gesture {
-  /** @param {App} app */
-  constructor(app) {
-    super(app);
+  /** @param {Needed} parts */
+  constructor(parts) {
+    super(parts);
     /** @type {Handle} that is dragged */
     this.dragged = '';
     this.until = 0; // [ms] until then the handles are shown
-    app.view.overlays.push((view) => this.#draw(view));
-    app.gestures.handles = this;
-    app.gestures.on('point', (touch) => this.#point(touch));
-    app.gestures.on('end', ({touch, isFinger}) => this.#point(touch, isFinger));
+    parts.view.overlays.push((view) => this.#draw(view));
+    parts.gestures.handles = this;
+    parts.gestures.on('point', (touch) => this.#point(touch));
+    parts.gestures.on('end', ({touch, isFinger}) => this.#point(touch, isFinger));
   }
 
   /** @returns {boolean} whether the handles are there: a pointer is near, or has been */
@@ -49,12 +52,12 @@ export class Handles extends Gesture {
    * @param {boolean} isFinger
    */
   #point(touch, isFinger = false) {
-    const {app} = this, places = this.places();
+    const {parts} = this, places = this.places();
     const near = (/** @type {?Point} */ place, /** @type {number} */ reach) => place && touch && distance(touch.page, place) <= reach;
     const isNear = places && (near(places.center, places.reach + TURN_GAP + NEAR) || near(places.velocity, 2 * NEAR));
-    const lasting = app.arrows.forces || app.arrows.velocities ? READ : isFinger ? TOUCHED : Infinity;
+    const lasting = parts.arrows.forces || parts.arrows.velocities ? READ : isFinger ? TOUCHED : Infinity;
     this.until = isNear ? performance.now() + lasting : 0;
-    if (isNear && lasting < Infinity) setTimeout(() => { app.view.dirty = true; }, lasting);
+    if (isNear && lasting < Infinity) setTimeout(() => { parts.view.dirty = true; }, lasting);
   }
 
   /**
@@ -68,26 +71,26 @@ export class Handles extends Gesture {
   /** @param {Touch} touch */
   begin(touch) {
     this.dragged = this.#handleAt(touch);
-    this.app.arrows.frozen = this.dragged === 'velocity';
+    this.parts.arrows.frozen = this.dragged === 'velocity';
   }
 
   /** @param {Touch} touch */
   end(touch) {
-    const {app, dragged} = this, {connection, world} = app, {name} = app.panel, row = world.row(name);
+    const {parts, dragged} = this, {connection, world} = parts, {name} = parts.selection, row = world.row(name);
     const {turn, scale} = this.#change(), velocity = this.#velocityAt(touch.page);
     this.cancel();
     if (row < 0) return;
     const body = world.scene.bodies[row];
     if (dragged === 'velocity' && velocity) connection.send('change', {name, properties: {velocity}});
-    else if (dragged === 'turn') connection.send('change', {name, properties: {at: poseAbout(app, row, turn)}});
+    else if (dragged === 'turn') connection.send('change', {name, properties: {at: poseAbout(parts, row, turn)}});
     else if (dragged === 'scale') {
-      connection.send('spawn', {body: {name, ...scaledShape(body.shape, scale), at: poseAbout(app, row, 0, scale)}});
+      connection.send('spawn', {body: {name, ...scaledShape(body.shape, scale), at: poseAbout(parts, row, 0, scale)}});
     }
   }
 
   cancel() {
     this.dragged = '';
-    this.app.arrows.frozen = false;
+    this.parts.arrows.frozen = false;
   }
 
   /**
@@ -95,8 +98,8 @@ export class Handles extends Gesture {
    *   body is selected; velocity: null where that cannot be set
    */
   places() {
-    const {world, camera, panel, view, arrows} = this.app, row = world.row(panel.name), {velocities} = world.frame;
-    if (row < 0 || this.app.viewOnly) return null;
+    const {world, camera, selection, view, arrows} = this.parts, row = world.row(selection.name), {velocities} = world.frame;
+    if (row < 0 || this.parts.people.viewOnly) return null;
     const body = world.scene.bodies[row], center = camera.toPage(...world.place(row, body.centroid));
     const reach = Math.min(view.bodies.appearance(body).radius * camera.scale,
       FARTHEST * Math.min(camera.width, camera.height));
@@ -111,7 +114,7 @@ export class Handles extends Gesture {
 
   /** @returns {boolean} */
   get #scales() {
-    const {world, panel: {name}} = this.app, body = world.scene.bodies[world.row(name)];
+    const {world, selection: {name}} = this.parts, body = world.scene.bodies[world.row(name)];
     return !body.robot && !world.robotOf(name) && body.shape.kind !== 'pieces';
   }
 
@@ -120,7 +123,7 @@ export class Handles extends Gesture {
    * @returns {Handle}
    */
   #handleAt({page, slop}) {
-    const places = this.places(), reach = GRIP + slop * this.app.camera.scale;
+    const places = this.places(), reach = GRIP + slop * this.parts.camera.scale;
     const near = (/** @type {?Point} */ place) => place !== null && distance(page, place) <= reach;
     if (!places) return '';
     return near(places.velocity) ? 'velocity' : near(places.turn) ? 'turn' : near(places.scale) && this.#scales ? 'scale' : '';
@@ -134,7 +137,7 @@ export class Handles extends Gesture {
     const places = this.places();
     if (!places) return null;
     const [x, y] = places.center, length = distance(ring, places.center);
-    const share = Math.max(length - TIP_GAP, 0) / (length || 1) / this.app.arrows.scales['m/s'].length(1);
+    const share = Math.max(length - TIP_GAP, 0) / (length || 1) / this.parts.arrows.scales['m/s'].length(1);
     return [(ring[0] - x) * share, (y - ring[1]) * share];
   }
 
@@ -166,7 +169,7 @@ export class Handles extends Gesture {
       ctx.fill();
     });
     if (!this.last || this.dragged !== 'turn' && this.dragged !== 'scale') return;
-    const {turn, scale} = this.#change(), {world, panel} = this.app, row = world.row(panel.name);
+    const {turn, scale} = this.#change(), {world, selection} = this.parts, row = world.row(selection.name);
     view.outline(row, palette.accent, [0, 0], {turn, scale});
     view.tell(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeOf(world.scene.bodies[row], scale), this.last);
   }
@@ -177,7 +180,7 @@ export class Handles extends Gesture {
    * @param {Point} ring [px]
    */
   #drawVelocity(view, center, ring) {
-    const {arrows, camera} = this.app, {accent} = view.palette, length = distance(ring, center) || 1;
+    const {arrows, camera} = this.parts, {accent} = view.palette, length = distance(ring, center) || 1;
     const along = /** @type {Point} */ ([(ring[0] - center[0]) / length, (ring[1] - center[1]) / length]);
     const tip = /** @type {Point} */ ([ring[0] - TIP_GAP * along[0], ring[1] - TIP_GAP * along[1]]);
     const speed = Math.hypot(...this.#velocityAt(ring) ?? [0, 0]);
@@ -191,7 +194,7 @@ export class Handles extends Gesture {
 }
 
 /**
- * @param {App} app
+ * @param {Parts<'world'>} parts
  * @param {number} row
  * @param {number} turn about the centre of mass [rad]
  * @param {number} scale

@@ -7,25 +7,25 @@
 import {createElement, textButton} from '../dom.js';
 import {t} from '../strings.js';
 
-/** @import {App, Point} from '../types.js' */
+/** @import {Parts, Point} from '../types.js' */
 
 const GAP = 4; // px to the edges of the page
 
 export class Menu {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'camera' | 'gestures' | 'people' | 'plotting' | 'room' | 'selection' | 'view' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.element = document.body.appendChild(createElement('div', {id: 'menu', role: 'menu', 'aria-label': t('Menu'), hidden: true}));
-    app.gestures.on('press', () => this.close());
-    app.gestures.on('menu', (page) => this.open(page));
+    parts.gestures.on('press', () => this.close());
+    parts.gestures.on('menu', (page) => this.open(page));
     this.element.addEventListener('focusout', ({relatedTarget}) => this.element.contains(/** @type {?Node} */ (relatedTarget)) || this.close());
     this.element.addEventListener('keydown', (event) => this.#move(event));
   }
 
   /** @param {Point} page where it is opened [px] */
   open([x, y]) {
-    const {app, element} = this, {selection, world, camera} = app, at = camera.toWorld(x, y), row = world.bodyAt(at);
-    if (app.viewOnly) return;
+    const {parts, element} = this, {selection, world, camera} = parts, at = camera.toWorld(x, y), row = world.bodyAt(at);
+    if (parts.people.viewOnly) return;
     const name = row < 0 ? '' : world.scene.bodies[row].name;
     if (name && !selection.names.has(name)) selection.select([name]);
     const item = (/** @type {string} */ label, /** @type {() => void} */ done) => {
@@ -39,10 +39,10 @@ export class Menu {
     const names = [...selection.names];
     element.replaceChildren(...name ? [
       item(t('Copy (Ctrl+C)'), () => selection.keep(false)), item(t('Cut (Ctrl+X)'), () => selection.keep(true)),
-      item(t('Duplicate (Ctrl+D)'), () => selection.duplicate()), item(t('Plot'), () => app.plot((plot) => plot.open(names))),
+      item(t('Duplicate (Ctrl+D)'), () => selection.duplicate()), item(t('Plot'), () => parts.plotting.open(names)),
       item(t('Delete (Del)'), () => selection.deleteSelected())] : [],
     ...selection.kept.names.length ? [item(t('Paste (Ctrl+V)'), () => selection.paste(at))] : [],
-    ...name ? [] : [item(t('Select all (Ctrl+A)'), () => selection.selectAll()), item(t('Frame the world (F)'), () => app.room.frameAll())]);
+    ...name ? [] : [item(t('Select all (Ctrl+A)'), () => selection.selectAll()), item(t('Frame the world (F)'), () => parts.room.frameAll())]);
     element.hidden = false;
     // The view makes room for the panel of what was selected.
     [x, y] = camera.toPage(...at);
@@ -54,7 +54,7 @@ export class Menu {
   close() {
     if (this.element.hidden) return;
     this.element.hidden = true;
-    this.app.view.canvas.focus({preventScroll: true});
+    this.parts.view.canvas.focus({preventScroll: true});
   }
 
   /** @param {KeyboardEvent} event */

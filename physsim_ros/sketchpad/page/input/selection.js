@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The selection: bodies that are selected, and the one that is pointed at, with its name beside it. */
+/**
+ * The selection: what the panel shows, bodies that are selected among it, and the one that is pointed at, with its name
+ * beside it. Who opens, closes or follows panels selects here, or listens: each change is the event `change`.
+ */
 
+import {Emitter} from '../emitter.js';
 import {t} from '../strings.js';
 
-/** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
+/** @import {Body, Parts, Point, SceneView, Touch} from '../types.js' */
 
 const BESIDE = 0.5; // m between bodies and their copies
 const NEAR = 8; // px: a tap that far from a joint means it
 
-export class Selection {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+/** @typedef {'' | 'body' | 'several' | 'joint' | 'world' | 'measure'} Kind of a subject of the panel; '' is a closed one */
+
+export class Selection extends Emitter {
+  /** @param {Parts<'camera' | 'connection' | 'frames' | 'gestures' | 'notes' | 'view' | 'words' | 'world'>} parts */
+  constructor(parts) {
+    super();
+    this.parts = parts;
+    /** @type {Kind} */
+    this.kind = '';
+    /** @type {string[]} names of bodies, or of the joint */
+    this.subject = [];
     /** @type {Set<string>} of bodies */
     this.names = new Set();
     /** Bodies that were copied, or cut: pasted, those are moved. @type {{names: string[], cut: boolean}} */
@@ -19,47 +30,66 @@ export class Selection {
     this.hovered = ''; // name of a body
     /** @type {Point | undefined} [px] */
     this.hoveredAt = undefined;
-    app.view.overlays.push((view) => this.#draw(view));
-    app.gestures.on('press', () => this.#hover(null));
-    app.gestures.on('point', (touch) => this.#hover(touch));
-    app.connection.on('scene', ({bodies}) => {
+    parts.view.overlays.push((view) => this.#draw(view));
+    parts.gestures.on('press', () => this.#hover(null));
+    parts.gestures.on('point', (touch) => this.#hover(touch));
+    parts.connection.on('scene', ({bodies}) => {
       const known = new Set(bodies.map((/** @type {Body} */ {name}) => name));
       for (const name of this.names) if (!known.has(name)) this.names.delete(name);
     });
   }
 
+  /** @returns {string} the name of the body that is the subject; '' where that is none, or several */
+  get name() {
+    return this.kind === 'body' ? this.subject[0] : '';
+  }
+
+  /** @returns {string} the name of the joint that is the subject */
+  get joint() {
+    return this.kind === 'joint' ? this.subject[0] : '';
+  }
+
   /** @param {string[]} names of bodies */
   select(names) {
-    const {app} = this;
-    this.names = new Set(names);
-    app.panel.show(names.length > 1 ? 'several' : names.length ? 'body' : '', names);
-    app.askForParts();
+    this.show(names.length > 1 ? 'several' : names.length ? 'body' : '', names);
+  }
+
+  /**
+   * @param {Kind} kind of the subject
+   * @param {string[]} subject names of its bodies, or of the joint
+   */
+  show(kind, subject = []) {
+    const {frames, world} = this.parts;
+    Object.assign(this, {kind, subject});
+    this.names = new Set(kind === 'joint' ? [] : subject);
+    const some = this.names.size > 0;
+    frames.want(this, {velocities: some, contacts: some, laser: world.body(this.name)?.robot ? this.name : ''});
+    this.emit('change');
   }
 
   /** @param {Touch} touch */
   selectAt({at, slop}) {
-    const {world, camera} = this.app, row = world.bodyAt(at, slop);
+    const {world, camera} = this.parts, row = world.bodyAt(at, slop);
     const name = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
     // A second tap selects the body below the joint.
-    const joint = name === this.app.panel.joint ? '' : name;
-    this.select(row < 0 || joint ? [] : [world.scene.bodies[row].name]);
-    if (joint) this.app.panel.show('joint', [joint]);
+    if (name && name !== this.joint) this.show('joint', [name]);
+    else this.select(row < 0 ? [] : [world.scene.bodies[row].name]);
   }
 
   selectAll() {
-    this.select(this.app.world.scene.bodies.map(({name}) => name));
+    this.select(this.parts.world.scene.bodies.map(({name}) => name));
   }
 
   /** @param {boolean} cut whether the selected bodies are moved, not copied, where they are pasted */
   keep(cut) {
     if (!this.names.size) return;
     this.kept = {names: [...this.names], cut};
-    this.app.notes.showMessage(cut ? t('Cut: paste it elsewhere') : t('Copied'));
+    this.parts.notes.showMessage(cut ? t('Cut: paste it elsewhere') : t('Copied'));
   }
 
   /** @param {?Point} at where the middle of the bodies comes to lie [m]; null is beside them */
   paste(at) {
-    const {world, connection} = this.app, {kept} = this, names = kept.names.filter((name) => world.row(name) >= 0);
+    const {world, connection} = this.parts, {kept} = this, names = kept.names.filter((name) => world.row(name) >= 0);
     if (!names.length) return;
     const [left, low, right, high] = world.boundsOfAll(names);
     connection.send(kept.cut ? 'move_bodies' : 'copy_machine', {names, by: at ? [at[0] - (left + right) / 2, at[1] - (low + high) / 2] : [right - left + BESIDE, 0]});
@@ -76,7 +106,7 @@ export class Selection {
 
   /** Delete the selected bodies, or the joint. */
   deleteSelected() {
-    const {connection, panel: {joint}} = this.app;
+    const {parts: {connection}, joint} = this;
     if (joint) connection.send('unjoin', {name: joint});
     else if (this.names.size) connection.send('delete', {names: [...this.names]});
     this.select([]);
@@ -84,7 +114,7 @@ export class Selection {
 
   /** @param {?Touch} touch */
   #hover(touch) {
-    const {world, view} = this.app, row = touch ? world.bodyAt(touch.at, touch.slop) : -1;
+    const {world, view} = this.parts, row = touch ? world.bodyAt(touch.at, touch.slop) : -1;
     const name = row < 0 ? '' : world.scene.bodies[row].name;
     view.canvas.classList.toggle('over', row >= 0);
     this.hovered = name;
@@ -93,7 +123,7 @@ export class Selection {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {palette} = view, {world, gestures: {tool}} = this.app;
+    const {palette} = view, {world, gestures: {tool}} = this.parts;
     for (const name of this.names) {
       const row = world.row(name);
       if (row >= 0) view.outline(row, palette.accent);
@@ -102,6 +132,6 @@ export class Selection {
     if (row < 0 || !this.hoveredAt) return;
     if (tool.aims) view.outline(row, palette[tool.aims]);
     const [x, y] = this.hoveredAt;
-    view.write(this.app.words.item(this.hovered), [x + 16, y - 10], palette.ink);
+    view.write(this.parts.words.item(this.hovered), [x + 16, y - 10], palette.ink);
   }
 }

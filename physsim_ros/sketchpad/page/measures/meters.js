@@ -6,20 +6,20 @@ import {jointTexts} from '../panels/joint_panel.js';
 import {QUANTITIES, toldOf} from './quantities.js';
 import {t} from '../strings.js';
 
-/** @import {App, Point, SceneView} from '../types.js' */
+/** @import {Parts, Point, SceneView} from '../types.js' */
 
 const ABOVE = 22, PADDING = 6, HALF = 11; // px: from a body to its meter; beside the text; half of the height
 
 export class Meters {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'records' | 'view' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {Map<string, string>} quantities by body */
     this.bodies = new Map();
     /** @type {Set<string>} names */
     this.joints = new Set();
-    app.view.overlays.push((view) => this.#draw(view));
-    app.connection.on('world', () => {
+    parts.view.overlays.push((view) => this.#draw(view));
+    parts.connection.on('world', () => {
       this.joints.clear();
       this.bodies.clear();
       this.#record();
@@ -48,12 +48,12 @@ export class Meters {
   }
 
   #record() {
-    this.app.records.want(this, [...this.bodies.keys()]);
+    this.parts.records.want(this, [...this.bodies.keys()]);
   }
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {world, records} = this.app, {bodies, joints, gravity} = world.scene, now = world.frame.time + 1e-9;
+    const {world, records} = this.parts, {bodies, joints, gravity} = world.scene, now = world.frame.time + 1e-9;
     for (const [name, key] of this.bodies) {
       const top = world.topOf(name), sample = records.samples(name).findLast(({time}) => time <= now);
       if (top && sample) drawMeter(view, top, toldOf(key, QUANTITIES[key].of(sample, bodies[world.row(name)], gravity)));

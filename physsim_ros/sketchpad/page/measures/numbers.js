@@ -8,7 +8,7 @@ import {digits, threeDigits, twoPlaces} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE} from '../vectors.js';
 
-/** @import {App, Body} from '../types.js' */
+/** @import {Body, Parts} from '../types.js' */
 /** @import {Motion} from './quantities.js' */
 
 /** What can be typed; of an anchored body the first ones. @type {[string, string][]} */
@@ -21,9 +21,9 @@ const ENERGIES = [t('Kinetic energy'), t('Potential energy')];
 const MOST_PAIRS = 3; // bodies in touch with whose friction that of the pair is told
 
 export class Numbers {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'selection' | 'words' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.most = 0; // greatest energy that was shown of this body [J]
     this.name = '';
     /** Numbers that were typed and that no frame shows yet. @type {?Typed} */
@@ -40,16 +40,16 @@ export class Numbers {
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
-    app.connection.on('open', () => { this.ahead = null; });
+    parts.connection.on('open', () => { this.ahead = null; });
     // A change is in each frame that comes after its answer.
-    app.connection.on('frame', () => {
+    parts.connection.on('frame', () => {
       if (this.ahead?.answered) this.ahead = null;
     });
   }
 
   /** @param {string} name of the body whose numbers are shown as they are now */
   show(name) {
-    const {world} = this.app, row = world.row(name);
+    const {world} = this.parts, row = world.row(name);
     if (row < 0) return;
     const body = world.scene.bodies[row], {vx, vy, spin} = motionOf(world, row), {mass} = body;
     // The line breaks between quantities, not before a unit.
@@ -67,7 +67,7 @@ export class Numbers {
    * @returns {string} the friction with each body that it touches
    */
   #pairsOf(row) {
-    const {world: {touches, scene: {bodies}}, words} = this.app;
+    const {world: {touches, scene: {bodies}}, words} = this.parts;
     const others = [...neighboursOf(touches, new Set([row]))].filter((other) => other >= 0);
     return others.slice(0, MOST_PAIRS).map((other) => {
       const friction = threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction));
@@ -81,7 +81,7 @@ export class Numbers {
    */
   #showTyped({anchored}, row) {
     /** @type {Record<string, number>} */
-    const values = motionOf(this.app.world, row);
+    const values = motionOf(this.parts.world, row);
     TYPED.forEach(([key], i) => {
       // Of what rests, a frame has the rounding errors of the engine.
       const value = Math.abs(values[key]) < NOTHING && key !== 'mass' ? 0 : values[key];
@@ -97,7 +97,7 @@ export class Numbers {
    * @param {?number} value null where that is nothing
    */
   async #type(key, value) {
-    const {world, panel: {name}, connection} = this.app, row = world.row(name);
+    const {world, selection: {name}, connection} = this.parts, row = world.row(name);
     this.inputs.get(key)?.blur();
     if (row < 0 || value === null) return;
     const motion = {...this.ahead?.name === name ? this.ahead.motion : motionOf(world, row), [key]: value};
@@ -118,7 +118,7 @@ export class Numbers {
    * @param {number} row
    */
   #showEnergies(body, row) {
-    const {world} = this.app, {frame: {velocities}, scene: {gravity}} = world, {name, anchored} = body;
+    const {world} = this.parts, {frame: {velocities}, scene: {gravity}} = world, {name, anchored} = body;
     if (name !== this.name) this.most = 0;
     this.name = name;
     this.element.classList.toggle('fixed', anchored);

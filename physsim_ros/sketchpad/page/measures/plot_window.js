@@ -9,7 +9,7 @@ import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
-/** @import {App, Palette, Sample} from '../types.js' */
+/** @import {Palette, Parts, Sample} from '../types.js' */
 /** @import {Curve, Scales} from './chart.js' */
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
@@ -18,10 +18,12 @@ const LONG = 3, PREDICTED = 10; // s and units that a prediction has room for
 /** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
 const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
 
+/** @typedef {Parts<'connection' | 'lessons' | 'notes' | 'records' | 'room' | 'selection' | 'view' | 'words' | 'world'>} PlotParts */
+
 export class PlotWindow {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {PlotParts} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.element = elementOf('plot');
     /** @type {string[]} of bodies */
     this.names = [];
@@ -51,9 +53,9 @@ export class PlotWindow {
       this.#draw();
     };
     const drawSoon = soon(() => this.#draw(), EVERY);
-    app.connection.on('frame', drawSoon);
-    app.connection.on('body', drawSoon);
-    app.connection.on('world', () => this.isOpen && this.close());
+    parts.connection.on('frame', drawSoon);
+    parts.connection.on('body', drawSoon);
+    parts.connection.on('world', () => this.isOpen && this.close());
     new ResizeObserver(() => this.#draw()).observe(this.element);
   }
 
@@ -79,7 +81,7 @@ export class PlotWindow {
       more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
-    const {room, selection, lessons} = this.app;
+    const {room, selection, lessons} = this.parts;
     lessons.settle();
     // On a small page there is no room for plot and panel.
     if (!isRoomy()) selection.select([]);
@@ -93,8 +95,8 @@ export class PlotWindow {
   close() {
     this.element.hidden = true;
     this.names = [];
-    this.app.records.want(this, []);
-    this.app.room.fit();
+    this.parts.records.want(this, []);
+    this.parts.room.fit();
   }
 
   /**
@@ -126,7 +128,7 @@ export class PlotWindow {
   }
 
   #adder() {
-    const input = choice(t('Add a body'), this.app.words.choices(t('Add a body …')), '', (added) => {
+    const input = choice(t('Add a body'), this.parts.words.choices(t('Add a body …')), '', (added) => {
       this.#show([...this.names.filter((name) => name !== added), added]);
       input.value = '';
     });
@@ -136,10 +138,10 @@ export class PlotWindow {
   /** @param {string[]} names */
   #show(names) {
     this.names = names;
-    this.app.records.want(this, names);
+    this.parts.records.want(this, names);
     this.legend.replaceChildren(...names.map((name, i) => {
-      const button = textButton(`${this.app.words.item(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
-      button.style.color = this.app.view.palette[COLORS[i % COLORS.length]];
+      const button = textButton(`${this.parts.words.item(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
+      button.style.color = this.parts.view.palette[COLORS[i % COLORS.length]];
       button.title = t('Take {name} out of the plot', {name});
       return button;
     }));
@@ -148,7 +150,7 @@ export class PlotWindow {
 
   #draw() {
     if (!this.isOpen) return;
-    const {world, view: {palette}, records} = this.app, {gravity} = world.scene, {x, y} = this.axes;
+    const {world, view: {palette}, records} = this.parts, {gravity} = world.scene, {x, y} = this.axes;
     /** @type {Curve[]} */
     const curves = [];
     this.names.forEach((name, i) => {
@@ -206,7 +208,7 @@ export class PlotWindow {
    * @returns {string} CSV
    */
   #tableOf(names) {
-    const {world, records} = this.app;
+    const {world, records} = this.parts;
     return tableOf(names.flatMap((name) => {
       const body = world.body(name);
       return body ? [{name, body, samples: records.samples(name)}] : [];
@@ -221,7 +223,7 @@ export class PlotWindow {
   async #copyTable() {
     try {
       await navigator.clipboard.writeText(this.#tableOf(this.names));
-      this.app.notes.showMessage(t('Table copied'));
+      this.parts.notes.showMessage(t('Table copied'));
     } catch {
       // Browsers give the clipboard to pages of this machine or with TLS only.
       this.saveTable(this.names);

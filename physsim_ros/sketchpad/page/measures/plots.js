@@ -6,7 +6,7 @@ import {drawChart, EVERY} from './chart.js';
 import {QUANTITIES} from './quantities.js';
 import {t} from '../strings.js';
 
-/** @import {App, Sample} from '../types.js' */
+/** @import {Parts, Sample} from '../types.js' */
 
 const WINDOW = 10, AHEAD = 0.5; // s shown, and s that a flight is drawn beyond the last sample
 const LEAST_FLIGHT = 4; // samples
@@ -16,21 +16,21 @@ const SHOWN = ['y', 'speed', 'energy'];
 const CHART = {width: 272, height: 92, size: 11}; // px
 
 export class Plots {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'plotting' | 'records' | 'selection' | 'view' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.canvases = SHOWN.map((key) => createElement('canvas', {role: 'img', 'aria-label': QUANTITIES[key].label}));
     this.element = createElement('section', {className: 'plots', 'aria-label': t('Plots')}, ...this.canvases,
       createElement('p', {}, t('Broad: free flight by its formula. Dashed: the earlier course.')),
-      inRow(textButton(t('Large plot'), () => app.plot((plot) => plot.open([app.panel.name]))),
-        textButton(t('Table (CSV)'), () => app.plot((plot) => plot.saveTable([app.panel.name])))));
+      inRow(textButton(t('Large plot'), () => parts.plotting.open([parts.selection.name])),
+        textButton(t('Table (CSV)'), () => parts.plotting.saveTable([parts.selection.name]))));
     const drawSoon = soon(() => this.#draw(), EVERY);
-    app.connection.on('frame', drawSoon);
-    app.connection.on('body', drawSoon);
+    parts.connection.on('frame', drawSoon);
+    parts.connection.on('body', drawSoon);
   }
 
   #draw() {
-    const {world, view, records, panel: {name}} = this.app, row = world.row(name), samples = records.samples(name);
+    const {world, view, records, selection: {name}} = this.parts, row = world.row(name), samples = records.samples(name);
     if (row < 0 || !samples.length) return;
     const body = world.scene.bodies[row], {gravity, damping} = world.scene, now = world.frame.time;
     const last = samples[samples.length - 1].time;

@@ -9,14 +9,14 @@ import {forcesOf, pastForcesOf, sumsOf} from '../view/forces.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
-/** @import {App, Force, Point, Sample, SceneView} from '../types.js' */
+/** @import {Force, Parts, Point, Sample, SceneView} from '../types.js' */
 
 const MOST = 36000; // samples: ten minutes at 60 a second
 
 export class Records {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'frames' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {Map<string, {samples: Sample[], left: Sample[]}>} by name of the body, in the order of time */
     this.bodies = new Map();
     /** @type {Map<object, string[]>} names of bodies, by who wants them recorded */
@@ -26,17 +26,17 @@ export class Records {
     this.course = 0;
     this.began = 0; // [s] when this world was opened
     this.opened = false; // whether its first frame is to come
-    app.connection.on('frame', () => this.#record());
-    app.connection.on('timeline', ({course, now}) => this.#follow(course, now));
-    app.connection.on('body', (body) => this.#addPast(body));
-    app.connection.on('past_forces', (forces) => this.#addForces(forces));
+    parts.connection.on('frame', () => this.#record());
+    parts.connection.on('timeline', ({course, now}) => this.#follow(course, now));
+    parts.connection.on('body', (body) => this.#addPast(body));
+    parts.connection.on('past_forces', (forces) => this.#addForces(forces));
     // The answers to what was asked are lost.
-    app.connection.on('open', () => this.#ask());
+    parts.connection.on('open', () => this.#ask());
     // In another world, a body of the same name is another body.
-    app.connection.on('answer', ({ok, topic}) => {
+    parts.connection.on('answer', ({ok, topic}) => {
       if (ok && topic === '~/reset') this.began = 0;
     });
-    app.connection.on('world', () => {
+    parts.connection.on('world', () => {
       this.opened = true;
       for (const name of this.bodies.keys()) this.bodies.set(name, {samples: [], left: []});
     });
@@ -54,7 +54,7 @@ export class Records {
     for (const name of fresh) this.bodies.set(name, {samples: [], left: []});
     this.asking.push(...fresh);
     if (!waits) this.#ask();
-    this.app.askForParts();
+    this.parts.frames.want(this, {velocities: all.size > 0, contacts: all.size > 0});
   }
 
   /** @returns {boolean} whether there is anything to record */
@@ -70,7 +70,7 @@ export class Records {
   /** Ask for one past after the other: of several the server sends the last. */
   #ask() {
     const [name] = this.asking;
-    if (name) this.app.connection.send('watch', {name, forces: true});
+    if (name) this.parts.connection.send('watch', {name, forces: true});
   }
 
   /** @param {Record<string, any>} body with the columns of its past */
@@ -91,7 +91,7 @@ export class Records {
 
   /** @param {{name: string, time: number[]} & Record<string, Point[]>} columns of its past, with a column of each kind of force */
   #addForces({name, time, type, ...kinds}) {
-    const {world} = this.app, body = world.body(name), samples = this.bodies.get(name)?.samples;
+    const {world} = this.parts, body = world.body(name), samples = this.bodies.get(name)?.samples;
     if (!body || !samples || body.anchored || body.kinematic) return;
     const byTime = new Map(samples.map((sample) => [sample.time, sample]));
     time.forEach((at, i) => {
@@ -101,7 +101,7 @@ export class Records {
   }
 
   #record() {
-    const {world} = this.app, {frame: {time, yaw, velocities}} = world;
+    const {world} = this.parts, {frame: {time, yaw, velocities}} = world;
     if (this.opened) this.began = time;
     this.opened = false;
     if (!velocities) return;
@@ -167,16 +167,16 @@ const LONGEST = 90; // px: longer arrows, of impacts, are cut
 const ACCELERATION = 0.2; // s: the arrow of a is as long as that of the velocity that it gives in this time
 
 export class Trail {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'arrows' | 'camera' | 'connection' | 'records' | 'view' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {Map<string, boolean>} names of bodies with a trail, and whether it has flashes */
     this.bodies = new Map();
-    app.connection.on('world', () => {
+    parts.connection.on('world', () => {
       this.bodies.clear();
-      app.records.want(this, []);
+      parts.records.want(this, []);
     });
-    app.view.overlays.push((view) => {
+    parts.view.overlays.push((view) => {
       for (const [name, flashes] of this.bodies) this.#draw(view, name, flashes);
     });
   }
@@ -190,7 +190,7 @@ export class Trail {
     const follow = () => {
       if (trail || flashes) this.bodies.set(name, flashes);
       else this.bodies.delete(name);
-      this.app.records.want(this, [...this.bodies.keys()]);
+      this.parts.records.want(this, [...this.bodies.keys()]);
     };
     return [checkField(t('Trail'), trail, (checked) => {
       trail = checked;
@@ -207,7 +207,7 @@ export class Trail {
    * @param {boolean} flashes
    */
   #draw(view, name, flashes) {
-    const {world, records} = this.app, row = world.row(name), now = world.frame.time + 1e-9;
+    const {world, records} = this.parts, row = world.row(name), now = world.frame.time + 1e-9;
     const samples = records.samples(name).filter(({time}) => time <= now);
     if (row < 0 || samples.length < 2) return;
     const {palette} = view;
@@ -233,7 +233,7 @@ export class Trail {
    * @param {boolean} hasArrows
    */
   #flash(view, row, sample, hasArrows) {
-    const {world, camera, arrows} = this.app, {palette} = view;
+    const {world, camera, arrows} = this.parts, {palette} = view;
     const {x, y, yaw, vx, vy, ax = 0, ay = 0} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
     view.outline(row, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
     if (!hasArrows) return;

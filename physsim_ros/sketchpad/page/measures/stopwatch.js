@@ -8,7 +8,7 @@ import {choice, createElement, inRow, showText, textButton} from '../dom.js';
 import {fixed} from '../rounding.js';
 import {t} from '../strings.js';
 
-/** @import {App} from '../types.js' */
+/** @import {Parts} from '../types.js' */
 /** @import {Content} from '../panels/panel.js' */
 
 /** @typedef {{name: string, other: string, time: number}} Touched a body that was followed, by another one */
@@ -18,9 +18,9 @@ const SAME = 1e-9; // s
 const MOST_LAPS = 8; // that are shown
 
 export class Stopwatch {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'notes' | 'words'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.start = this.stop = this.counted = ''; // names of bodies
     /** @type {Touched[]} in the order of time */
     this.touches = [];
@@ -38,10 +38,10 @@ export class Stopwatch {
     this.time = createElement('output', {className: 'reading', 'aria-label': t('Stopwatch')});
     this.details = createElement('p');
     this.count = createElement('output', {className: 'reading', 'aria-label': t('Number of collisions')});
-    app.connection.on('touches', ({touches}) => this.#add(touches));
-    app.connection.on('frame', ({time}) => this.#goTo(time));
-    app.connection.on('open', () => this.#follow());
-    app.connection.on('world', () => {
+    parts.connection.on('touches', ({touches}) => this.#add(touches));
+    parts.connection.on('frame', ({time}) => this.#goTo(time));
+    parts.connection.on('open', () => this.#follow());
+    parts.connection.on('world', () => {
       this.start = this.stop = this.counted = '';
       [this.began, this.ended, this.laps] = [null, null, []];
       this.#follow();
@@ -74,7 +74,7 @@ export class Stopwatch {
    * @param {string} none
    */
   #chooser(role, label, none) {
-    return createElement('label', {}, label, choice(label, this.app.words.choices(none), this[role], (name) => {
+    return createElement('label', {}, label, choice(label, this.parts.words.choices(none), this[role], (name) => {
       this[role] = name;
       this.#follow();
     }));
@@ -82,7 +82,7 @@ export class Stopwatch {
 
   #follow() {
     const names = [...new Set([this.start, this.stop, this.counted])].filter((name) => name);
-    if (names.length || this.following) this.app.connection.send('follow', {names});
+    if (names.length || this.following) this.parts.connection.send('follow', {names});
     this.following = names.length > 0;
   }
 
@@ -111,14 +111,14 @@ export class Stopwatch {
   press() {
     if (this.began !== null && this.ended === null) this.ended = this.shown;
     else [this.began, this.ended, this.laps] = [this.shown, null, []];
-    this.app.notes.showMessage(t('Stopwatch {time}', {time: this.#handText()}));
+    this.parts.notes.showMessage(t('Stopwatch {time}', {time: this.#handText()}));
   }
 
   /** Note a lap of the stopwatch by hand: of a swing it is the period. */
   lap() {
     if (this.began === null || this.ended !== null) return;
     this.laps.push(this.shown);
-    this.app.notes.showMessage(t('Lap {time}', {time: this.#lapTexts().at(-1) ?? ''}));
+    this.parts.notes.showMessage(t('Lap {time}', {time: this.#lapTexts().at(-1) ?? ''}));
   }
 
   #lapTexts() {
@@ -137,7 +137,7 @@ export class Stopwatch {
     showText(this.byHand, this.#handText());
     showText(this.lapList, this.#lapTexts().slice(-MOST_LAPS).join(', '));
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
-    const told = (/** @type {Touched} */ {time, other}) => ({time: fixed(time, 4), name: other ? this.app.words.item(other) : t('a wall')});
+    const told = (/** @type {Touched} */ {time, other}) => ({time: fixed(time, 4), name: other ? this.parts.words.item(other) : t('a wall')});
     showText(this.details, [start && t('started at {time} s by {name}', told(start)),
       stop && t('stopped at {time} s by {name}', told(stop))].filter(Boolean).join(', '));
     const collisions = this.touches.filter(({name, time}) => name === this.counted && time > this.since).length;

@@ -12,35 +12,36 @@ import {sendNote} from '../tools/note.js';
 import {capital, isDrawn, thingWord} from '../words.js';
 import {materialFields} from './world_panel.js';
 
-/** @import {App, Body} from '../types.js' */
+/** @import {Body, Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 const BESIDE = 0.5; // m: where a copy is put
 const MOST_JOINTS = 12; // that are listed
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'driving' | 'meters' | 'notes' | 'numbers' | 'plots' | 'selection' | 'trail' | 'view' | 'words' | 'world'>} parts
  * @param {string[]} names of the body alone
+ * @param {() => void} render the panel again
  * @returns {?Content} null where it is gone
  */
-export function bodyContent(app, [name]) {
-  const body = app.world.body(name);
+export function bodyContent(parts, [name], render) {
+  const body = parts.world.body(name);
   if (!body) return null;
-  const change = (/** @type {object} */ properties) => app.connection.send('change', {name, properties});
+  const change = (/** @type {object} */ properties) => parts.connection.send('change', {name, properties});
   const label = textField({value: body.label, onchange: () => {
-    const value = textOf(label), {height = 0} = body.shape, row = app.world.row(name);
+    const value = textOf(label), {height = 0} = body.shape, row = parts.world.row(name);
     if (body.name.startsWith('note/') && height) {
-      sendNote(app, name, value, [...app.world.place(row, [0, 0]), app.world.frame.yaw[row]], height / sizeOf(app.view.ctx, body.label)[1]);
+      sendNote(parts, name, value, [...parts.world.place(row, [0, 0]), parts.world.frame.yaw[row]], height / sizeOf(parts.view.ctx, body.label)[1]);
     } else change({label: value});
   }});
   const material = materialFields(body, change);
-  material.find((each) => each.textContent === t('Friction'))?.append(app.numbers.pairs);
+  material.find((each) => each.textContent === t('Friction'))?.append(parts.numbers.pairs);
   return {
-    title: app.words.title(name), name: isDrawn(name) || app.world.robotOf(name) ? name : '',
-    first: [app.numbers.element, ...inclineFields(app, body),
-      ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
+    title: parts.words.title(name), name: isDrawn(name) || parts.world.robotOf(name) ? name : '',
+    first: [parts.numbers.element, ...inclineFields(parts, body, render),
+      ...body.actor ? actorLines(body.actor) : [], ...body.robot ? parts.driving.show(body.robot) : []],
     rest: [
-      app.numbers.turning, app.numbers.typed,
+      parts.numbers.turning, parts.numbers.typed,
       ...material,
       createElement('label', {}, t('Label'), label),
       // A robot is neither.
@@ -50,19 +51,19 @@ export function bodyContent(app, [name]) {
       createElement('label', {}, t('Rolling resistance'), numberField(body.rolling_resistance ?? 0,
         (share) => change({rolling_resistance: share ?? 0}))),
       ...body.robot ? [] : oneWayFields(body, change),
-      jointRow(app, name),
-      ...forceFields(app, body, change),
-      ...body.robot ? [] : mediumFields(app, body, change),
+      jointRow(parts, name),
+      ...forceFields(parts, body, change),
+      ...body.robot ? [] : mediumFields(parts, body, change),
       inRow(
-        textButton(t('Copy'), () => copy(app, name)),
-        textButton(t('Delete body'), () => app.selection.deleteSelected(), 'danger')),
+        textButton(t('Copy'), () => copy(parts, name)),
+        textButton(t('Delete body'), () => parts.selection.deleteSelected(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
-      ...app.trail.switches(name), app.meters.field(name),
-      app.plots.element,
+      ...parts.trail.switches(name), parts.meters.field(name),
+      parts.plots.element,
     ],
     live: (view) => {
-      app.numbers.show(name);
-      drawWay(view, app.world, name);
+      parts.numbers.show(name);
+      drawWay(view, parts.world, name);
     },
   };
 }
@@ -83,20 +84,17 @@ function oneWayFields({one_way: way, closed_sides: closed}, change) {
 }
 
 /**
- * @param {App} app
+ * @param {Parts<'selection' | 'world'>} parts
  * @param {string} name of a body
  * @returns {HTMLElement} its joints, each a button to the panel of that: a gear is nowhere to be tapped
  */
-function jointRow({world, selection, panel}, name) {
+function jointRow({world, selection}, name) {
   const row = world.row(name), joints = world.scene.joints.filter(({a, b}) => a === row || b === row).slice(0, MOST_JOINTS);
-  return inRow(...joints.map((joint) => textButton(capital(thingWord(joint.kind)), () => {
-    selection.select([]);
-    panel.show('joint', [joint.name]);
-  })));
+  return inRow(...joints.map((joint) => textButton(capital(thingWord(joint.kind)), () => selection.show('joint', [joint.name]))));
 }
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'world'>} parts
  * @param {string} name of the body
  */
 function copy({world, connection}, name) {

@@ -5,7 +5,7 @@ import {createElement} from '../dom.js';
 import {digits} from '../rounding.js';
 import {t} from '../strings.js';
 
-/** @import {Actor, App, Point, Robot, SceneView, WorldState} from '../types.js' */
+/** @import {Actor, Parts, Point, Robot, SceneView, WorldState} from '../types.js' */
 
 const PERIOD = 100; // ms between commands: a drive stops without one after half a second
 const TURN = 0.5; // share of the greatest turn rate that a key asks for
@@ -14,9 +14,9 @@ const REACH = 48; // px of the knob
 const KEYS = {KeyW: [1, 0, 0], KeyS: [-1, 0, 0], KeyA: [0, 0, TURN], KeyD: [0, 0, -TURN], KeyQ: [0, 1, 0], KeyE: [0, -1, 0]};
 
 export class Driving {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'people' | 'selection' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.name = ''; // of the robot that is driven
     /** @type {Set<string>} that are held */
     this.keys = new Set();
@@ -37,7 +37,7 @@ export class Driving {
 
   /** @returns {?Robot} the selected one, if it drives */
   get #robot() {
-    const {panel, world, viewOnly} = this.app, row = panel.name && !viewOnly ? world.row(panel.name) : -1;
+    const {selection, world, people: {viewOnly}} = this.parts, row = selection.name && !viewOnly ? world.row(selection.name) : -1;
     const robot = row < 0 ? null : world.scene.bodies[row].robot;
     return robot?.kind ? robot : null;
   }
@@ -102,8 +102,8 @@ export class Driving {
   }
 
   #command() {
-    const {connection, panel, world} = this.app, robot = this.#robot, [x, y] = this.stick;
-    if (this.name && (!robot || this.name !== panel.name)) {
+    const {connection, selection, world} = this.parts, robot = this.#robot, [x, y] = this.stick;
+    if (this.name && (!robot || this.name !== selection.name)) {
       // Another one was selected meanwhile, or it was deleted.
       if (world.row(this.name) >= 0) connection.send('drive', {name: this.name, velocity: [0, 0, 0]});
       this.name = '';
@@ -115,8 +115,8 @@ export class Driving {
     const sum = [y, 0, -x * TURN];
     for (const key of this.keys) KEYS[key].forEach((each, i) => { sum[i] += each; });
     const {max_speed: fastest = 0, max_turn: turns = 0} = robot, most = [fastest, fastest, turns];
-    connection.send('drive', {name: panel.name, velocity: sum.map((each, i) => Math.max(-1, Math.min(each, 1)) * most[i])});
-    this.name = this.timer ? panel.name : '';
+    connection.send('drive', {name: selection.name, velocity: sum.map((each, i) => Math.max(-1, Math.min(each, 1)) * most[i])});
+    this.name = this.timer ? selection.name : '';
   }
 }
 

@@ -4,13 +4,13 @@
 import {checkField, createElement, range} from '../dom.js';
 import {t} from '../strings.js';
 
-/** @import {App, Body, Medium} from '../types.js' */
+/** @import {Body, Medium, Parts} from '../types.js' */
 
 /** Of a body that becomes water: twice as dense as a new body, so that this one floats. */
 export const WATER = {density: 2, viscosity: 0.5};
 
 /**
- * @param {App} app
+ * @param {Parts<'world'>} parts
  * @param {Body} body
  * @param {(properties: object) => void} change
  * @returns {HTMLElement[]} a switch, and of a region its fields
@@ -37,7 +37,7 @@ export function mediumFields({world}, {name, medium, charge = 0}, change) {
 }
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'world'>} parts
  * @returns {HTMLElement[]} air and attraction of the world
  */
 export function airFields({connection, world}) {

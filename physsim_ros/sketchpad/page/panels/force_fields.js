@@ -6,12 +6,12 @@ import {numberOf} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, polar, rotated} from '../vectors.js';
 
-/** @import {App, AppliedForce, Body} from '../types.js' */
+/** @import {AppliedForce, Body, Parts} from '../types.js' */
 
 const FIRST = 10; // N: of a force that is added, to the right
 
 /**
- * @param {App} app
+ * @param {Parts<'world'>} parts
  * @param {Body} body
  * @param {(properties: object) => void} change
  * @returns {HTMLElement[]} a row for each force, and a button that adds one

@@ -7,7 +7,7 @@ import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 import {capital, isDrawn, thingWord} from '../words.js';
 
-/** @import {App, Joint, WorldState} from '../types.js' */
+/** @import {Joint, Parts, WorldState} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 /**
@@ -31,7 +31,7 @@ const TURNED = ['stiffness', 'damping', 'friction', 'ratchet', 'effort', 'lower'
 const RING = 9; // px: at its ends
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'meters' | 'selection' | 'words' | 'world'>} parts
  * @param {string[]} names of the joint alone
  * @returns {?Content} null where it is gone
  */
@@ -80,7 +80,7 @@ function ratchetField(axle, change) {
 /**
  * @param {Joint} gear
  * @param {WorldState} world
- * @param {App['words']} words
+ * @param {Parts<'words'>['words']} words
  * @param {(name: ?string) => void} change
  * @returns {HTMLElement} a choice of the body about which the angles of a gear are measured
  */

@@ -14,29 +14,26 @@ import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {worldContent} from './world_panel.js';
 
-/** @import {App, SceneView} from '../types.js' */
+/** @import {Kind} from '../input/selection.js' */
+/** @import {PanelParts, SceneView} from '../types.js' */
 
-/** @typedef {'' | 'body' | 'several' | 'joint' | 'world' | 'measure'} Kind '' is a closed panel */
 /**
  * @typedef {{title: string, name?: string, first?: Node[], rest: Node[], live?: (view: SceneView) => void}} Content
  *   name: of the subject, where that is not the title; first: lines that are always shown; live: shows what changes from
  *   frame to frame, and draws it
  */
 
-/** Of each kind of subject, by its names; null where that is gone. @type {Record<Exclude<Kind, ''>, (app: App, names: string[]) => ?Content>} */
+/** Of each kind of subject, by its names; null where that is gone. @type {Record<Exclude<Kind, ''>, (parts: PanelParts, names: string[], render: () => void) => ?Content>} */
 const CONTENTS = {body: bodyContent, several: severalContent, joint: jointContent, world: worldContent, measure: ({stopwatch}) => stopwatch.content()};
 
 const UNFOLDED = 'physsim-panel'; // key
 
 export class Panel {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {PanelParts} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.element = elementOf('panel');
-    /** @type {Kind} */
-    this.kind = '';
-    /** @type {string[]} of the subject */
-    this.names = [];
+    this.shown = ''; // kind and names of the subject
     /** As somebody has chosen in this browser; a small page has no room for all of it at once. */
     this.unfolded = localStorage.getItem(UNFOLDED) === '1' && isRoomy();
     /** @type {(view: SceneView) => void} */
@@ -46,59 +43,44 @@ export class Panel {
       this.unfolded = !this.unfolded;
       localStorage.setItem(UNFOLDED, this.unfolded ? '1' : '0');
       this.#fold();
-      app.room.fit();
+      parts.room.fit();
     });
     this.rest = createElement('div', {className: 'rest'});
     const followSoon = () => queueMicrotask(() => this.#follow());
-    app.connection.on('scene', followSoon);
+    parts.connection.on('scene', followSoon);
+    parts.selection.on('change', () => this.#show());
     // A field still shows what was refused.
-    app.connection.on('answer', ({request, ok}) => request && !ok && followSoon());
+    parts.connection.on('answer', ({request, ok}) => request && !ok && followSoon());
     this.element.addEventListener('focusout', () => setTimeout(() => this.isStale && this.#follow()));
-    app.view.overlays.push((view) => {
-      if (this.kind) this.live(view);
+    parts.view.overlays.push((view) => {
+      if (parts.selection.kind) this.live(view);
     });
   }
 
-  /** @returns {string} the name of the body that is its subject; '' where that is none, or several */
-  get name() {
-    return this.kind === 'body' ? this.names[0] : '';
-  }
-
-  /** @returns {string} the name of the joint that is its subject */
-  get joint() {
-    return this.kind === 'joint' ? this.names[0] : '';
-  }
-
-  /**
-   * @param {Kind} kind of the subject
-   * @param {string[]} names of its bodies, or of the joint
-   */
-  show(kind, names = []) {
-    const {app} = this;
-    if (kind !== this.kind || String(names) !== String(this.names)) this.element.scrollTop = 0;
-    Object.assign(this, {kind, names});
-    app.records.want(this, kind === 'body' ? names : []);
+  #show() {
+    const {records, selection: {kind, name, subject}} = this.parts, shown = `${kind} ${subject}`;
+    if (shown !== this.shown) this.element.scrollTop = 0;
+    this.shown = shown;
+    records.want(this, name ? [name] : []);
     this.render();
-    if (kind) app.lessons.settle();
-    app.card?.update();
   }
 
   /** Close it, as somebody has asked. */
   close() {
-    this.app.selection.select([]);
-    this.app.room.fit();
+    this.parts.selection.select([]);
+    this.parts.room.fit();
   }
 
   /** Show the subject as it is now; close the panel where it is gone. */
   render() {
-    const {app, element, kind, names} = this;
+    const {parts, element} = this, {kind, subject} = parts.selection;
     this.isStale = false;
     element.hidden = !kind;
     if (!kind) return;
     /** @type {?Content} */
-    const content = CONTENTS[kind](app, names);
+    const content = CONTENTS[kind](parts, subject, () => this.render());
     if (!content) {
-      app.selection.select([]);
+      parts.selection.select([]);
       return;
     }
     const {title, name = '', first = [], rest, live = () => {}} = content;
@@ -108,14 +90,14 @@ export class Panel {
     element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {}, name)),
       iconButton(t('Close'), 'close', () => this.close())), ...first, this.more, this.rest);
-    live(app.view);
+    live(parts.view);
     this.#fold();
   }
 
   /** Show the subject as it is, but not while its field is typed in, or its button pressed. */
   #follow() {
     const {element} = this;
-    this.isStale = this.kind !== '' && (element.contains(document.activeElement) || element.matches(':active'));
+    this.isStale = this.parts.selection.kind !== '' && (element.contains(document.activeElement) || element.matches(':active'));
     if (!this.isStale) this.render();
   }
 

@@ -5,7 +5,7 @@ import {createElement, inRow, showText, textButton} from '../dom.js';
 import {totalsOf} from '../measures/quantities.js';
 import {t} from '../strings.js';
 
-/** @import {App, Bounds} from '../types.js' */
+/** @import {Bounds, Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 const BESIDE = 0.5; // m between bodies and their copies
@@ -15,39 +15,39 @@ const ALIGNMENTS = [[t('Left'), 0, 0], [t('Centre'), 0, 0.5], [t('Right'), 0, 1]
 const DISTRIBUTIONS = [[t('Across'), 0], [t('Up'), 1]];
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'plotting' | 'selection' | 'world'>} parts
  * @param {string[]} names
  * @returns {Content}
  */
-export function severalContent(app, names) {
+export function severalContent(parts, names) {
   const totals = createElement('p', {className: 'numbers'});
-  return {title: t('{count} bodies', {count: names.length}), first: [totals], live: () => showText(totals, totalsOf(app.world, names)), rest: [
+  return {title: t('{count} bodies', {count: names.length}), first: [totals], live: () => showText(totals, totalsOf(parts.world, names)), rest: [
     createElement('p', {}, t('Drag them with the lasso.')),
     inRow(textButton(t('Copy beside'), () => {
-      const [left, , right] = app.world.boundsOfAll(names);
-      app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
-    }), textButton(t('Plot them'), () => app.plot((plot) => plot.open(names))), textButton(t('Delete bodies'), () => app.selection.deleteSelected(), 'danger')),
-    ...arrangeButtons(app, names)]};
+      const [left, , right] = parts.world.boundsOfAll(names);
+      parts.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
+    }), textButton(t('Plot them'), () => parts.plotting.open(names)), textButton(t('Delete bodies'), () => parts.selection.deleteSelected(), 'danger')),
+    ...arrangeButtons(parts, names)]};
 }
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'world'>} parts
  * @param {string[]} names of bodies
  * @returns {HTMLElement[]} buttons, in rows
  */
-function arrangeButtons(app, names) {
-  const align = ALIGNMENTS.map(([label, axis, share]) => textButton(label, () => place(app, names, (boxes) => {
+function arrangeButtons(parts, names) {
+  const align = ALIGNMENTS.map(([label, axis, share]) => textButton(label, () => place(parts, names, (boxes) => {
     const [least, most] = spanOf(boxes, axis), at = least + share * (most - least);
     return boxes.map((box) => along(axis, at - edge(box, axis, share)));
   })));
-  const distribute = DISTRIBUTIONS.map(([label, axis]) => textButton(label, () => place(app, names, (boxes) => distances(boxes, axis))));
+  const distribute = DISTRIBUTIONS.map(([label, axis]) => textButton(label, () => place(parts, names, (boxes) => distances(boxes, axis))));
   // Two bodies have one gap.
   const gaps = names.length > 2 ? [createElement('h3', {}, t('Equal gaps')), inRow(...distribute)] : [];
   return [createElement('h3', {}, t('Align')), inRow(...align), ...gaps];
 }
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'world'>} parts
  * @param {string[]} names
  * @param {(boxes: Bounds[]) => number[][]} wayOf how far each body is moved [m], by their boxes
  */

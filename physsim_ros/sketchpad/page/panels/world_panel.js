@@ -6,7 +6,7 @@ import {airFields} from './field_fields.js';
 import {t} from '../strings.js';
 import {DEGREE} from '../vectors.js';
 
-/** @import {App} from '../types.js' */
+/** @import {Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 /**
@@ -29,35 +29,32 @@ const STEP = 15; // degrees of the slider
 let turn = 0; // of gravity from down, counter-clockwise [°]: as it was, while there is none
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'material' | 'sound' | 'world'>} parts
+ * @param {string[]} _names
+ * @param {() => void} render the panel again
  * @returns {Content}
  */
-export function worldContent(app) {
-  const {scene} = app.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
+export function worldContent(parts, _names, render) {
+  const {scene} = parts.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
   // As it was set last: the panel is not renewed while somebody works in it.
   let size = strength;
   if (strength) turn = Math.round(Math.atan2(gx, -gy) / DEGREE * 1e4) / 1e4;
   const pull = () => {
     // The sine of a half turn is not exactly 0: nine digits are.
-    app.connection.send('gravity', {gravity: [Math.sin(turn * DEGREE) * size, -Math.cos(turn * DEGREE) * size].map((each) => Number(each.toFixed(9)))});
+    parts.connection.send('gravity', {gravity: [Math.sin(turn * DEGREE) * size, -Math.cos(turn * DEGREE) * size].map((each) => Number(each.toFixed(9)))});
   };
   const setSize = (/** @type {number} */ value) => {
     size = value;
     pull();
   };
-  const change = async (/** @type {any} */ properties) => {
-    const {material} = app;
-    app.material = {...material, ...properties};
-    if (!(await app.connection.ask('draw_with', properties)).ok) app.material = material;
-  };
-  const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
-  const any = checkField(t('Each body another colour'), !chosen, (checked) => change({color: checked ? '' : hexOf(color)}));
+  const {material} = parts, {color: chosen} = material, color = chosen || [0.3, 0.47, 0.66];
+  const any = checkField(t('Each body another colour'), !chosen, (checked) => material.change({color: checked ? '' : hexOf(color)}));
   return {title: t('Material of new bodies'), rest: [
-    ...materialFields({...scene, ...app.material, color}, (properties) => {
+    ...materialFields({...scene, ...material.chosen, color}, (properties) => {
       if (properties.color) /** @type {HTMLInputElement} */ (any.control).checked = false;
-      change(properties);
+      material.change(properties);
       // A material that was pressed is shown in the fields below.
-      if (properties.density && properties.friction) app.panel.render();
+      if (properties.density && properties.friction) render();
     }),
     any,
     createElement('h3', {}, t('Gravity')),
@@ -67,11 +64,8 @@ export function worldContent(app) {
       turn = degrees;
       pull();
     }),
-    ...airFields(app),
-    checkField(t('Sound of impacts'), app.sound.on, () => {
-      app.sound.toggle();
-      app.askForParts();
-    })]};
+    ...airFields(parts),
+    checkField(t('Sound of impacts'), parts.sound.on, () => parts.sound.toggle())]};
 }
 
 /**

@@ -10,7 +10,7 @@ import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance, isTap, onGrid, polar} from '../vectors.js';
 
-/** @import {App, ClickUse, Point, SceneView, Touch} from '../types.js' */
+/** @import {ClickUse, Point, SceneView, ToolParts, Touch} from '../types.js' */
 
 const DRAG = 6; // px: a rectangle that is less high or wide is a side
 const MARK = 4; // px: radius of a point that was clicked
@@ -20,12 +20,12 @@ const STEP = Math.PI / 12; // rad between the directions of angled lines
 
 export class ClickTool extends Gesture {
   /**
-   * @param {App} app
+   * @param {ToolParts} parts
    * @param {string} id of the tool
    * @param {ClickUse} use
    */
-  constructor(app, id, use) {
-    super(app);
+  constructor(parts, id, use) {
+    super(parts);
     this.id = id;
     this.use = use;
     this.clicks = use.clicks;
@@ -36,7 +36,7 @@ export class ClickTool extends Gesture {
     /** Where the pointer is, pressed or not. @type {?Touch} */
     this.pointed = null;
     this.begun = false; // whether the first point was clicked where the pointer was pressed
-    app.connection.on('answer', ({request, ok}) => {
+    parts.connection.on('answer', ({request, ok}) => {
       if (!ok && request && request === this.request) this.points = [];
     });
   }
@@ -69,7 +69,7 @@ export class ClickTool extends Gesture {
   }
 
   cancel() {
-    if (this.open) this.app.connection.send('drop');
+    if (this.open) this.parts.connection.send('drop');
     this.points = [];
   }
 
@@ -103,7 +103,7 @@ export class ClickTool extends Gesture {
         at = [first.at[0] + across, first.at[1] + up];
       }
     }
-    return {...touch, at, page: this.app.camera.toPage(...at)};
+    return {...touch, at, page: this.parts.camera.toPage(...at)};
   }
 
   /**
@@ -117,10 +117,10 @@ export class ClickTool extends Gesture {
 
   /** @param {Touch} touch */
   #click(touch) {
-    const {app, points} = this, end = points[this.id === 'polygon' ? 0 : points.length - 1];
+    const {parts, points} = this, end = points[this.id === 'polygon' ? 0 : points.length - 1];
     const closing = this.clicks === Infinity && points.length > (this.id === 'polygon' ? 2 : 1) &&
       distance(touch.page, end.page) < CLOSE;
-    this.request = app.connection.send('click',
+    this.request = parts.connection.send('click',
       {tool: this.id, point: closing && this.id === 'polygon' ? end.at : this.#meant(closing ? end : touch)});
     if (this.request) points.push(touch);
     else this.points = [];
@@ -134,7 +134,7 @@ export class ClickTool extends Gesture {
    * @returns {Point} of a tool for bodies, in the body that a finger beside it means [m]
    */
   #meant({at, slop}) {
-    const {world} = this.app, ofBody = this.aims && !this.points.length || this.use.joins;
+    const {world} = this.parts, ofBody = this.aims && !this.points.length || this.use.joins;
     const row = ofBody ? world.bodyAt(at, slop) : -1;
     return row < 0 ? at : world.place(row, world.gripOn(row, at));
   }

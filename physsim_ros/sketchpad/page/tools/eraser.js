@@ -32,7 +32,7 @@ export class Eraser extends Gesture {
   }
 
   end() {
-    const {connection} = this.app;
+    const {connection} = this.parts;
     if (this.bodies.size) connection.send('delete', {names: [...this.bodies]});
     // A joint goes with its body.
     else for (const name of this.joints) connection.send('unjoin', {name});
@@ -40,14 +40,14 @@ export class Eraser extends Gesture {
 
   /** @param {Touch} touch where it is */
   #meet({at, slop}) {
-    const {world, camera} = this.app, row = world.bodyAt(at, slop), joint = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
+    const {world, camera} = this.parts, row = world.bodyAt(at, slop), joint = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
     if (joint) this.joints.add(joint);
     else if (row >= 0) this.bodies.add(world.scene.bodies[row].name);
   }
 
   /** @param {SceneView} view */
   draw(view) {
-    const {world} = this.app, {palette} = view;
+    const {world} = this.parts, {palette} = view;
     if (!this.path.length) return;
     view.line(this.path.map(({at}) => at), palette.warn, [2, 6]);
     for (const name of this.bodies) if (world.row(name) >= 0) view.outline(world.row(name), palette.warn);

@@ -30,13 +30,13 @@ export class Pen extends Gesture {
 
   /** @param {Touch} touch */
   end(touch) {
-    const {app, path} = this;
+    const {parts, path} = this;
     if (this.isTap && touch.time - path[0].time < TAP_TIME) {
-      app.selection.selectAt(touch);
+      parts.selection.selectAt(touch);
       return;
     }
-    const id = app.connection.send('stroke', {points: path.map(({at, time}) => [...at, time])});
-    app.readings.addStroke(id, path.map(({at}) => at));
+    const id = parts.connection.send('stroke', {points: path.map(({at, time}) => [...at, time])});
+    parts.readings.addStroke(id, path.map(({at}) => at));
   }
 
   /** @param {SceneView} view */
@@ -54,18 +54,18 @@ export class Lasso extends Gesture {
 
   /** @param {Touch} touch */
   begin(touch) {
-    const {world, selection} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    const {world, selection} = this.parts, row = world.bodyAt(touch.at, touch.slop);
     this.carrying = row >= 0 && selection.names.has(world.scene.bodies[row].name);
   }
 
   /** @param {Touch} touch */
   end(touch) {
-    const {app, path} = this;
-    if (this.isTap) app.selection.selectAt(touch);
-    else if (this.carrying) app.connection.send(path[0].copies ? 'copy_machine' : 'move_bodies', {names: [...app.selection.names], by: offset(path)});
+    const {parts, path} = this;
+    if (this.isTap) parts.selection.selectAt(touch);
+    else if (this.carrying) parts.connection.send(path[0].copies ? 'copy_machine' : 'move_bodies', {names: [...parts.selection.names], by: offset(path)});
     else {
-      const {world} = app, loop = path.map(({at}) => at);
-      app.selection.select(world.scene.bodies.filter((body, row) => row < world.count &&
+      const {world} = parts, loop = path.map(({at}) => at);
+      parts.selection.select(world.scene.bodies.filter((body, row) => row < world.count &&
         inside(loop, ...world.place(row, body.centroid))).map(({name}) => name));
     }
   }
@@ -74,8 +74,8 @@ export class Lasso extends Gesture {
   draw(view) {
     if (!this.path.length) return;
     if (!this.carrying) view.line(this.path.map(({at}) => at), view.palette.accent, [6, 6]);
-    else for (const name of this.app.selection.names) {
-      const row = this.app.world.row(name);
+    else for (const name of this.parts.selection.names) {
+      const row = this.parts.world.row(name);
       if (row >= 0) view.outline(row, view.palette.accent, offset(this.path));
     }
   }

@@ -3,12 +3,13 @@
 
 import {isTap} from '../vectors.js';
 
-/** @import {App, Touch} from '../types.js' */
+/** @import {ToolParts, Touch} from '../types.js' */
 
+/** @template [Needed=ToolParts] */
 export class Gesture {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Needed} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {Touch[]} where the pointer has been, as input/gestures.js keeps it; empty while it is lifted */
     this.path = [];
   }

@@ -5,16 +5,16 @@ import {Gesture} from './gesture.js';
 import {placed} from '../measures/quantities.js';
 import {isTap, onGrid} from '../vectors.js';
 
-/** @import {App, Point, SceneView, Touch} from '../types.js' */
+/** @import {Point, SceneView, ToolParts, Touch} from '../types.js' */
 
 const CATCH = 120; // ms after which a body that is pressed is caught
 
 export class Hand extends Gesture {
   atServer = true;
 
-  /** @param {App} app */
-  constructor(app) {
-    super(app);
+  /** @param {ToolParts} parts */
+  constructor(parts) {
+    super(parts);
     /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'copying' | 'panning'} */
     this.state = '';
     this.name = '';
@@ -31,17 +31,12 @@ export class Hand extends Gesture {
 
   /** @returns {boolean} whether wheel, R and a second finger turn the body */
   get turns() {
-    return this.state === 'holding' && this.app.world.paused;
-  }
-
-  /** @returns {boolean} whether it tells how fast the body is */
-  get measures() {
-    return this.state === 'holding';
+    return this.state === 'holding' && this.parts.world.paused;
   }
 
   /** @param {Touch} touch */
   begin(touch) {
-    const {world} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    const {world} = this.parts, row = world.bodyAt(touch.at, touch.slop);
     this.moved = false;
     if (row < 0) this.state = 'panning';
     else {
@@ -62,33 +57,34 @@ export class Hand extends Gesture {
     if (this.state === 'pressed' && far) this.#grab();
     if (this.state === 'panning' && this.moved) {
       const [x, y] = path[path.length - 2].page;
-      this.app.camera.pan(touch.page[0] - x, touch.page[1] - y);
+      this.parts.camera.pan(touch.page[0] - x, touch.page[1] - y);
     }
     if (this.state === 'holding') this.#sendSoon();
   }
 
   /** @param {Touch} touch */
   end(touch) {
-    const {state, start, app} = this;
+    const {state, start, parts} = this;
     clearTimeout(this.timer);
     this.state = '';
     if (state === 'holding') {
       this.#sendMove();
-      app.connection.send('let_go');
-      app.askForParts();
-      if (this.moved) app.hints.completeStep('throw');
+      parts.connection.send('let_go');
+      parts.frames.want(this, {});
+      if (this.moved) parts.hints.completeStep('throw');
     }
-    if (!this.moved) app.selection.selectAt(touch);
-    else if (state === 'carrying' && start) app.connection.send('move_bodies', {names: [this.name], by: this.#carried(start, touch)});
+    if (!this.moved) parts.selection.selectAt(touch);
+    else if (state === 'carrying' && start) parts.connection.send('move_bodies', {names: [this.name], by: this.#carried(start, touch)});
     else if (state === 'copying' && start) {
-      const row = app.world.row(this.name), [dx, dy] = this.#carried(start, touch), {x, y} = app.world.frame;
-      if (row >= 0) app.connection.send('copy', {name: this.name, to: [x[row] + dx, y[row] + dy]});
+      const row = parts.world.row(this.name), [dx, dy] = this.#carried(start, touch), {x, y} = parts.world.frame;
+      if (row >= 0) parts.connection.send('copy', {name: this.name, to: [x[row] + dx, y[row] + dy]});
     }
   }
 
   cancel() {
     clearTimeout(this.timer);
-    if (this.state === 'holding') this.app.connection.send('let_go');
+    if (this.state === 'holding') this.parts.connection.send('let_go');
+    this.parts.frames.want(this, {});
     this.state = '';
   }
 
@@ -101,12 +97,13 @@ export class Hand extends Gesture {
 
   #grab() {
     clearTimeout(this.timer);
-    const {world, connection} = this.app, row = world.row(this.name);
+    const {world, connection} = this.parts, row = world.row(this.name);
     if (this.state !== 'pressed' || row < 0) return;
     this.state = 'holding';
     // The body has moved since it was pressed.
     connection.send('grab', {point: world.place(row, this.grip)});
-    this.app.askForParts();
+    // It tells how fast the body is.
+    this.parts.frames.want(this, {velocities: true});
   }
 
   /** Send where the hand is once a frame of the page. */
@@ -118,8 +115,8 @@ export class Hand extends Gesture {
   }
 
   #sendMove() {
-    const yaw = this.turned && this.app.world.paused ? {yaw: this.yaw} : {};
-    if (this.last) this.app.connection.send('move', {point: this.#target(this.last), ...yaw});
+    const yaw = this.turned && this.parts.world.paused ? {yaw: this.yaw} : {};
+    if (this.last) this.parts.connection.send('move', {point: this.#target(this.last), ...yaw});
   }
 
   /**
@@ -143,7 +140,7 @@ export class Hand extends Gesture {
 
   /** @param {SceneView} view */
   draw(view) {
-    const {world} = this.app, row = world.row(this.name);
+    const {world} = this.parts, row = world.row(this.name);
     if (row < 0 || !this.start || !this.last || !['carrying', 'copying', 'holding'].includes(this.state)) return;
     /** @type {Point} */
     let by = [0, 0];

@@ -10,7 +10,7 @@ import {digits} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, isTap, onGrid, polar} from '../vectors.js';
 
-/** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
+/** @import {Body, Parts, Point, SceneView, ToolParts, Touch} from '../types.js' */
 
 /**
  * @typedef {{foot: Point, side: number, angle: number, length: number}} Incline foot: lower end of the slope [m]; side: 1
@@ -23,23 +23,23 @@ const NEAR = 12; // px: a foot that near to a floor stands on it
 const STRAIGHT = 1e-3; // share of a side by which it may be out of the level or the vertical
 
 export class InclineTool extends Gesture {
-  /** @param {App} app */
-  constructor(app) {
-    super(app);
+  /** @param {ToolParts} parts */
+  constructor(parts) {
+    super(parts);
     this.fresh = ''; // name of the plane that is selected as soon as it is there
-    app.connection.on('scene', ({bodies}) => {
+    parts.connection.on('scene', ({bodies}) => {
       if (!bodies.some((/** @type {Body} */ {name}) => name === this.fresh)) return;
       const {fresh} = this;
       this.fresh = '';
-      queueMicrotask(() => app.selection.select([fresh]));
+      queueMicrotask(() => parts.selection.select([fresh]));
     });
   }
 
   /** @param {Touch} touch */
   async end(touch) {
-    const {app} = this;
-    this.fresh = app.classroom.freeName('incline');
-    const {ok} = await app.connection.ask('spawn', {body: {name: this.fresh, anchored: true, ...shapeOf(this.#drawn(this.path[0], touch))}});
+    const {parts} = this;
+    this.fresh = parts.people.freeName('incline');
+    const {ok} = await parts.connection.ask('spawn', {body: {name: this.fresh, anchored: true, ...shapeOf(this.#drawn(this.path[0], touch))}});
     if (!ok) this.fresh = '';
   }
 
@@ -49,7 +49,7 @@ export class InclineTool extends Gesture {
    * @returns {Incline} between them, in whole degrees; it stands on a floor that is near
    */
   #drawn(start, end) {
-    const {world, camera} = this.app, incline = this.#between(start, end), {foot} = incline;
+    const {world, camera} = this.parts, incline = this.#between(start, end), {foot} = incline;
     return end.grid ? incline : {...incline, foot: [foot[0], world.floorBy(foot, NEAR / camera.scale)]};
   }
 
@@ -61,7 +61,7 @@ export class InclineTool extends Gesture {
   #between(start, end) {
     const [x, y] = onGrid(start.at, start.grid);
     if (isTap(start, end)) return {foot: [x, y], ...USUAL};
-    const dx = end.at[0] - x, dy = end.at[1] - y, turn = end.grid ? ROUGH : 1, step = end.grid || this.app.camera.fineStep / 4;
+    const dx = end.at[0] - x, dy = end.at[1] - y, turn = end.grid ? ROUGH : 1, step = end.grid || this.parts.camera.fineStep / 4;
     const degrees = Math.round(Math.atan2(Math.abs(dy), Math.abs(dx)) / DEGREE / turn) * turn;
     const angle = Math.min(Math.max(degrees, turn), STEEPEST), length = Math.max(Math.round(Math.hypot(dx, dy) / step), 1) * step;
     const [across, up] = polar(length, angle * DEGREE), right = dx < 0 ? -1 : 1;
@@ -80,23 +80,24 @@ export class InclineTool extends Gesture {
 }
 
 /**
- * @param {App} app
+ * @param {Parts<'connection' | 'notes' | 'world'>} parts
  * @param {Body} body
+ * @param {() => void} render the panel again
  * @returns {HTMLElement[]} fields for angle and length, where the body is an inclined plane; its foot stays
  */
-export function inclineFields(app, {name, shape}) {
+export function inclineFields(parts, {name, shape}, render) {
   const now = () => {
-    const row = app.world.row(name), {scene} = app.world;
-    return row < 0 || shape.kind !== 'polygon' ? null : inclineOf(scene.bodies[row].shape.outline.map((point) => app.world.place(row, point)));
+    const row = parts.world.row(name), {scene} = parts.world;
+    return row < 0 || shape.kind !== 'polygon' ? null : inclineOf(scene.bodies[row].shape.outline.map((point) => parts.world.place(row, point)));
   };
   const shown = now();
   if (!shown) return [];
   const field = (/** @type {string} */ label, /** @type {'angle' | 'length'} */ key) => createElement('label', {}, label, numberField(shown[key], (value) => {
     const incline = {...now() ?? shown, [key]: value ?? 0}, {angle, length} = incline;
-    if (angle > 0 && angle < 90 && length > 0) app.connection.send('spawn', {body: {name, ...shapeOf(incline)}});
+    if (angle > 0 && angle < 90 && length > 0) parts.connection.send('spawn', {body: {name, ...shapeOf(incline)}});
     else {
-      app.notes.showMessage(t('The angle of a slope lies between 0° and 90°, and its length is not 0'), {ok: false});
-      app.panel.render();
+      parts.notes.showMessage(t('The angle of a slope lies between 0° and 90°, and its length is not 0'), {ok: false});
+      render();
     }
   }, {inputMode: 'decimal'}));
   return [field(t('Angle of the slope [°]'), 'angle'), field(t('Length of the slope [m]'), 'length')];

@@ -5,7 +5,7 @@ import {Gesture} from './gesture.js';
 import {degrees, threeDigits} from '../rounding.js';
 import {onGrid} from '../vectors.js';
 
-/** @import {App, Point, SceneView, Touch} from '../types.js' */
+/** @import {Point, SceneView, ToolParts, Touch} from '../types.js' */
 
 const TICK = 5, LONG_TICK = 9; // px of the marks of a ruler
 const LEAST_TICK = 6; // px from mark to mark
@@ -13,13 +13,13 @@ const ARC = 34; // px: radius of the arc of an angle
 
 /** A line from point to point, with marks, its length, slope and differences. */
 export class Ruler extends Gesture {
-  /** @param {App} app */
-  constructor(app) {
-    super(app);
+  /** @param {ToolParts} parts */
+  constructor(parts) {
+    super(parts);
     /** @type {Point[]} [m] */
     this.ends = [];
-    app.connection.on('world', () => { this.ends = []; });
-    app.view.overlays.push((view) => this.#draw(view));
+    parts.connection.on('world', () => { this.ends = []; });
+    parts.view.overlays.push((view) => this.#draw(view));
   }
 
   begin() {
@@ -64,18 +64,18 @@ export class Ruler extends Gesture {
 
 /** The angle between two arms: the first one is dragged from the corner, the second one clicked. */
 export class Protractor extends Gesture {
-  /** @param {App} app */
-  constructor(app) {
-    super(app);
+  /** @param {ToolParts} parts */
+  constructor(parts) {
+    super(parts);
     this.clicks = 2;
     /** @type {Point[]} corner, ends of the arms [m] */
     this.points = [];
     this.open = false; // the second arm follows the pointer
-    app.connection.on('world', () => {
+    parts.connection.on('world', () => {
       this.points = [];
       this.open = false;
     });
-    app.view.overlays.push((view) => this.#draw(view));
+    parts.view.overlays.push((view) => this.#draw(view));
   }
 
   /** @param {Touch} touch */

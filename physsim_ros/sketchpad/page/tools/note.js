@@ -6,7 +6,7 @@ import {Gesture} from './gesture.js';
 import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
 
-/** @import {App, Touch} from '../types.js' */
+/** @import {Parts, Touch} from '../types.js' */
 
 const LETTERS = 16, HALF = 140; // px: size of letters where a note is written, half the width of its field
 const LOOK = {anchored: true, sensor: true, color: '#ffe680'};
@@ -16,12 +16,12 @@ export class Note extends Gesture {
 
   /** @param {Touch} touch */
   end({at, page: [x, y]}) {
-    const {app} = this, em = LETTERS / app.camera.scale;
+    const {parts} = this, em = LETTERS / parts.camera.scale;
     const field = textField({'aria-label': t('Note'), onblur: () => field.remove(), onchange: () => {
       const label = textOf(field).trim();
-      if (label) sendNote(app, app.classroom.freeName('note'), label, at, em, LOOK);
+      if (label) sendNote(parts, parts.people.freeName('note'), label, at, em, LOOK);
     }});
-    field.style.left = `${Math.min(Math.max(x, HALF), app.camera.width - HALF)}px`;
+    field.style.left = `${Math.min(Math.max(x, HALF), parts.camera.width - HALF)}px`;
     field.style.top = `${y}px`;
     elementOf('places').append(field);
     field.focus();
@@ -30,7 +30,7 @@ export class Note extends Gesture {
 
 /**
  * Write a note, or change what is written on it.
- * @param {App} app
+ * @param {Parts<'connection' | 'view'>} parts
  * @param {string} name
  * @param {string} label
  * @param {number[]} at x, y [m], and where there are three, yaw [rad]

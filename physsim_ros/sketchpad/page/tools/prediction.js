@@ -10,19 +10,19 @@ import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
-/** @import {App, Point, Sample, SceneView, Touch} from '../types.js' */
+/** @import {Point, Sample, SceneView, ToolParts, Touch} from '../types.js' */
 
 const PARTS = 100; // of a way, at whose ends it is compared
 
 export class Prediction extends Gesture {
-  /** @param {App} app */
-  constructor(app) {
-    super(app);
+  /** @param {ToolParts} parts */
+  constructor(parts) {
+    super(parts);
     this.name = ''; // of the body whose way is drawn
     /** @type {Map<string, {since: number, way: Point[]}>} by body; since: time at which it was drawn [s] */
     this.ways = new Map();
-    app.view.overlays.push((view) => this.#drawAll(view));
-    app.connection.on('world', () => {
+    parts.view.overlays.push((view) => this.#drawAll(view));
+    parts.connection.on('world', () => {
       this.ways.clear();
       this.#record();
     });
@@ -30,13 +30,13 @@ export class Prediction extends Gesture {
 
   /** @param {Touch} touch */
   begin(touch) {
-    const {world, notes} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    const {world, notes} = this.parts, row = world.bodyAt(touch.at, touch.slop);
     this.name = row < 0 ? '' : world.scene.bodies[row].name;
     if (!this.name) notes.showMessage(t('Begin at the body whose way you draw'), {ok: false});
   }
 
   end() {
-    const {name, path, app: {world}} = this;
+    const {name, path, parts: {world}} = this;
     if (!name) return;
     // Its way begins at its centre of mass, as the one that it goes.
     const centre = world.place(world.row(name), world.body(name)?.centroid ?? [0, 0]);
@@ -46,7 +46,7 @@ export class Prediction extends Gesture {
   }
 
   #record() {
-    this.app.records.want(this, [...this.ways.keys()]);
+    this.parts.records.want(this, [...this.ways.keys()]);
   }
 
   /** @param {SceneView} view */
@@ -56,7 +56,7 @@ export class Prediction extends Gesture {
 
   /** @param {SceneView} view */
   #drawAll(view) {
-    const {world, records, camera} = this.app, {palette} = view, now = world.frame.time + 1e-9;
+    const {world, records, camera} = this.parts, {palette} = view, now = world.frame.time + 1e-9;
     for (const [name, {since, way}] of this.ways) {
       view.line(way, palette.momentum, [8, 6]);
       const [x, y] = camera.toPage(...way[way.length - 1]);

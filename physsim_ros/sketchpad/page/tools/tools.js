@@ -11,20 +11,20 @@ import {Prediction} from './prediction.js';
 import {t} from '../strings.js';
 import {WaterTool} from './water.js';
 
-/** @import {App, ClickUse, Tool} from '../types.js' */
+/** @import {ClickUse, Tool, ToolParts} from '../types.js' */
 
-/** @typedef {{id: string, name: string, key: string, keyName: string, hint: string, make: (app: App) => Tool}} Entry id: of its icon, too; keyName: as help tells it */
+/** @typedef {{id: string, name: string, key: string, keyName: string, hint: string, make: (parts: ToolParts) => Tool}} Entry id: of its icon, too; keyName: as help tells it */
 
 /**
  * @param {string} id
  * @param {string} name
  * @param {string} key
  * @param {string} hint how it is used, after its name
- * @param {ClickUse | (new (app: App) => Tool)} use of a tool of clicks; the class of another one
+ * @param {ClickUse | (new (parts: ToolParts) => Tool)} use of a tool of clicks; the class of another one
  * @returns {Entry}
  */
 function tool(id, name, key, hint, use) {
-  return {id, name, key: key.replace('Shift+', ''), keyName: key.length > 1 ? key : key.toUpperCase(), hint, make: (app) => typeof use === 'function' ? new use(app) : new ClickTool(app, id, use)};
+  return {id, name, key: key.replace('Shift+', ''), keyName: key.length > 1 ? key : key.toUpperCase(), hint, make: (parts) => typeof use === 'function' ? new use(parts) : new ClickTool(parts, id, use)};
 }
 
 /** In the groups of the toolbar. */

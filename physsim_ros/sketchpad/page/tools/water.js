@@ -13,8 +13,8 @@ const USUAL = [4, 2]; // m: width and depth of a tap, whose middle it is
 export class WaterTool extends Gesture {
   /** @param {Touch} touch */
   end(touch) {
-    const {classroom, connection} = this.app, [left, low, right, high] = this.#region(this.path[0], touch);
-    connection.send('spawn', {body: {name: classroom.freeName('water'), box: {width: right - left, height: high - low}, at: [(left + right) / 2, (low + high) / 2],
+    const {connection, people} = this.parts, [left, low, right, high] = this.#region(this.path[0], touch);
+    connection.send('spawn', {body: {name: people.freeName('water'), box: {width: right - left, height: high - low}, at: [(left + right) / 2, (low + high) / 2],
       anchored: true, sensor: true, medium: WATER, color: '#4d9de0'}});
   }
 

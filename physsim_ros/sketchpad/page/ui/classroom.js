@@ -2,32 +2,28 @@
 /** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
 
 import {createElement, elementOf, fieldForm, iconButton, inRow, soon, textButton} from '../dom.js';
+import {NAME, ownName, personWord, TEACHER} from '../people.js';
 import {t} from '../strings.js';
 
-/** @import {App, Classmate, Point, SceneView} from '../types.js' */
+/** @import {Parts, Point, SceneView} from '../types.js' */
 
-const NAME = 'physsim-name'; // of the person, in this browser
 const LONGEST = 24; // characters
 const PERIOD = 100; // ms between messages of the cursor
 const SHOWN = 10000; // ms: a cursor that rests
-const TITLE = t('People'), TEACHER = 'Teacher'; // name of a teacher without another one
+const TITLE = t('People');
 const GOLDEN = 137.5; // degrees from one hue to the next: the golden angle, so that the first ones are far from each other
 const LOOKS_IN = 'physsim-class'; // whose world it is that a teacher of a class looks into, in this tab
 
 export class Classroom {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    this.page = 0; // number of this one
-    this.teacher = false;
-    /** @type {{frozen: boolean, locked: string[], people: Classmate[], watched: boolean}} */
-    this.state = {frozen: false, locked: [], people: [], watched: false};
+  /** @param {Parts<'camera' | 'connection' | 'dialog' | 'lessons' | 'notes' | 'people' | 'selection' | 'view'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.raised = false; // the hand of this page
     /** @type {Map<number, {at: Point, until: number}>} */
     this.cursors = new Map();
     this.thaw = () => {}; // takes the note away that says that the world is frozen
     this.frozen = false; // whether it is there
-    const {connection, view} = app;
+    const {connection, view} = parts;
     // The page of a class has asked for it.
     const [, kind, given] = /^#(name|class)=(.*)/.exec(location.hash) ?? [];
     if (kind) {
@@ -35,28 +31,26 @@ export class Classroom {
       else sessionStorage.setItem(LOOKS_IN, decodeURIComponent(given));
       history.replaceState(null, '', location.pathname + location.search);
     }
-    connection.on('welcome', ({client, teacher}) => {
-      this.page = Number(client);
-      this.teacher = Boolean(teacher);
+    connection.on('welcome', () => {
       this.#showWhose();
       const name = ownName();
-      if (name && !app.viewOnly) connection.send('person', {name});
+      if (name && !parts.people.viewOnly) connection.send('person', {name});
       if (this.raised) this.#raise(true);
     });
-    connection.on('class', (state) => this.#follow(state));
+    connection.on('class', () => this.#follow());
     connection.on('lower_hand', () => this.#raise(false));
     connection.on('said', ({name: who, text}) => {
-      const take = app.notes.dock([`${personWord(who)}: ${text}`, textButton('OK', () => take())], 0);
+      const take = parts.notes.dock([`${personWord(who)}: ${text}`, textButton('OK', () => take())], 0);
     });
     connection.on('cursors', ({cursors}) => {
       for (const [page, x, y] of cursors) this.cursors.set(page, {at: [x, y], until: performance.now() + SHOWN});
     });
     /** @type {Point} of the cursor [px] */
     let cursor = [0, 0];
-    const sendSoon = soon(() => connection.send('here', {point: app.camera.toWorld(...cursor)}), PERIOD);
+    const sendSoon = soon(() => connection.send('here', {point: parts.camera.toWorld(...cursor)}), PERIOD);
     view.canvas.addEventListener('pointermove', ({clientX, clientY}) => {
       cursor = [clientX, clientY];
-      if (this.isShared && !app.viewOnly) sendSoon();
+      if (parts.people.isShared && !parts.people.viewOnly) sendSoon();
     });
     view.overlays.push((each) => this.#draw(each));
     this.button = iconButton(TITLE, 'people', () => this.#showPeople(), t('People in this world'));
@@ -66,74 +60,47 @@ export class Classroom {
     elementOf('looks').append(this.button, this.hand);
   }
 
-  /** @returns {boolean} whether several people draw in this world */
-  get isShared() {
-    return this.state.people.length > 1;
-  }
-
   /** Tell a teacher of a class whose world this is. */
   #showWhose() {
-    const whose = this.teacher ? sessionStorage.getItem(LOOKS_IN) : null;
+    const whose = this.parts.people.teacher ? sessionStorage.getItem(LOOKS_IN) : null;
     if (whose === null) return;
     document.title = whose ? t('World of {name}', {name: whose}) : t('Free world');
     const shown = document.querySelector('.whose') ?? elementOf('files').insertAdjacentElement('afterbegin', createElement('strong', {className: 'whose'}));
     if (shown) shown.textContent = document.title;
   }
 
-  /**
-   * @param {number | undefined} page
-   * @returns {string} the name of the person there, as the server has it; '' where it is nobody, or this page
-   */
-  nameOf(page) {
-    return this.state.people.find((each) => each.page === page && page !== this.page)?.name ?? '';
-  }
-
-  /**
-   * @param {string} stem of a body that a tool of this page adds
-   * @returns {string} its name: of the numbers that are free, pages take turns, so that no two choose the same one at once
-   */
-  freeName(stem) {
-    const {people} = this.state, taken = new Set(this.app.world.scene.bodies.map(({name}) => name));
-    let number = 1 + Math.max(people.findIndex(({page}) => page === this.page), 0);
-    while (taken.has(`${stem}/${number}`)) number += people.length || 1;
-    return `${stem}/${number}`;
-  }
-
-  /** @param {typeof this.state} state */
-  #follow(state) {
-    const {app} = this, pages = new Set(state.people.map(({page}) => page));
-    this.state = state;
+  #follow() {
+    const {parts, parts: {people: {isShared, teacher, viewOnly, state}}} = this, pages = new Set(state.people.map(({page}) => page));
     for (const page of this.cursors.keys()) if (!pages.has(page)) this.cursors.delete(page);
-    this.button.hidden = !this.isShared && !this.teacher;
-    this.hand.hidden = this.teacher || app.viewOnly || !state.watched && state.people.every(({role}) => role !== 'teach');
-    app.time.showTimeline();
-    const frozen = state.frozen && !this.teacher && !app.viewOnly;
+    this.button.hidden = !isShared && !teacher;
+    this.hand.hidden = teacher || viewOnly || !state.watched && state.people.every(({role}) => role !== 'teach');
+    const frozen = state.frozen && !teacher && !viewOnly;
     document.body.classList.toggle('frozen', frozen);
-    if (frozen && !this.frozen) this.thaw = app.notes.dock([t('Your teacher has frozen this world.')], 0);
+    if (frozen && !this.frozen) this.thaw = parts.notes.dock([t('Your teacher has frozen this world.')], 0);
     else if (!frozen) this.thaw();
     this.frozen = frozen;
-    app.dialog.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
+    parts.dialog.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
   }
 
   /** @param {boolean} raised */
   #raise(raised) {
     this.raised = raised;
     this.hand.setAttribute('aria-pressed', String(raised));
-    this.app.connection.send('raise_hand', {raised});
+    this.parts.connection.send('raise_hand', {raised});
   }
 
   #showPeople() {
-    const {app, state, teacher} = this, {connection} = app;
-    const own = state.people.find(({page}) => page === this.page)?.name ?? '';
+    const {parts, parts: {connection, people: {page: here, state, teacher}}} = this;
+    const own = state.people.find(({page}) => page === here)?.name ?? '';
     const input = createElement('input', {value: ownName(), placeholder: personWord(own), required: true,
       maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': t('Your name')});
     const form = fieldForm(input, t('Use this name'), (name) => {
       localStorage.setItem(NAME, name);
       connection.send('person', {name});
-      app.dialog.close();
+      parts.dialog.close();
     });
     const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, color, role, answered, raised}) => {
-      const shown = personWord(name), you = page === this.page ? ` (${t('you')})` : '';
+      const shown = personWord(name), you = page === here ? ` (${t('you')})` : '';
       const teaches = role === 'teach' && name !== TEACHER ? `, ${t('teacher')}` : '';
       return createElement('li', {}, dot(color), `${shown}${you}${teaches}`,
         ...raised ? [createElement('strong', {}, t('hand raised')),
@@ -141,12 +108,12 @@ export class Classroom {
         ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
         ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
     }));
-    app.dialog.show(TITLE, ...app.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
+    parts.dialog.show(TITLE, ...parts.people.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
   }
 
   /** @returns {Node[]} what a teacher may do */
   #powers() {
-    const {app: {connection, selection}, state: {frozen, locked}} = this, chosen = [...selection.names];
+    const {connection, selection, people: {state: {frozen, locked}}} = this.parts, chosen = [...selection.names];
     const freeze = textButton(frozen ? t('Let them draw again') : t('Freeze all pupils'), () => connection.send('freeze', {frozen: !frozen}));
     const lockThem = (/** @type {string[]} */ names) => () => connection.send('lock', {names});
     const lock = chosen.length ?
@@ -155,8 +122,8 @@ export class Classroom {
     return [createElement('h3', {}, t('Teacher')), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
       ...locked.length ? [textButton(t('Unlock all'), lockThem([]))] : []),
     ...locked.length ? [createElement('p', {}, t('Locked: {names}', {names: locked.join(', ')}))] : [],
-    inRow(textButton(t('Results'), () => this.app.with(import('./results.js'), ({showResults}) =>
-      showResults(this.app.dialog, this.app.lessons.list, () => connection.send('forget_results'))))),
+    inRow(textButton(t('Results'), () => this.parts.notes.load(import('./results.js'), ({showResults}) =>
+      showResults(this.parts.dialog, this.parts.lessons.list, () => connection.send('forget_results'))))),
     // Pupils of a class come by its own page.
     ...sessionStorage.getItem(LOOKS_IN) !== null ? [] : [createElement('h3', {}, t('Pupils come here')),
       createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})]];
@@ -164,11 +131,11 @@ export class Classroom {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {ctx} = view, now = performance.now();
+    const {ctx} = view, {people} = this.parts, now = performance.now();
     for (const [page, {at, until}] of this.cursors) {
-      const name = this.nameOf(page), person = this.state.people.find((each) => each.page === page);
+      const name = people.nameOf(page), person = people.state.people.find((each) => each.page === page);
       if (now > until || !name || !person) continue;
-      const [x, y] = this.app.camera.toPage(...at);
+      const [x, y] = this.parts.camera.toPage(...at);
       ctx.fillStyle = colorOf(person.color);
       ctx.beginPath();
       for (const [dx, dy] of [[0, 0], [0, 15], [4, 11], [11, 11]]) ctx.lineTo(x + dx, y + dy);
@@ -183,20 +150,6 @@ export class Classroom {
       ctx.fillText(shown, x + 16, y + 26);
     }
   }
-}
-
-/** @returns {string} that the person at this page has chosen; '' where it is none */
-export function ownName() {
-  return localStorage.getItem(NAME) ?? '';
-}
-
-/**
- * @param {string} name of a person, as the server has it
- * @returns {string} as it is shown: of who has chosen none, in the language of this page
- */
-export function personWord(name) {
-  const [, number] = /^Page (\d+)$/.exec(name) ?? [];
-  return number ? t('Page {number}', {number}) : name === TEACHER ? t('Teacher') : name;
 }
 
 /**

@@ -7,7 +7,7 @@ import {noteSeen, strokeCard} from './strokes.js';
 import {EDIT, TIME} from './time_bar.js';
 import {TOOLS} from '../tools/tools.js';
 
-/** @import {App} from '../types.js' */
+/** @import {Dialog} from './dialog.js' */
 
 const TOUCHED = matchMedia('(pointer: coarse)');
 const GESTURES = [
@@ -39,8 +39,11 @@ const MOVING = [
   ['?', t('This list')],
 ];
 
-/** @param {App} app */
-export function showHelp(app) {
+/**
+ * @param {Dialog} dialog
+ * @param {HTMLElement[]} settings fields
+ */
+export function showHelp(dialog, settings) {
   const key = (/** @type {string} */ name) => createElement('kbd', {}, name);
   const keys = [...TOOLS.flat().map(({name, keyName}) => [key(keyName), name]),
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
@@ -49,7 +52,7 @@ export function showHelp(app) {
   noteSeen();
   const parts = [strokes, section(t('Keys'), keys)];
   if (TOUCHED.matches) parts.splice(1, 0, section(t('Gestures'), GESTURES), section(t('Tools'), tools));
-  app.dialog.show(t('Help'), inRow(...app.settings.fields()), ...parts.flat());
+  dialog.show(t('Help'), inRow(...settings), ...parts.flat());
 }
 
 /**

@@ -8,7 +8,7 @@
 import {createElement, elementOf} from '../dom.js';
 import {t} from '../strings.js';
 
-/** @import {App, WorldState} from '../types.js' */
+/** @import {Parts, WorldState} from '../types.js' */
 
 /** Id, text, icon of the button that is pointed at, and when it is true. @type {[string, string, string, ((world: WorldState) => boolean)?][]} */
 const STEPS = [
@@ -24,9 +24,9 @@ const KNOWN = 2; // times that a tool was used after its hint, which is not show
 const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
 
 export class Hints {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'gestures' | 'notes' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.line = elementOf('hint');
     this.step = Number(localStorage.getItem(KEY) ?? 0);
     /** @type {Record<string, number>} how often tools were used after their hints */
@@ -34,7 +34,7 @@ export class Hints {
     this.tool = ''; // whose hint was shown last, until it is used
     this.timer = 0;
     this.shown = ''; // id of the step whose text is shown
-    const {connection} = app;
+    const {connection} = parts;
     connection.on('reading', ({built}) => built && this.completeStep('draw'));
     connection.on('answer', ({request, ok, topic, subject}) => {
       if (request && ok && topic === 'clicked_point' && subject) this.completeStep('draw');
@@ -42,14 +42,14 @@ export class Hints {
     // Only what this page does counts as a step.
     connection.on('sent', ({type, name, time}) => {
       if (type === 'speed' || name === 'play' && this.#isDone('draw')) this.completeStep('play');
-      if (type === 'seek' && time < app.world.frame.time || name === 'rewind') this.completeStep('rewind');
+      if (type === 'seek' && time < parts.world.frame.time || name === 'rewind') this.completeStep('rewind');
     });
     connection.on('timeline', ({courses = []}) => {
       if (courses.length && this.#isDone('rewind')) this.completeStep('change');
       if (this.shown !== 'tool' && this.#step()?.[0] !== this.shown) this.#showStep();
     });
     connection.on('scene', () => this.shown === 'tool' || this.#showStep());
-    app.gestures.on('end', ({tool}) => tool === app.gestures.tool && this.#noteUse());
+    parts.gestures.on('end', ({tool}) => tool === parts.gestures.tool && this.#noteUse());
     this.#showStep();
   }
 
@@ -69,8 +69,8 @@ export class Hints {
   /** @returns {typeof STEPS[0] | undefined} the next one that is true now */
   #step() {
     // A lesson has its own hints.
-    if (this.app.world.scene.lesson) return undefined;
-    const step = STEPS[this.step], holds = !step?.[3] || step[3](this.app.world);
+    if (this.parts.world.scene.lesson) return undefined;
+    const step = STEPS[this.step], holds = !step?.[3] || step[3](this.parts.world);
     // In a world that plays, the step `play` is left out.
     return holds ? step : step[0] === 'play' ? STEPS[this.step + 1] : undefined;
   }
@@ -83,7 +83,7 @@ export class Hints {
   showTool(id, text) {
     this.tool = id;
     if ((this.used[id] ?? 0) >= KNOWN) return;
-    this.app.notes.hide();
+    this.parts.notes.hide();
     this.#show(text);
     this.shown = 'tool';
     this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);

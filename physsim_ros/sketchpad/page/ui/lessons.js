@@ -11,14 +11,14 @@ import {numberOf} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 
-/** @import {App, Lesson} from '../types.js' */
+/** @import {Lesson, Parts} from '../types.js' */
 
 const SOLVED = 'physsim-lessons'; // titles of the lessons that were solved in this browser, as JSON
 
 export class Lessons {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'files' | 'people' | 'room' | 'selection' | 'time' | 'words' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {{name: string, number: number, title: string, question: string}[]} in their order */
     this.list = [];
     this.card = elementOf('lesson');
@@ -28,17 +28,19 @@ export class Lessons {
     this.shown = ''; // title of the lesson of the card
     /** @type {Set<string>} */
     this.solved = new Set(JSON.parse(localStorage.getItem(SOLVED) ?? '[]'));
-    app.connection.on('scene', ({lesson}) => lesson?.title === this.shown || this.#show(lesson));
-    app.connection.on('world', () => this.#show(app.world.scene.lesson));
-    app.connection.on('worlds', ({lessons}) => {
+    parts.connection.on('scene', ({lesson}) => lesson?.title === this.shown || this.#show(lesson));
+    parts.connection.on('world', () => this.#show(parts.world.scene.lesson));
+    parts.connection.on('worlds', ({lessons}) => {
       const first = !this.list.length;
       this.list = lessons;
       // The card names the next lesson.
-      if (first) this.#show(app.world.scene.lesson);
+      if (first) this.#show(parts.world.scene.lesson);
     });
+    // When the panel is there.
+    parts.selection.on('change', () => queueMicrotask(() => parts.selection.kind && this.settle()));
     this.began = Infinity; // earliest time that was shown of the lesson [s]
-    app.connection.on('frame', () => {
-      const {time} = app.world.frame;
+    parts.connection.on('frame', () => {
+      const {time} = parts.world.frame;
       if (time > this.began) this.settle();
       this.began = Math.min(this.began, time);
     });
@@ -57,8 +59,8 @@ export class Lessons {
 
   /** @param {{name: string, title: string}} lesson */
   open({name, title}) {
-    const {connection, gallery} = this.app;
-    return gallery.follow(connection.openLesson(name), t(title));
+    const {connection, files} = this.parts;
+    return files.follow(connection.openLesson(name), t(title));
   }
 
   get isFolded() {
@@ -68,27 +70,27 @@ export class Lessons {
   /** Fold the card to its question and answer, so that the experiment has the page: once, as it can be unfolded. */
   settle() {
     // A page without room shows the card or the panel: what is opened last.
-    if (!this.isFolded && (!this.settled || !isRoomy() && this.app.panel.kind)) this.#fold(true);
+    if (!this.isFolded && (!this.settled || !isRoomy() && this.parts.selection.kind)) this.#fold(true);
   }
 
   /** @param {boolean} folded */
   #fold(folded) {
-    const {app, card} = this;
+    const {parts, card} = this;
     this.settled = true;
     card.classList.toggle('folded', folded);
     this.more.setAttribute('aria-expanded', String(!folded));
-    if (!folded && !isRoomy() && app.panel.kind) app.selection.select([]);
-    app.room.fit();
+    if (!folded && !isRoomy() && parts.selection.kind) parts.selection.select([]);
+    parts.room.fit();
   }
 
   /** @param {?Lesson | undefined} lesson whose card is made anew */
   #show(lesson) {
-    const {card, app} = this;
+    const {card, parts} = this;
     this.shown = lesson?.title;
     card.hidden = !lesson;
     if (lesson) {
       card.replaceChildren(createElement('header', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`), this.more),
-        createElement('p', {className: 'question'}, t(lesson.question)), ...app.viewOnly ? [] : this.#work(lesson));
+        createElement('p', {className: 'question'}, t(lesson.question)), ...parts.people.viewOnly ? [] : this.#work(lesson));
     }
     this.#fold(false);
     this.settled = !lesson;
@@ -101,8 +103,8 @@ export class Lessons {
    * @param {HTMLElement} result beside which that is told
    */
   async #report(answer, result) {
-    const {ok, code, message} = await this.app.connection.ask('answered', answer);
-    const reason = this.app.words.tell({ok, code, message});
+    const {ok, code, message} = await this.parts.connection.ask('answered', answer);
+    const reason = this.parts.words.tell({ok, code, message});
     if (!ok) result.append(createElement('span', {className: 'danger'}, ` ${t('Your answer was not saved: {reason}', {reason})}`));
   }
 
@@ -129,7 +131,7 @@ export class Lessons {
       localStorage.setItem(SOLVED, JSON.stringify([...this.solved]));
     }, shown);
     const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
-    const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
+    const buttons = [textButton(t('Start again'), () => this.parts.time.callService('reset'))];
     if (next) buttons.push(textButton(t('Next lesson'), () => this.open(next)));
     return [
       createElement('p', {className: 'rest'}, createElement('strong', {}, t('To measure:')), ` ${t(measure)}`),

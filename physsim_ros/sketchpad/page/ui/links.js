@@ -9,29 +9,29 @@
 
 import {createElement, inRow, textButton} from '../dom.js';
 import {t} from '../strings.js';
-import {LARGEST} from './gallery.js';
+import {LARGEST} from './files.js';
 
-/** @import {App} from '../types.js' */
+/** @import {Parts} from '../types.js' */
 
 const WORLD = /^#world=(.+)/, LESSON = /[#?&]lesson=([^&]+)/, MOMENT = /[#?&]t=(\d+(?:\.\d+)?)/;
 const LONGEST = 16000; // characters
 
 export class Links {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    app.connection.on('welcome', () => this.#offerWorld());
+  /** @param {Parts<'connection' | 'dialog' | 'files' | 'lessons' | 'notes' | 'people' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
+    parts.connection.on('welcome', () => this.#offerWorld());
     /** @type {?number} the moment to go to when time has come there [s] */
     this.wanted = null;
     // The list of lessons has come.
-    app.connection.on('worlds', () => this.#offerPlace());
+    parts.connection.on('worlds', () => this.#offerPlace());
     addEventListener('hashchange', () => this.#offerPlace());
-    app.connection.on('frame', () => this.#stopAt());
+    parts.connection.on('frame', () => this.#stopAt());
   }
 
   /** Show a link that holds the world as it is now, and copy it. */
   async copy() {
-    const {gallery, notes} = this.app, world = await gallery.text();
+    const {files, notes} = this.parts, world = await files.text();
     if (world === null) return;
     const link = `${location.origin}/#world=${await packText(world)}`;
     if (link.length > LONGEST) {
@@ -43,7 +43,7 @@ export class Links {
 
   /** Show a link to the moment that is shown, of the lesson that is open, and copy it. */
   async copyMoment() {
-    const {lessons, world} = this.app, lesson = lessons.list.find(({title}) => title === world.scene.lesson?.title);
+    const {lessons, world} = this.parts, lesson = lessons.list.find(({title}) => title === world.scene.lesson?.title);
     const moment = `t=${Number(world.frame.time.toFixed(4))}`;
     await this.#show(t('A link to this moment'), `${location.origin}/#${lesson ? `lesson=${encodeURIComponent(lesson.name)}&` : ''}${moment}`);
   }
@@ -53,7 +53,7 @@ export class Links {
    * @param {string} link
    */
   async #show(title, link) {
-    const {dialog, notes} = this.app, text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
+    const {dialog, notes} = this.parts, text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
     dialog.show(title, text);
     text.select();
     notes.showMessage(title);
@@ -62,16 +62,16 @@ export class Links {
 
   #offerWorld() {
     const packed = WORLD.exec(location.hash)?.[1];
-    if (!packed || this.app.viewOnly) return;
+    if (!packed || this.parts.people.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
-    this.app.dialog.show(t('This link contains a world'), inRow(textButton(t('Open it'), () => this.#open(packed))));
+    this.parts.dialog.show(t('This link contains a world'), inRow(textButton(t('Open it'), () => this.#open(packed))));
   }
 
   /** @param {string} packed */
   async #open(packed) {
-    const {dialog, gallery, notes} = this.app, text = await unpackText(packed).catch(() => null);
+    const {dialog, files, notes} = this.parts, text = await unpackText(packed).catch(() => null);
     if (text !== null) {
-      await gallery.upload(text);
+      await files.upload(text);
       return;
     }
     dialog.close();
@@ -80,7 +80,7 @@ export class Links {
 
   /** Offer the lesson, and the moment, that the address names. */
   #offerPlace() {
-    const {lessons, dialog, notes, viewOnly, world} = this.app, address = location.hash || location.search;
+    const {lessons, dialog, notes, people: {viewOnly}, world} = this.parts, address = location.hash || location.search;
     const name = decodeURIComponent(LESSON.exec(address)?.[1] ?? ''), moment = MOMENT.exec(address)?.[1];
     const lesson = lessons.list.find((each) => each.name === name);
     if (!name && !moment || viewOnly) return;
@@ -101,7 +101,7 @@ export class Links {
 
   /** @param {number} time [s] where time has not been yet, the world is played until then */
   #goTo(time) {
-    const {world, connection} = this.app;
+    const {world, connection} = this.parts;
     if (time > world.timeline.newest) {
       this.#playTo(time);
       return;
@@ -113,17 +113,17 @@ export class Links {
   /** @param {number} time [s] */
   #playTo(time) {
     this.wanted = time;
-    this.app.connection.send('service', {name: 'play'});
+    this.parts.connection.send('service', {name: 'play'});
   }
 
   #stopAt() {
-    const {frame: {time, epoch}, scene} = this.app.world;
+    const {frame: {time, epoch}, scene} = this.parts.world;
     if (this.wanted === null || time < this.wanted || epoch !== scene.epoch) return;
     const wanted = this.wanted;
     this.wanted = null;
-    this.app.connection.send('service', {name: 'pause'});
+    this.parts.connection.send('service', {name: 'pause'});
     // It has gone on meanwhile.
-    this.app.connection.send('seek', {time: wanted});
+    this.parts.connection.send('seek', {time: wanted});
   }
 }
 

@@ -9,7 +9,7 @@ import {fixed} from '../rounding.js';
 import {t} from '../strings.js';
 import {shapeWord} from '../words.js';
 
-/** @import {App, Frame} from '../types.js' */
+/** @import {Frame, Parts} from '../types.js' */
 
 const PERIOD = 1500; // ms between two announcements
 const LISTED = 200, LIST_EVERY = 1000; // bodies that are listed, and ms from list to list
@@ -21,9 +21,9 @@ const STILL = 0.5; // s of rest after which it is told
 /** @typedef {{moves: boolean, since: number}} Motion since: when the body was faster than a body at rest [s] */
 
 export class Narrator {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'selection' | 'settings' | 'words' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.line = elementOf('moves');
     this.time = 0; // of the last frame [s]
     /** @type {Map<string, number>} when pairs of bodies touched last [s] */
@@ -33,8 +33,8 @@ export class Narrator {
     /** @type {string[]} */
     this.sentences = [];
     this.timer = 0;
-    app.connection.on('frame', () => this.#follow());
-    app.connection.on('world', () => this.#forget());
+    parts.connection.on('frame', () => this.#follow());
+    parts.connection.on('world', () => this.#forget());
     setInterval(() => this.#listBodies(), LIST_EVERY);
   }
 
@@ -44,7 +44,7 @@ export class Narrator {
   }
 
   #follow() {
-    const {world, selection, settings} = this.app, {frame: {time, velocities}, scene: {bodies}} = world;
+    const {world, selection, settings} = this.parts, {frame: {time, velocities}, scene: {bodies}} = world;
     // What was told of a time lies ahead again after a rewind.
     if (time < this.time) this.#forget();
     const later = time > this.time;
@@ -65,7 +65,7 @@ export class Narrator {
    * @param {number} speed [m/s]
    */
   #followBody(row, speed) {
-    const {world, words} = this.app, {name, centroid} = world.scene.bodies[row], time = fixed(this.time, 1);
+    const {world, words} = this.parts, {name, centroid} = world.scene.bodies[row], time = fixed(this.time, 1);
     const motion = this.motions.get(name) ?? {moves: speed > MOVES, since: this.time};
     this.motions.set(name, motion);
     if (speed > RESTS) motion.since = this.time;
@@ -81,7 +81,7 @@ export class Narrator {
 
   /** @param {Set<number>} rows of the bodies that are followed */
   #followTouches(rows) {
-    const {world: {touches, scene: {bodies}}, words} = this.app;
+    const {world: {touches, scene: {bodies}}, words} = this.parts;
     for (const {a, b} of touches) {
       const [one, other] = rows.has(a) ? [a, b] : [b, a];
       if (!rows.has(one)) continue;
@@ -95,7 +95,7 @@ export class Narrator {
 
   /** List the bodies, with their places now. */
   #listBodies() {
-    const {world} = this.app, {bodies} = world.scene;
+    const {world} = this.parts, {bodies} = world.scene;
     const texts = bodies.slice(0, LISTED).map((body, row) => {
       const {name, anchored, label} = body, [x, y] = world.place(row, [0, 0]);
       return [`${name}: ${shapeWord(body)}${label && ` ${label}`}`, ...anchored ? [t('anchored')] : [],
@@ -126,15 +126,15 @@ const LASTS = 0.18; // s
 const PITCH = 440; // Hz of a body of 1 kg; that of 16 kg is an octave lower
 
 export class Sound {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'frames' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.heard = 0; // impacts since the page began
     /** @type {?AudioContext} while it is on */
     this.context = null;
     /** @type {Set<string>} pairs of rows that touched in the frame before */
     this.touching = new Set();
-    app.connection.on('frame', (frame) => {
+    parts.connection.on('frame', (frame) => {
       if (this.context) this.#listen(frame, this.context);
     });
   }
@@ -147,6 +147,7 @@ export class Sound {
   toggle() {
     if (this.context) this.context.close();
     this.context = this.context ? null : new AudioContext();
+    this.parts.frames.want(this, {contacts: this.on});
   }
 
   /**
@@ -154,7 +155,7 @@ export class Sound {
    * @param {AudioContext} context
    */
   #listen({contacts, speed, epoch}, context) {
-    const {scene} = this.app.world, now = new Set(), impacts = [];
+    const {scene} = this.parts.world, now = new Set(), impacts = [];
     if (!contacts || speed <= 0 || epoch !== scene.epoch) return;
     for (let i = 0; i < contacts.a.length; i++) {
       const a = contacts.a[i], b = contacts.b[i], pair = `${a} ${b}`;

@@ -3,9 +3,9 @@
 
 import {createElement, elementOf, textButton} from '../dom.js';
 import {t} from '../strings.js';
-import {personWord} from './classroom.js';
+import {personWord} from '../people.js';
 
-/** @import {Answer, App, Point, SceneView} from '../types.js' */
+/** @import {Answer, Parts, Point, SceneView} from '../types.js' */
 
 const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
 /** Answers that are not shown: the clock and the hand show the same. */
@@ -14,9 +14,9 @@ const REST = /^and \d+ more answers$/; // of a frame, to a page that did not ask
 const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
 
 export class Notes {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'camera' | 'connection' | 'people' | 'view' | 'words'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.status = elementOf('status');
     this.places = elementOf('places');
     this.dismissOffer = () => {};
@@ -24,11 +24,11 @@ export class Notes {
     this.pinned = new Map();
     this.timer = 0;
     this.until = 0; // [ms] until then an answer to this page stays
-    this.parts = {of: '', left: 0}; // answers to come that are parts of what was told as one thing
+    this.rest = {of: '', left: 0}; // answers to come that are parts of what was told as one thing
     this.expected = () => {}; // shows an answer with the next scene
-    app.view.overlays.push(() => this.#place());
-    app.connection.on('answer', (answer) => this.#tell(answer));
-    app.connection.on('scene', () => {
+    parts.view.overlays.push(() => this.#place());
+    parts.connection.on('answer', (answer) => this.#tell(answer));
+    parts.connection.on('scene', () => {
       this.expected();
       this.expected = () => {};
     });
@@ -42,15 +42,15 @@ export class Notes {
     // A dialog asks about a name that is taken where a world is saved.
     if (SILENT.test(message) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
     const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0), rest = REST.test(message);
-    if (several > 1) this.parts = {of, left: several};
-    else if (this.parts.left && (rest || this.parts.of === of)) {
-      this.parts.left = rest ? 0 : this.parts.left - 1;
+    if (several > 1) this.rest = {of, left: several};
+    else if (this.rest.left && (rest || this.rest.of === of)) {
+      this.rest.left = rest ? 0 : this.rest.left - 1;
       if (ok) return;
     }
-    const who = own ? '' : personWord(this.app.classroom.nameOf(answer.page));
-    const tell = () => this.showMessage(`${who}${who && ': '}${this.app.words.tell(answer)}`, {ok, quiet: !own});
+    const who = own ? '' : personWord(this.parts.people.nameOf(answer.page));
+    const tell = () => this.showMessage(`${who}${who && ': '}${this.parts.words.tell(answer)}`, {ok, quiet: !own});
     this.expected = () => {};
-    if (this.app.words.knows(answer.subject)) tell();
+    if (this.parts.words.knows(answer.subject)) tell();
     else {
       this.expected = tell;
       setTimeout(() => this.expected === tell && tell(), SCENE_LATER);
@@ -83,6 +83,18 @@ export class Notes {
       this.dismissOffer();
       done();
     })], OFFERED);
+  }
+
+  /**
+   * Work with a script that is loaded when somebody asks for it.
+   * @template T
+   * @param {Promise<T>} loading
+   * @param {(script: T) => void} work
+   */
+  async load(loading, work) {
+    const script = await loading.catch(() => null);
+    if (script) work(script);
+    else this.showMessage(t('Not done: the server is not reachable'), {ok: false});
   }
 
   /** Hide the last answer. */
@@ -130,7 +142,7 @@ export class Notes {
   }
 
   #place() {
-    const {camera} = this.app;
+    const {camera} = this.parts;
     for (const [note, at] of this.pinned) {
       const place = at();
       if (!place) continue;
@@ -150,15 +162,15 @@ const KEPT = 100; // requests whose places are known: a stroke is answered by it
 const QUIET = ['show', 'watch', 'move', 'let_go', 'drop', 'answered', 'list'];
 
 export class Refusals {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'notes' | 'view' | 'words' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {Map<string, Place>} by request, the last ones of this socket */
     this.places = new Map();
     /** @type {Map<string, number>} bodies, and when they were refused [ms] */
     this.bodies = new Map();
     this.dismiss = () => {};
-    const {connection} = app;
+    const {connection} = parts;
     connection.on('sent', (message) => this.#note(message));
     connection.on('unsent', (message) => {
       if (!QUIET.includes(message.type)) this.#show(t('Not done: the server is not reachable'), placeOf(message));
@@ -167,10 +179,10 @@ export class Refusals {
       const place = this.places.get(request) ?? {point: null, names: []};
       if (ok || code === 'not_recognised' || code === 'exists' || request === '') return;
       const name = values.body ?? subject;
-      this.#show(app.words.tell({message, code, ok}), name ? {...place, names: [name]} : place);
+      this.#show(parts.words.tell({message, code, ok}), name ? {...place, names: [name]} : place);
     });
     connection.on('closed', () => this.places.clear());
-    app.view.overlays.push((view) => this.#draw(view));
+    parts.view.overlays.push((view) => this.#draw(view));
   }
 
   /** @param {any} message */
@@ -185,20 +197,20 @@ export class Refusals {
    * @param {Place} place
    */
   #show(reason, {point, names}) {
-    const {app} = this, {world} = app;
+    const {parts} = this, {world} = parts;
     const known = names.filter((name) => world.row(name) >= 0);
     // What a note at the place says is said in the line for screen readers alone.
-    app.notes.showMessage(reason, {ok: false, unseen: known.length > 0 || point !== null});
+    parts.notes.showMessage(reason, {ok: false, unseen: known.length > 0 || point !== null});
     this.dismiss();
     for (const name of known) this.bodies.set(name, performance.now());
-    if (known.length || point) this.dismiss = app.notes.pin(() => known.length ? world.topOf(known[0]) : point, [reason], READ, 'refusal');
+    if (known.length || point) this.dismiss = parts.notes.pin(() => known.length ? world.topOf(known[0]) : point, [reason], READ, 'refusal');
   }
 
   /** @param {SceneView} view */
   #draw(view) {
     const now = performance.now();
     for (const [name, since] of this.bodies) {
-      const row = this.app.world.row(name);
+      const row = this.parts.world.row(name);
       if (now - since > OUTLINED || row < 0) this.bodies.delete(name);
       else view.outline(row, view.palette.warn);
       // Until it has none.

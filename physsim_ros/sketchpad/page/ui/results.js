@@ -5,7 +5,7 @@ import {choice, createElement, download, inRow, textButton} from '../dom.js';
 import {csvOf} from '../csv.js';
 import {digits, numberOf, roundUp} from '../rounding.js';
 import {language, t} from '../strings.js';
-import {personWord} from './classroom.js';
+import {personWord} from '../people.js';
 
 /** @import {Result} from '../types.js' */
 /** @import {Dialog} from './dialog.js' */

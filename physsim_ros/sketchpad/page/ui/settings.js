@@ -5,21 +5,22 @@ import {checkField, languageField} from '../dom.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 
-/** @import {App} from '../types.js' */
+/** @import {Parts} from '../types.js' */
 
 const WORDS = 'physsim-words', SPEAKS = 'physsim-speaks'; // keys
 
 export class Settings {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    app.connection.on('scene', () => this.#showWords());
+  /** @param {Parts<'connection' | 'dialog' | 'frames' | 'notes' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
+    parts.connection.on('scene', () => this.#showWords());
     addEventListener('resize', () => this.#showWords());
+    this.#want();
   }
 
   /** @returns {boolean} whether icons have words: until somebody chooses, in lessons, where there is room */
   get words() {
-    const chosen = localStorage.getItem(WORDS), {world} = this.app;
+    const chosen = localStorage.getItem(WORDS), {world} = this.parts;
     return chosen === null ? Boolean(world.scene.lesson) && isRoomy() : chosen === '1';
   }
 
@@ -28,18 +29,27 @@ export class Settings {
     return localStorage.getItem(SPEAKS) === '1';
   }
 
+  showHelp() {
+    const {dialog, notes} = this.parts;
+    notes.load(import('./help.js'), ({showHelp}) => showHelp(dialog, this.#fields()));
+  }
+
+  #want() {
+    this.parts.frames.want(this, {velocities: this.speaks, contacts: this.speaks});
+  }
+
   #showWords() {
     document.body.classList.toggle('words', this.words);
   }
 
   /** @returns {HTMLElement[]} */
-  fields() {
+  #fields() {
     return [languageField(), checkField(t('Words at icons'), this.words, (checked) => {
       localStorage.setItem(WORDS, checked ? '1' : '0');
       this.#showWords();
     }), checkField(t('Tell what moves, for screen readers'), this.speaks, (checked) => {
       localStorage.setItem(SPEAKS, checked ? '1' : '0');
-      this.app.askForParts();
+      this.#want();
     })];
   }
 }

@@ -5,7 +5,7 @@ import {createElement, createGraphic, elementOf, iconButton, textButton} from '.
 import {t} from '../strings.js';
 import {thingWord} from '../words.js';
 
-/** @import {App, Point, Reading} from '../types.js' */
+/** @import {Parts, Point, Reading} from '../types.js' */
 
 /**
  * What it is called, the stroke that is drawn, and what is there before it. In a box of 60 by 40.
@@ -31,26 +31,27 @@ const SEEN = 'physsim-strokes';
 
 /** The card beside a canvas on which nothing can move yet, until something can or it is closed. */
 export class EmptyCard {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'people' | 'selection' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.closed = false;
     this.element = elementOf('card');
-    app.connection.on('scene', () => this.update());
+    parts.connection.on('scene', () => this.#update());
+    parts.selection.on('change', () => this.#update());
   }
 
-  update() {
-    const {app, element} = this, {epoch, bodies} = app.world.scene;
+  #update() {
+    const {parts, element} = this, {epoch, bodies} = parts.world.scene;
     const empty = epoch >= 0 && bodies.every(({anchored}) => anchored);
     if (!empty) this.closed = false;
-    const hidden = !empty || this.closed || app.viewOnly || !app.panel.element.hidden;
+    const hidden = !empty || this.closed || parts.people.viewOnly || parts.selection.kind !== '';
     if (hidden === element.hidden) return;
     element.hidden = hidden;
     if (hidden) return;
     element.replaceChildren(createElement('header', {}, createElement('h2', {}, t('Draw with the pen')),
       iconButton(t('Close'), 'close', () => {
         this.closed = true;
-        this.update();
+        this.#update();
       })), strokeCard());
     noteSeen();
   }
@@ -86,25 +87,25 @@ const LIKELY = 0.05; // the least confidence of a runner-up that is offered
 const GLANCED = 2500; // ms for which a reading without a runner-up is shown
 
 export class Readings {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'notes' | 'view' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {Map<string, Point[]>} strokes by their request */
     this.strokes = new Map();
     this.dismiss = () => {};
     this.shown = ''; // request whose reading is shown
-    app.view.overlays.push((view) => {
+    parts.view.overlays.push((view) => {
       for (const stroke of this.strokes.values()) view.line(stroke, view.palette.accent, [8, 6]);
     });
-    app.connection.on('reading', (reading) => this.#show(reading));
-    app.connection.on('answer', ({request, ok, code}) => {
+    parts.connection.on('reading', (reading) => this.#show(reading));
+    parts.connection.on('answer', ({request, ok, code}) => {
       if (ok || code === 'not_recognised') return;
       this.#forget(request);
       // Read, but not built.
       if (request === this.shown) this.dismiss();
     });
     // Until then they are shown as what is to be sent again.
-    app.connection.on('welcome', () => this.strokes.clear());
+    parts.connection.on('welcome', () => this.strokes.clear());
   }
 
   /**
@@ -131,7 +132,7 @@ export class Readings {
         .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: thingWord(guess)}), request, guess));
       // Where somebody has chosen another guess, it is sure.
       const label = guesses.some(([, sure]) => sure > confidence) ? thingWord(meaning) : labelOf(meaning, confidence);
-      const content = [label, ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.app;
+      const content = [label, ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.parts;
       // A note at the place would cover a running machine.
       this.dismiss = world.paused ? notes.pin(() => at, content, shown) : notes.dock(content, shown);
       return;
@@ -140,7 +141,7 @@ export class Readings {
     const close = textButton('×', () => this.dismiss());
     close.ariaLabel = t('Forget the stroke');
     const words = choices.length ? t('Not sure. Is it') : t('Not recognised');
-    const remove = this.app.notes.pin(() => at, [words, ...choices, close], 0);
+    const remove = this.parts.notes.pin(() => at, [words, ...choices, close], 0);
     this.dismiss = () => {
       remove();
       this.#forget(request);
@@ -154,7 +155,7 @@ export class Readings {
    */
   #guessButton(label, request, meaning) {
     return textButton(label, () => {
-      this.app.connection.send('instead', {meaning});
+      this.parts.connection.send('instead', {meaning});
       this.dismiss();
       this.#forget(request);
     });

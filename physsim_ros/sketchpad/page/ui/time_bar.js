@@ -5,7 +5,7 @@ import {createElement, elementOf, iconButton} from '../dom.js';
 import {fixed} from '../rounding.js';
 import {localized, t} from '../strings.js';
 
-/** @import {App} from '../types.js' */
+/** @import {Parts} from '../types.js' */
 
 /** Name, service, key, and what else it says. @type {[string, string, string, string?][]} */
 export const TIME = [
@@ -23,9 +23,9 @@ const EXPLAINED = 3000; // ms for which the world is slow before that is explain
 const SLOW = 0.9; // share of the speed asked for below which the pace is told
 
 export class TimeBar {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'connection' | 'gestures' | 'notes' | 'people' | 'view' | 'words' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.slider = elementOf('slider', HTMLInputElement);
     this.clock = elementOf('clock');
     this.marks = elementOf('marks');
@@ -56,48 +56,48 @@ export class TimeBar {
     this.slider.addEventListener('pointerdown', () => { this.held = true; });
     this.slider.addEventListener('change', () => { this.held = false; });
     this.speed.addEventListener('click', () => this.#changeSpeed());
-    app.connection.on('timeline', () => this.showTimeline());
-    app.connection.on('frame', () => this.#measurePace());
-    app.connection.on('world', () => { this.explained = false; });
-    app.connection.on('open', () => {
+    for (const type of ['timeline', 'class']) parts.connection.on(type, () => this.#showTimeline());
+    parts.connection.on('frame', () => this.#measurePace());
+    parts.connection.on('world', () => { this.explained = false; });
+    parts.connection.on('open', () => {
       this.busy = false;
       this.asked = 0;
     });
-    app.view.overlays.push(() => this.#showTime());
-    app.gestures.on('begin', () => this.#endRewind());
+    parts.view.overlays.push(() => this.#showTime());
+    parts.gestures.on('begin', () => this.#endRewind());
   }
 
   /** @param {string} service */
   callService(service) {
     if (service === 'step_back') return this.#stepBack();
-    if (service === 'step' && !this.app.world.paused) this.callService('pause');
-    if (service === 'play' && this.rate !== 1) this.app.connection.send('speed', {speed: this.rate});
+    if (service === 'step' && !this.parts.world.paused) this.callService('pause');
+    if (service === 'play' && this.rate !== 1) this.parts.connection.send('speed', {speed: this.rate});
     // Where several people draw, each undoes what is its own.
-    else if (service === 'undo' && this.app.classroom.isShared) this.app.connection.send('take_back');
-    else this.app.connection.send('service', {name: service});
+    else if (service === 'undo' && this.parts.people.isShared) this.parts.connection.send('take_back');
+    else this.parts.connection.send('service', {name: service});
   }
 
   /** Pause, and go to the frame before the one that is shown. */
   #stepBack() {
-    const {frame, rate, timeline, paused} = this.app.world;
+    const {frame, rate, timeline, paused} = this.parts.world;
     if (!paused) this.callService('pause');
     this.wanted = Math.max(Math.round((this.wanted ?? frame.time) * rate - 1) / rate, timeline.oldest);
     this.#seek();
   }
 
   toggle() {
-    this.callService(this.app.world.paused ? 'play' : 'pause');
+    this.callService(this.parts.world.paused ? 'play' : 'pause');
   }
 
   /** Pause a world that runs back: it would go back beyond a change at once. */
   #endRewind() {
-    if (this.app.world.frame.speed < 0) this.callService('pause');
+    if (this.parts.world.frame.speed < 0) this.callService('pause');
   }
 
   #slide() {
     // In a paused world too: a request to play may be on its way.
     if (!this.busy) this.callService('pause');
-    const {rate} = this.app.world, {value, min, max} = this.slider;
+    const {rate} = this.parts.world, {value, min, max} = this.slider;
     // The server keeps whole frames, which are shown at once.
     this.wanted = Math.min(Math.max(Math.round(Number(value) * rate) / rate, Number(min)), Number(max));
     this.#seek();
@@ -108,26 +108,26 @@ export class TimeBar {
     this.busy = true;
     const time = this.wanted;
     this.wanted = null;
-    await this.app.connection.ask('seek', {time});
+    await this.parts.connection.ask('seek', {time});
     this.busy = false;
     this.#seek();
   }
 
   async #changeSpeed() {
     // While a speed is asked for, that of the last frame is another one.
-    const {speed} = this.app.world.frame, now = speed > 0 && !this.asked ? speed : this.rate;
+    const {speed} = this.parts.world.frame, now = speed > 0 && !this.asked ? speed : this.rate;
     this.rate = SPEEDS[(SPEEDS.indexOf(now) + 1) % SPEEDS.length];
     if (!(speed > 0)) {
       this.#showSpeed(this.rate);
       return;
     }
     this.asked++;
-    await this.app.connection.ask('speed', {speed: this.rate});
+    await this.parts.connection.ask('speed', {speed: this.rate});
     this.asked--;
   }
 
   #measurePace() {
-    const {time, speed} = this.app.world.frame, now = performance.now();
+    const {time, speed} = this.parts.world.frame, now = performance.now();
     const last = this.paces.at(-1);
     if (last && (last[2] !== speed || time < last[1] || now - last[0] > WATCHED)) this.paces = [];
     this.paces.push([now, time, speed]);
@@ -164,11 +164,11 @@ export class TimeBar {
     this.slowSince = reason ? this.slowSince || now : 0;
     if (!reason || this.explained || now - this.slowSince < EXPLAINED) return;
     this.explained = true;
-    this.app.notes.dock([reason]);
+    this.parts.notes.dock([reason]);
   }
 
   #showTime() {
-    const {frame, timeline} = this.app.world;
+    const {frame, timeline} = this.parts.world;
     this.clock.textContent = `${fixed(frame.time, 2)} s`;
     if (!this.held && this.wanted === null && !this.busy) {
       this.slider.max = String(Math.max(timeline.newest, frame.time));
@@ -195,11 +195,11 @@ export class TimeBar {
     if (button) button.title = title || otherwise;
   }
 
-  showTimeline() {
-    const {undo, redo, oldest, newest, state, courses = []} = this.app.world.timeline;
+  #showTimeline() {
+    const {undo, redo, oldest, newest, state, courses = []} = this.parts.world.timeline;
     // What is undone is one's own, and that is not known here.
-    const gesture = (/** @type {string} */ told) => this.app.words.phrase(told.replace(/^(undo|redo) /, ''));
-    const undone = this.app.classroom.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)});
+    const gesture = (/** @type {string} */ told) => this.parts.words.phrase(told.replace(/^(undo|redo) /, ''));
+    const undone = this.parts.people.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)});
     this.#showEdit('undo', undone, t('Nothing to undo'));
     this.#showEdit('redo', redo && t('Redo: {gesture}', {gesture: gesture(redo)}), t('Nothing to redo'));
     this.clock.classList.toggle('past', state === 'in the past');
@@ -209,7 +209,7 @@ export class TimeBar {
       const name = t('Go back to how it went before, from {time}\u00a0s', {time: fixed(from, 1)}), key = `${id} ${name}`;
       // While time runs it is the same element: one that was made anew could not be pressed.
       const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
-        onclick: () => this.app.connection.send('course', {course: id})}));
+        onclick: () => this.parts.connection.send('course', {course: id})}));
       ring.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
       return [key, ring];
     }));

@@ -9,14 +9,15 @@ import {switchTheme} from '../view/theme.js';
 import {t} from '../strings.js';
 import {TOOLS} from '../tools/tools.js';
 
-/** @import {App, Tool} from '../types.js' */
+/** @import {Gallery, GalleryParts} from './gallery.js' */
+/** @import {Parts, Tool, ToolParts} from '../types.js' */
 
 const FEW = ['hand', 'ruler', 'protractor', 'predict', 'note']; // tools that a lesson needs
 
 export class Toolbar {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {ToolParts & Parts<'gestures' | 'room'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     /** @type {Map<string, {tool: Tool, button: HTMLButtonElement, hint: string}>} by id */
     this.tools = new Map();
     this.bar = elementOf('tools');
@@ -25,25 +26,22 @@ export class Toolbar {
       const box = createElement('div', {role: 'group'});
       for (const {id, name, keyName, hint, make} of group) {
         const button = iconButton(name, id, () => this.selectTool(id), `${name} (${keyName}): ${hint}`);
-        this.tools.set(id, {tool: make(app), button, hint: `${name}: ${hint}.`});
+        this.tools.set(id, {tool: make(parts), button, hint: `${name}: ${hint}.`});
         box.append(button);
       }
       this.bar.append(box);
     }
     this.more = iconButton(t('All tools'), 'pen', () => this.showFew(false), t('All tools (5): to draw and to join'));
-    this.bar.lastElementChild?.append(iconButton(t('Measure'), 'measure', () => {
-      app.selection.select([]);
-      app.panel.show('measure');
-    }, t('Stopwatch with gates, counter of collisions')), this.more);
+    this.bar.lastElementChild?.append(iconButton(t('Measure'), 'measure', () => parts.selection.show('measure'), t('Stopwatch with gates, counter of collisions')), this.more);
     this.#select('pen');
     this.showFew(false);
-    app.connection.on('world', () => this.#suit());
-    app.connection.on('scene', ({lesson}) => Boolean(lesson) === Boolean(this.lesson) || this.#suit());
+    parts.connection.on('world', () => this.#suit());
+    parts.connection.on('scene', ({lesson}) => Boolean(lesson) === Boolean(this.lesson) || this.#suit());
   }
 
   /** Show the tools that the world needs: those of a lesson, or all. */
   #suit() {
-    const {lesson} = this.app.world.scene;
+    const {lesson} = this.parts.world.scene;
     this.lesson = lesson;
     this.showFew(Boolean(lesson));
     this.#select(lesson ? 'hand' : 'pen');
@@ -56,7 +54,7 @@ export class Toolbar {
     this.more.hidden = !few;
     for (const [id, {button}] of this.tools) button.hidden = few && !FEW.includes(id);
     for (const group of this.bar.children) if (group instanceof HTMLElement) group.hidden = [...group.children].every((each) => each instanceof HTMLElement && each.hidden);
-    this.app.room?.fit();
+    this.parts.room.fit();
   }
 
   /**
@@ -66,43 +64,48 @@ export class Toolbar {
   selectTool(id) {
     if (this.tools.get(id)?.button.hidden) this.showFew(false);
     this.#select(id);
-    this.app.hints.showTool(id, this.tools.get(id)?.hint ?? '');
+    this.parts.hints.showTool(id, this.tools.get(id)?.hint ?? '');
   }
 
   /** @param {string} id */
   #select(id) {
     const selected = this.tools.get(id);
     if (!selected) return;
-    this.app.gestures.take(selected.tool);
-    this.app.view.canvas.dataset.tool = id;
+    this.parts.gestures.take(selected.tool);
+    this.parts.view.canvas.dataset.tool = id;
     for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
   }
 }
 
 export class TopBar {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {GalleryParts & Parts<'arrows' | 'camera' | 'connection' | 'room' | 'selection' | 'settings' | 'view'>} parts */
+  constructor(parts) {
+    this.parts = parts;
+    /** @type {?Gallery} null until it is asked for */
+    this.gallery = null;
     const zoom = createElement('span', {className: 'zoom'});
-    app.view.overlays.push(() => showText(zoom, `${Math.round(100 * app.camera.scale / app.camera.whole)} %`));
+    parts.view.overlays.push(() => showText(zoom, `${Math.round(100 * parts.camera.scale / parts.camera.whole)} %`));
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: t('The recording')});
     elementOf('files').append(
-      iconButton(t('Worlds'), 'worlds', () => app.gallery.openWorlds(), t('Worlds to open')),
-      iconButton(t('Save'), 'save', () => app.gallery.showSave(), t('Save, link, picture')));
+      iconButton(t('Worlds'), 'worlds', () => this.#openGallery((gallery) => gallery.openWorlds()), t('Worlds to open')),
+      iconButton(t('Save'), 'save', () => this.#openGallery((gallery) => gallery.showSave()), t('Save, link, picture')));
     elementOf('looks').append(
       this.#toggle('velocities', t('Show velocities'), 'velocities', t('Velocities as arrows, in m/s')),
       this.#toggle('forces', t('Show forces'), 'forces', t('Forces as arrows, in newtons; on a body that you tap, all')),
-      iconButton(t('Material'), 'material', () => {
-        app.selection.select([]);
-        app.panel.show('world');
-      }, t('Material of new bodies; gravity')),
-      iconButton(t('Frame the world'), 'fit', () => app.room.frameAll(), t('Frame the world (F)')), zoom,
+      iconButton(t('Material'), 'material', () => parts.selection.show('world'), t('Material of new bodies; gravity')),
+      iconButton(t('Frame the world'), 'fit', () => parts.room.frameAll(), t('Frame the world (F)')), zoom,
       iconButton(t('Light or dark'), 'theme', switchTheme),
-      iconButton(t('Help'), 'help', () => app.showHelp(), t('Help: keys and gestures (?)')));
+      iconButton(t('Help'), 'help', () => parts.settings.showHelp(), t('Help: keys and gestures (?)')));
     elementOf('looks').after(this.recording);
-    app.connection.on('recording', ({rerun}) => this.#link(rerun));
-    app.connection.on('welcome', ({rerun}) => this.#link(rerun));
+    parts.connection.on('recording', ({rerun}) => this.#link(rerun));
+    parts.connection.on('welcome', ({rerun}) => this.#link(rerun));
+  }
+
+  /** @param {(gallery: Gallery) => void} work */
+  #openGallery(work) {
+    const {parts} = this;
+    parts.notes.load(import('./gallery.js'), ({Gallery: Worlds}) => work(this.gallery ??= new Worlds(parts)));
   }
 
   /**
@@ -112,12 +115,8 @@ export class TopBar {
    * @param {string} title
    */
   #toggle(part, name, id, title) {
-    const {app} = this;
-    return toggling(iconButton(name, id, () => {}, title), () => app.arrows[part], () => {
-      app.arrows[part] = !app.arrows[part];
-      app.arrows.showLegend();
-      app.askForParts();
-    });
+    const {parts} = this;
+    return toggling(iconButton(name, id, () => {}, title), () => parts.arrows[part], () => parts.arrows.toggle(part));
   }
 
   /** @param {string} address of Rerun's page on the machine of the world; '' where it serves none */

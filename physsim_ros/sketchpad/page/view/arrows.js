@@ -14,7 +14,7 @@ import {digits, roundUp, threeDigits} from '../rounding.js';
 import {isRoomy} from './room.js';
 import {t} from '../strings.js';
 
-/** @import {App, Force, Palette, Point, SceneView} from '../types.js' */
+/** @import {Force, Palette, Parts, Point, SceneView} from '../types.js' */
 
 const BAR = 60; // px: of the bar that a scale is told by
 const ROOM = 0.3; // share of the view that the longest arrow may take
@@ -69,9 +69,9 @@ class ArrowScale {
 }
 
 export class Arrows {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'camera' | 'connection' | 'frames' | 'people' | 'records' | 'selection' | 'view' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.velocities = this.forces = false; // whether they are shown
     this.momenta = this.components = false;
     /** @type {Set<string>} kinds of forces that are not shown */
@@ -93,11 +93,21 @@ export class Arrows {
       this.unfolded = !this.unfolded;
       this.showLegend();
     }, '');
-    app.view.overlays.push((view) => this.#draw(view));
-    app.connection.on('world', () => {
+    parts.view.overlays.push((view) => this.#draw(view));
+    parts.connection.on('world', () => {
       this.kinds.clear();
       this.showLegend();
     });
+  }
+
+  /**
+   * Show them, or show them no longer.
+   * @param {'velocities' | 'forces'} what
+   */
+  toggle(what) {
+    this[what] = !this[what];
+    this.showLegend();
+    this.parts.frames.want(this, {velocities: this.velocities || this.forces, contacts: this.forces});
   }
 
   /** Show the legend of what is shown and occurs, with its switches. */
@@ -128,7 +138,7 @@ export class Arrows {
    * @param {SceneView} view
    */
   #placeLegend({insets: {left, top, right, bottom}}) {
-    const {legend, app: {world, camera}} = this, {offsetWidth: width, offsetHeight: height} = legend;
+    const {legend, parts: {world, camera}} = this, {offsetWidth: width, offsetHeight: height} = legend;
     const isFree = (/** @type {string} */ corner) => {
       const x = corner.includes('left') ? left : camera.width - right - width, y = corner.includes('top') ? top : camera.height - bottom - height;
       const [xmin, ymax] = camera.toWorld(x, y), [xmax, ymin] = camera.toWorld(x + width, y + height);
@@ -140,7 +150,7 @@ export class Arrows {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {world, camera} = this.app;
+    const {world, camera} = this.parts;
     const room = Math.max(ROOM * Math.min(camera.width - view.insets.left - view.insets.right,
       camera.height - view.insets.top - view.insets.bottom), BAR);
     this.drawn = [];
@@ -148,7 +158,7 @@ export class Arrows {
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
     if (!this.legend.hidden && world.paused) this.#placeLegend(view);
     this.hint.textContent = '';
-    if (!this.forces) drawApplied(this.app, view);
+    if (!this.forces) drawApplied(this.parts, view);
     else if (world.count) this.#drawForces(view, room);
     for (const [unit, scale] of Object.entries(this.scales)) {
       if (this.bars[unit]) showText(this.bars[unit], `${digits(scale.unit, 2)} ${unit}`);
@@ -157,7 +167,7 @@ export class Arrows {
 
   /** @param {number} room [px] */
   #fitSpeeds(room) {
-    const {world, selection} = this.app, {velocities} = world.frame;
+    const {world, selection} = this.parts, {velocities} = world.frame;
     if (!velocities || this.frozen) return;
     let most = LEAST_SPEED, mostImpulse = 0, mostTurn = 0;
     world.scene.bodies.forEach(({name, anchored, mass, moment}, row) => {
@@ -178,7 +188,7 @@ export class Arrows {
    * @param {number} room [px]
    */
   #drawVelocities(view, room) {
-    const {world, camera, panel} = this.app, {velocities} = world.frame, {accent, momentum} = view.palette;
+    const {world, camera, selection} = this.parts, {velocities} = world.frame, {accent, momentum} = view.palette;
     for (let row = 0; velocities && row < world.count; row++) {
       const {anchored, name, centroid, mass, moment} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
       if (anchored) continue;
@@ -190,7 +200,7 @@ export class Arrows {
       }
       const velocity = {from, x, y, scale: this.scales['m/s'], color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
       // The arrow of the selected body can be dragged (input/handles.js).
-      if (name !== panel.name) this.#arrow(view, room, velocity);
+      if (name !== selection.name) this.#arrow(view, room, velocity);
       else if (this.components) this.#components(view, room, velocity);
     }
   }
@@ -200,7 +210,7 @@ export class Arrows {
    * @param {number} room [px]
    */
   #drawForces(view, room) {
-    const {world, camera, selection, viewOnly} = this.app, all = forcesOf(world), {bodies} = world.scene;
+    const {world, camera, selection, people: {viewOnly}} = this.parts, all = forcesOf(world), {bodies} = world.scene;
     const selected = new Set([...selection.names].map((name) => world.row(name)));
     const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all), known = this.kinds.size;
     for (const {kind} of [...all, ...sums]) this.kinds.add(kind);
@@ -231,7 +241,7 @@ export class Arrows {
    * @param {SceneView} view
    */
   #drawTorque(view) {
-    const {world, camera, panel: {name}, records} = this.app, row = world.row(name), {time} = world.frame;
+    const {world, camera, selection: {name}, records} = this.parts, row = world.row(name), {time} = world.frame;
     const sample = records.samples(name).findLast((each) => each.time <= time + 1e-9);
     if (row < 0 || sample?.spinning === undefined || time - sample.time > 2 / world.rate) return;
     const {centroid, moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
@@ -303,7 +313,7 @@ function colorOf(kind, palette) {
 
 /**
  * Draw the constant forces of all bodies as arrows of one length, with the newtons of those on selected ones.
- * @param {App} app
+ * @param {Parts<'camera' | 'selection' | 'world'>} parts
  * @param {SceneView} view
  */
 function drawApplied({world, camera, selection}, view) {

@@ -10,7 +10,7 @@
 import {elementOf} from '../dom.js';
 import {unionOf} from './body_path.js';
 
-/** @import {App, Bounds} from '../types.js' */
+/** @import {Bounds, Parts} from '../types.js' */
 
 const GAP = 20, SMALL_GAP = 2; // px between the edges of the room and the world, and on a small page
 const LOW = 500, WIDE = 1000; // px: a page that is lower or less wide has no room for panels in full
@@ -23,28 +23,28 @@ export function isRoomy() {
 }
 
 export class Room {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
+  /** @param {Parts<'camera' | 'connection' | 'cursor' | 'gestures' | 'selection' | 'view' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
     this.element = elementOf('room');
     this.framed = false;
     this.world = ''; // bounds of the world that was framed, and its view; a world with others is framed again
     /** @type {Bounds} that was framed */
     this.extent = [0, 0, 0, 0];
     this.late = false; // whether the world is framed when the gesture ends
-    app.view.overlays.push(() => {
-      if (this.late && !this.app.gestures.isBusy) this.fit();
+    parts.view.overlays.push(() => {
+      if (this.late && !this.parts.gestures.isBusy) this.fit();
     });
-    new ResizeObserver(() => this.fit()).observe(app.view.canvas);
+    new ResizeObserver(() => this.fit()).observe(parts.view.canvas);
     new ResizeObserver(() => this.#follow()).observe(this.element);
-    app.connection.on('frame', () => {
-      const {frame, scene} = app.world, others = this.#worldNow !== this.world;
-      if (frame.epoch === scene.epoch && (!this.framed || others && app.camera.fitted)) this.frame();
+    parts.connection.on('frame', () => {
+      const {frame, scene} = parts.world, others = this.#worldNow !== this.world;
+      if (frame.epoch === scene.epoch && (!this.framed || others && parts.camera.fitted)) this.frame();
     });
   }
 
   get #worldNow() {
-    const {bounds, lesson} = this.app.world.scene;
+    const {bounds, lesson} = this.parts.world.scene;
     return `${bounds} ${lesson?.view ?? ''}`;
   }
 
@@ -56,7 +56,7 @@ export class Room {
 
   /** Frame the bounds of the world, and every body: it may have been dragged beyond them. */
   frameAll() {
-    const {world} = this.app;
+    const {world} = this.parts;
     this.frame(unionOf([world.extent(), world.bodiesExtent()]));
   }
 
@@ -64,10 +64,10 @@ export class Room {
    * Frame a part of the world.
    * @param {Bounds} extent
    */
-  frame(extent = this.app.world.extent()) {
-    const {app} = this;
+  frame(extent = this.parts.world.extent()) {
+    const {parts} = this;
     this.extent = extent;
-    this.framed = app.camera.fitted = true;
+    this.framed = parts.camera.fitted = true;
     this.world = this.#worldNow;
     this.#arrange();
   }
@@ -75,13 +75,13 @@ export class Room {
   /** Frame the world that comes next, in which nothing is selected. */
   frameNext() {
     this.framed = false;
-    this.app.cursor.hide();
-    this.app.selection.select([]);
+    this.parts.cursor.hide();
+    this.parts.selection.select([]);
   }
 
   /** Fit what was framed, and what is in sight, into the room. */
   fit() {
-    const {camera, view, world} = this.app, {left, top, right, bottom} = view.insets;
+    const {camera, view, world} = this.parts, {left, top, right, bottom} = view.insets;
     if (camera.fitted && this.framed) {
       const [xmin, ymax] = camera.toWorld(left, top), [xmax, ymin] = camera.toWorld(camera.width - right, camera.height - bottom);
       this.extent = unionOf([this.extent, world.boundsWithin([xmin, ymin, xmax, ymax])]);
@@ -91,17 +91,17 @@ export class Room {
 
   /** Fit the world into a room that has become smaller; one that has become larger shows more of the world. */
   #follow() {
-    const {view} = this.app, before = view.insets, now = this.#insets;
+    const {view} = this.parts, before = view.insets, now = this.#insets;
     if (now.left > before.left || now.top > before.top || now.right > before.right || now.bottom > before.bottom) this.fit();
     else view.insets = now;
   }
 
   #arrange() {
-    const {camera, view} = this.app, [xmin, ymin, xmax, ymax] = this.extent;
+    const {camera, view} = this.parts, [xmin, ymin, xmax, ymax] = this.extent;
     document.body.classList.toggle('wide', xmax - xmin > FLAT * (ymax - ymin));
     view.insets = this.#insets;
     view.dirty = true;
-    this.late = camera.fitted && this.app.gestures.isBusy;
+    this.late = camera.fitted && this.parts.gestures.isBusy;
     if (!camera.fitted || this.late) return;
     const {left, top, right, bottom} = view.insets, gap = isRoomy() ? GAP : SMALL_GAP;
     camera.fit(this.extent, {left: left + gap + (isRoomy() ? LABELS : 0), top: top + gap, right: right + gap, bottom: bottom + gap});
