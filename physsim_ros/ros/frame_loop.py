@@ -168,6 +168,8 @@ class FrameLoop:
             self.apply_up_to_seek()
         elif wait is not Wait.NONE:
             self._simulation.requests.apply_waiting()
+            # No tick goes on with a replay that the call began.
+            self._simulation.finish_seek(lambda: False)
 
     def current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""

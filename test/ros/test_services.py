@@ -196,3 +196,19 @@ def test_a_parameter_waits_for_the_end_of_a_seek_where_the_world_has_it(
     physsim.node.apply_requests()
     client.spin_until(named.done)
     assert parameter(physsim, name) == value
+
+
+def test_an_undo_is_answered_though_its_replay_is_long_and_time_does_not_go_on(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Here no replay is so short that a service finishes it at once.
+    monkeypatch.setattr('physsim_ros.ros.frame_loop.MOST_TICK_NS', -1)
+    client.ask('~/spawn', disc('disc/0', at=(0.0, 5.0)))
+    physsim.run(2.0)
+    client.ask('~/spawn', disc('disc/1', at=(3.0, 5.0)))
+    physsim.run(1.0)
+    digest = physsim.digest()
+    assert 'back at 2.000 s' in succeeded(client.call('~/undo'))
+    assert len(physsim.node.simulation.world) == 1
+    assert 'at 3.000 s' in succeeded(client.call('~/redo'))
+    assert physsim.digest() == digest
