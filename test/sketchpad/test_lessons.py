@@ -87,7 +87,7 @@ def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> No
     answer.wait_for()
     sheet.press('Worlds')
     solved = sheet.page.locator('.lessons').get_by_role('button', name='1. Free fall')
-    assert solved.get_by_role('img', name='solved').count() == 1
+    solved.get_by_role('img', name='solved').wait_for()
     sheet.press('Close')
     # The plots of a body have its fall, though the world was older when the lesson was opened.
     sheet.press('Play')

@@ -180,7 +180,8 @@ def test_the_card_of_strokes_is_in_the_help_and_beside_an_empty_canvas(sheet: Sh
     sheet.drag(*circle(-3.0, 5.0, 0.8))
     sheet.until(lambda: not card.is_visible(), 'no card beside a body')
     sheet.press('Help')
-    assert sheet.page.get_by_role('dialog').locator('.strokes li').count() == 14
+    strokes = sheet.page.get_by_role('dialog').locator('.strokes li')
+    sheet.until(lambda: strokes.count() == 14, 'the same strokes')
 
 
 def test_an_empty_world_has_earth_and_walls_of_its_own(sheet: Sheet) -> None:

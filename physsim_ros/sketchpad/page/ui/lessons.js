@@ -52,7 +52,8 @@ export class Lessons {
     return [createElement('h3', {}, t('Lessons')),
       createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
         createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.open({name, title})},
-          createElement('img', {src: `/gallery/${encodeURIComponent(name)}.svg`, alt: '', loading: 'lazy'}),
+          // A file that is no lesson has no number, and no picture.
+          ...number ? [createElement('img', {src: `/gallery/${encodeURIComponent(name)}.svg`, alt: '', loading: 'lazy'})] : [],
           createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
           createElement('small', {}, t(question))))))];
   }
