@@ -100,7 +100,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     save(sheet, 'mine')
     said(sheet, 'Saved as mine')
     sheet.press('Worlds')
-    sheet.page.locator('.own img').wait_for()
+    sheet.page.locator('.own img[src^="/picture/mine"]').wait_for()
     assert sheet.page.evaluate(PICTURE) == [480, 200]
     own = sheet.page.locator('.own', has_text='mine')
     own.get_by_role('button', name='Rename').click()
