@@ -198,7 +198,7 @@ def _bodies_at(state: WorldState, step: int) -> tuple[Body, ...]:
 
 
 def _timed(state: WorldState, step: int) -> dict[str, Any]:
-    """Return what the checkpoint of a state has of steps, but for its bodies, by field."""
+    """Return the fields of the checkpoint of a state that count steps, without its bodies."""
     return {
         'step': step,
         'wrenches': tuple(

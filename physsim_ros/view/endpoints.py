@@ -70,7 +70,7 @@ class Endpoint(ABC):
 
     @property
     def address(self) -> str:
-        """Return what receives the frames, its kind and its address."""
+        """Return the kind and the address of the receiver, as a sentence."""
         return f'Rerun {self.kind}: {self.where}'
 
     @property

@@ -23,7 +23,7 @@
 //    That of a disc gets it in each step, since Chipmunk has it point to the corner until the disc has passed it.
 // 4. What `cpArbiterPreStep` had made of the old contacts is made anew.
 //
-// Cost: 0.3 µs a contact that begins, 50 ns one of a disc.
+// Cost: 0.3 µs a contact that begins.
 //
 // Without part 1 law 3 (head-on impacts of squares) fails; without part 2 laws 6 (discs part along the normal of their
 // impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over seams

@@ -58,8 +58,7 @@ class Drive(Checked, ABC):
         Within(0.0, _LONGEST, 's'),
         'simulation time after which it stops without another command; 0 is no limit',
     ] = 0.5
-    # Not part of the text, so that digests of worlds are those of ever: commands on their way are
-    # part of the state.
+    # Digests leave both out: what they change is in the commands on their way, which digests have.
     latency: Annotated[
         Point,
         delays,
