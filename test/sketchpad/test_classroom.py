@@ -167,6 +167,11 @@ CHANGES: dict[str, tuple[str, str, dict[str, Any]]] = {
         'change_joint',
         {'name': 'arm/0/shoulder/0', 'properties': {'effort': 1}},
     ),
+    'its motor is commanded': (
+        'arm/0/upper/0',
+        'motor',
+        {'name': 'arm/0/shoulder/0', 'position': 0.5},
+    ),
     'a rope over it is changed': (
         'w/0',
         'change_joint',
