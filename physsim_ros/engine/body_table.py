@@ -29,14 +29,12 @@ from physsim_ros.model.checkpoint import NO_FIELDS
 from physsim_ros.model.media import gust_waves
 from physsim_ros.model.noise import normals
 from physsim_ros.model.scene import Body, Scene
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import STANDARD_GRAVITY, WorldSettings
 from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
 from physsim_ros.model.states import ACTOR_STATE, NO_ACTORS, NO_ROBOTS, Records, ROBOT_STATE
 from physsim_ros.model.transform import NO_WRENCH, Point
 import pymunk
 
-# A body beyond this position or speed is removed [m, m/s, rad, rad/s]; `step.c` has it too.
-LOST = 1e12
 # Steps whose noise is made at once: a call of `normals` takes as long as 300 of its numbers.
 _BLOCK = 64
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
@@ -122,15 +120,9 @@ class BodyTable:
         return leads * (2.0 / dt) * self.scene.inertia[:, :1]
 
     def lost(self) -> list[str]:
-        """Return the names of the bodies whose state is not finite, or too large."""
-        names = []
-        for rigid in self.bodies:
-            pm_body = rigid.pm_body
-            state = *pm_body.position, pm_body.angle, *pm_body.velocity, pm_body.angular_velocity
-            # NaN compares false, so that it is lost too.
-            if not all(abs(each) < LOST for each in state):
-                names.append(rigid.body.name)
-        return names
+        """Return the names of the bodies that have left the range of numbers in the last step."""
+        rows = np.flatnonzero(self.records['scratch']['lost'][:-1])
+        return [self.scene.names[row] for row in rows.tolist()]
 
     # Floor and robots
 
@@ -142,7 +134,7 @@ class BodyTable:
         :return: (k, 3) float64: changes of velocity [m/s] and spin [rad/s] of the bodies that the
             floor acts on, in spawn order
         """
-        return self.records['state']['push'][self.records['floor_friction'] > 0.0]
+        return self.records['state']['push'][self.records['braking'] > 0.0]
 
     @property
     def robot_states(self) -> Records:
@@ -293,8 +285,8 @@ def _body_records(scene: Scene) -> Table:
     own['area'] = [form.area for form in forms]
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
     own['slop'] = [_slop(body) for body in bodies]
-    own['floor_friction'] = scene.floor_friction
-    for row in np.flatnonzero(own['floor_friction']).tolist():
+    own['braking'] = scene.floor_friction * STANDARD_GRAVITY
+    for row in np.flatnonzero(own['braking']).tolist():
         wheels = bodies[row].wheels
         own[row]['lever'] = lever_of(forms[row]) if wheels is None else wheels.lever
     own['towed'] = [body.towed is not None for body in bodies]

@@ -437,7 +437,7 @@ class Space:
                 made,
                 number=number,
                 age=self._age,
-                drag_force=self._settings.drag_force,
+                drag_force=self._settings.drag_force * self._settings.reference_gravity,
                 reports_contacts=reports_contacts,
             )
         self._age += made

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import math
 from typing import Annotated, Any
 
-from physsim_ros.engine.body_table import LOST
+from physsim_ros.engine.core_world import LOST
 from physsim_ros.files.world_schema import is_same, naming, OWN_JOINT_KEYS, ROUNDING
 from physsim_ros.model.checkpoint import Commands, WorldState
 from physsim_ros.model.checks import LONGEST, point_list, text, Within
