@@ -15,7 +15,6 @@
 #include "joint_positions.h"
 #include "joint_velocities.h"
 #include "stages.h"
-#include <string.h>
 
 // Whether springs, dampers and friction alone join an island: sleeping.c finds whether it rests.
 static bool of_springs(const Island *island) {
@@ -52,9 +51,9 @@ static void close_island(World *world, Solve *solve) {
     bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {
-            Pose now = pose_of(island->engine[body]);
-            if (memcmp(&now, island->poses + body, sizeof(Pose)) != 0) {
-                set_pose(island->engine[body], island->poses[body]);
+            Pose now = pose_of(island->engine[body]), next = island->poses[body];
+            if (next.p.x != now.p.x || next.p.y != now.p.y || next.yaw != now.yaw) {
+                set_pose(island->engine[body], next);
             }
             // A slow swing would fall asleep at its turn.
             island->engine[body]->idle_time = may_sleep ? island->engine[body]->idle_time : 0.0;
