@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Latency: the time that a command is on its way from a controller to a drive.
+Latency: the time that a command is on its way to a drive, and the message of a reading to a node.
 
 Law: it depends on seed, name and step alone, so that a rewind repeats it.
 """
@@ -35,11 +35,11 @@ def delays(value: object, name: str) -> Point:
 
 def delay(latency: Point, seed: int, name: str, step: int) -> float:
     """
-    Return the latency of a command that leaves at a step [s].
+    Return the latency of a command or a reading that leaves at a step [s].
 
     :param latency: least and greatest time [s]
     :param seed: of all noise
-    :param name: of the command
+    :param name: of the command or the reading
     :param step: number of steps since the world began
     """
     low, high = latency
