@@ -65,11 +65,12 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         field_leads=table.field_leads,
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
-        commands=tuple(space.joints.commands.values()),
+        commands=space.joints.all_commands,
         bounds=space.joints.bounds(),
         robots=table.robot_states,
         coming=tuple(
-            (table.columns.rows[rigid.body.name], rigid.coming) for rigid in space.commanded()
+            (table.columns.rows[name], coming)
+            for name, coming in space.coming.in_order(space.bodies.by_name)
         ),
         actors=table.actor_states,
     )
@@ -100,7 +101,7 @@ def restore_checkpoint(
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
-        space.put_coming(rigids[row], coming)
+        space.coming.put(rigids[row].body.name, coming)
     space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
@@ -113,8 +114,8 @@ def restore_checkpoint(
     space.core.write_state(checkpoint.state)
     for joint in scene.joints:
         space.joints.add(joint)
-    for command, begun in checkpoint.commands:
-        space.joints.command(command, begun)
+    for command in checkpoint.commands:
+        space.joints.put_command(command, checkpoint.step)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()

@@ -67,7 +67,7 @@ def saved_state(space: Space, step: int) -> WorldState:
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
                 driven=driven[row].shifted(-step) if row in driven else None,
-                coming=tuple(command.shifted(-step) for command in rigid.coming),
+                coming=tuple(each.shifted(-step) for each in space.coming.of(rigid.body.name)),
                 acting=acting[row].shifted(-step) if row in acting else None,
             )
         )
@@ -126,10 +126,10 @@ def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
-        space.put_coming(rigids[row], coming)
+        space.coming.put(rigids[row].body.name, coming)
     space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
-    for command, begun in checkpoint.commands:
-        space.joints.command(command, begun)
+    for command in checkpoint.commands:
+        space.joints.put_command(command, checkpoint.step)
     return checkpoint
 
 
@@ -179,7 +179,7 @@ def _timed(state: WorldState, step: int) -> dict[str, Any]:
 
 def _shifted(commands: Commands, steps: int) -> Commands:
     """Return commands in a world that counts its steps from so many earlier."""
-    return tuple((command, begun + steps) for command, begun in commands)
+    return tuple(each._replace(begun=each.begun + steps) for each in commands)
 
 
 def _leads_of(checkpoint: Checkpoint) -> list[Twist | None]:

@@ -15,8 +15,8 @@ from typing import Annotated
 from physsim_ros.model.checks import ListOf, Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.latency import delays
 from physsim_ros.model.robots.drives import Drive, drive_from
-from physsim_ros.model.robots.latency import delays
 from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import check_tree, Link, LinkJoint, TREE_KINDS
 from physsim_ros.model.robots.sensors import Sensor, sensor_from, topic_name

@@ -21,8 +21,8 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.latency import delay
 from physsim_ros.model.robots import part_name, Robot, Sensor
-from physsim_ros.model.robots.latency import delay
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.states import SPAWNED
