@@ -1,6 +1,18 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
+// Immersion: which part of a body lies in a region, its exact area and centroid, and what of its outline is wet.
+//
+// Problem: buoyancy acts at the centroid of what is wet, and drag on the wet outline; a body at the surface has a part
+// of each.
+// Method: area and first moment are those of the pieces of the body: polygons are clipped at the edges of the region
+// (Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 1974); of discs, triangles and sectors are summed along
+// the edges of the region. The outline is that of the convex hull, which no other part of the body shields from the
+// flow.
+// Scope: where pieces overlap, both count, as they do for the mass. Round pieces among several are polygons in the
+// outline, and a round region is a polygon of 96 corners and the same area.
+// Cost: in `media.c`.
+
 #include "immersion.h"
 
 // Corners of the polygon that counts for a round region.
