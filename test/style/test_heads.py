@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The head of a stage of the core tells its problem, its method and its cost, each on its lines."""
+"""The head of a stage of the core tells its problem, its method and its cost, each on a line."""
 
 import re
 

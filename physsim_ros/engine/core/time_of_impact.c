@@ -17,7 +17,7 @@
 #include "one_way.h"
 
 // Advances of a pair in a step, at most: straight motion takes two or three, a fast turning stick that grazes a disc
-// about twenty. A pair that takes more ends its step as far as it has come.
+// about twenty. A pair that takes more ends its step where the last one has brought it.
 enum { ADVANCES = 24 };
 // Shapes have met when they overlap to within this share of the skin.
 static const double tolerance = 0.1;
@@ -190,7 +190,7 @@ static double advance(MovingShape *a, MovingShape *b, double radii, double skin,
             return INFINITY;
         }
     }
-    // It may meet later; it goes as far as is known to be clear.
+    // It may meet later; its step ends where the way is known to be clear.
     return share;
 }
 
