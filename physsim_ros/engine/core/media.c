@@ -19,7 +19,7 @@
 // Scope: no mass of medium that moves along (added mass), no lift, no waves; a medium is not pushed.
 // Laws: drag takes energy from what moves in a medium at rest; no drag is too strong for the steps; what is dry, what
 // is wet and their sum are the same outline.
-// Cost: 0.1 µs a body and sub-step within a region, 0.5 µs at its surface.
+// Cost: a hundred boxes that float apart take 1.5 times as long as a hundred that fall, discs 1.35 times.
 // Without it laws 70 and 71 fail: nothing floats.
 
 #include "media.h"
