@@ -52,7 +52,7 @@ class Odometry(Checked):
 
 # Names of topics that every robot has beside that of its commands.
 OWN_TOPICS = ('odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
-# Those of a robot whose joints have motors.
+# Names of the further topics of a robot whose joints have motors.
 JOINT_TOPICS = (
     'joint_command',
     'joint_trajectory_controller/joint_trajectory',

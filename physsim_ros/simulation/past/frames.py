@@ -93,7 +93,11 @@ class FrameCache:
         return [self._frames[each].copy() for each in self._steps[first:last]]
 
     def saver_of_run(self) -> Callable[[], WorldState]:
-        """As `World.saver`, of the state after the last request of the line that is kept."""
+        """
+        Return a function that returns, on any thread, the state with which the run began.
+
+        That is the state after the last request of the line, or at the first that is kept.
+        """
         tree = self._tree
         moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
         # The replay that is under way begins anew.
