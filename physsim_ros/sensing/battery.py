@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.robots import Battery
-from physsim_ros.model.shapes.containment import contains
+from physsim_ros.model.shapes import contains
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import world_to_local
 
