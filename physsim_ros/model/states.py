@@ -52,7 +52,7 @@ class RobotState(NamedTuple):
     drawn: float = 0.0
 
     def shifted(self, steps: int) -> Self:
-        """Return the state in a world that counts its steps from so many earlier."""
+        """Return the state with its steps counted from a beginning that is earlier."""
         if self.until == NEVER:
             return self
         return self._replace(until=max(self.until + steps, 0))
@@ -72,7 +72,7 @@ class ComingCommand(NamedTuple):
     until: int
 
     def shifted(self, steps: int) -> Self:
-        """Return the command in a world that counts its steps from so many earlier."""
+        """Return the command with its steps counted from a beginning that is earlier."""
         until = self.until if self.until == NEVER else self.until + steps
         return self._replace(begun=self.begun + steps, until=until)
 
@@ -90,7 +90,7 @@ class ActorState(NamedTuple):
     reached: int
 
     def shifted(self, steps: int) -> Self:
-        """Return the state in a world that counts its steps from so many earlier."""
+        """Return the state with its steps counted from a beginning that is earlier."""
         return self if self.begun == NEVER else self._replace(begun=self.begun + steps)
 
 
@@ -110,7 +110,7 @@ ROBOT_STATE = np.dtype(
     ]
 )
 ACTOR_STATE = np.dtype([('begun', np.int64), ('reached', np.int64)])
-# Those of a world without robots or actors, in memory once.
+# The states of worlds without robots or actors, in memory once.
 NO_ROBOTS, NO_ACTORS = np.empty(0, ROBOT_STATE), np.empty(0, ACTOR_STATE)
 
 _State = TypeVar('_State', RobotState, ActorState)

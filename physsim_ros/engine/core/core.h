@@ -272,7 +272,7 @@ typedef struct Guide {
 typedef struct Row {
     int32_t kind;
     int32_t law;
-    int32_t part, component; // which impulse of which constraint is that of the row
+    int32_t part, component; // the constraint that has the impulse of the row, and which of its two numbers that is
     double lower, upper;     // [m, rad]
     double below, above;     // factors from Chipmunk's impulse to λ, where x is below the lower bound, and elsewhere
     double most;             // greatest absolute value of λ in a step [N s, N m s]

@@ -3,8 +3,8 @@
 
 // Drives: from the last command of each robot to the velocity of the floor under its wheels; and its odometry.
 //
-// Problem: a robot does not have its commanded velocity at once, and not for ever: motors accelerate wheels by so
-// much, and a command counts until its timeout.
+// Problem: a robot does not have its commanded velocity at once, and not for ever: motors have a
+// greatest acceleration, and a command counts until its timeout.
 // Method: the velocity of the wheels goes to the commanded one on a straight line, as fast as the rim of no wheel
 // accelerates more than it can; a robot that starts on an arc stays on it. The wheels turn so whatever the body
 // does: where the floor cannot move it, they slip.

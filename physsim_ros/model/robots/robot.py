@@ -53,9 +53,9 @@ class Odometry(Checked):
 
 # Names of topics that every robot has beside that of its commands.
 OWN_TOPICS = ('odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
-# That of a robot with a battery.
+# Name of the further topic of a robot with a battery.
 BATTERY_TOPIC = 'battery_state'
-# Those of a robot whose joints have motors.
+# Names of the further topics of a robot whose joints have motors.
 JOINT_TOPICS = (
     'joint_command',
     'joint_trajectory_controller/joint_trajectory',
