@@ -39,13 +39,12 @@ WORDS: dict[tuple[str, str], str] = {
     ),
     ('interface/properties', 'A body from a marker'): (
         'mass, density, friction, elasticity, restitution, bounce, bouncy, bounciness, '
-        'force, thruster, collision group, sensor, conveyor, conveyor belt, belt, one-way, platform, '
-        'shape, rolling resistance, water, fluid, buoyancy, float, drag, wind, medium, charge, '
-        'attraction'
+        'force, thruster, collision group, sensor, conveyor, belt, one-way, platform, shape, '
+        'rolling resistance, water, fluid, buoyancy, float, drag, wind, medium, charge, attraction'
     ),
     ('interface/properties', 'A joint from a marker'): (
-        'joint, spring, motor, hinge, axle, rod, rope, gear, slider, pin, weld, damper, constraint, '
-        'pulley, winch, block and tackle, rack, pinion, ratchet, torsion spring'
+        'joint, spring, motor, hinge, axle, rod, rope, gear, slider, pin, weld, damper, pulley, '
+        'constraint, winch, block and tackle, rack, pinion, ratchet, torsion spring'
     ),
     ('interface/properties', 'Sensors of a robot'): (
         'laser, lidar, scan, IMU, GPS, bumper, range finder, line sensor, encoder'
