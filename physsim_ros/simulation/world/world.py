@@ -18,7 +18,6 @@ from operator import gt
 from typing import Any
 
 from physsim_ros.engine.contacts import take_contacts
-from physsim_ros.engine.saved_state import saved_state
 from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import StepFailed
@@ -207,7 +206,7 @@ class World(LiveSpace):
 
     def save(self) -> WorldState:
         """Return the saved state of the world."""
-        return saved_state(self.space, self.step_count)
+        return self.saver()()
 
     # Changing
 
