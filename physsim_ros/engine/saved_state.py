@@ -178,7 +178,7 @@ def _timed(state: WorldState, step: int) -> dict[str, Any]:
 
 
 def _shifted(commands: Commands, steps: int) -> Commands:
-    """Return commands in a world that counts its steps from so many earlier."""
+    """Return commands with their steps counted from a beginning that is earlier."""
     return tuple(each._replace(begun=each.begun + steps) for each in commands)
 
 

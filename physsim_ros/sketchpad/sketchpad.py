@@ -177,7 +177,7 @@ class Sketchpad:
         self._shared.pasts.send_due(now)
         self._shared.past_contacts.send_due()
         if self._autosave.is_due(now):
-            # Where too many requests wait, the world is saved later.
+            # While too many requests wait, the save is put off.
             with suppress(Busy):
                 self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
         if self._world.recording_address != self._sent_recording:

@@ -387,7 +387,7 @@ class Cursor(Replay):
         )
         self.serial += 1
         if tree.is_log_long:
-            # So that a paused world can drop its oldest requests.
+            # A paused world can then drop its oldest requests.
             self.add_keyframe()
 
     def advance(self, steps: int) -> None:

@@ -93,7 +93,7 @@ class FrameCache:
         return [self._frames[each].copy() for each in self._steps[first:last]]
 
     def state_of_run(self) -> WorldState:
-        """Return the state after the last request of the line, as far as that is kept."""
+        """Return the state after the last request of the line, or at the first that is kept."""
         tree = self._tree
         moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
         # The replay that is under way begins anew.
