@@ -5,7 +5,7 @@
 //
 // Problem: boxes of fast bodies span the world, so that n bodies make n² pairs in a step that no signal ends.
 // Method: an island has a budget of pairs, shared by its fast bodies. A body whose swept box meets more than its
-// share is followed not to the end of the step, but to a *horizon* at which the box meets so many; Chipmunk's own
+// share is followed not to the end of the step, but to a *horizon*, at which the box meets its share; Chipmunk's own
 // result holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in
 // Box2D, 2 m a step; Jolt's `mMaxLinearVelocity`), but here every finite velocity is a velocity.
 // Laws: a horizon follows from what a body itself could meet, and a body that meets little is followed to the end,
@@ -87,8 +87,7 @@ void fit_box(Mover *mover) {
     double arm = length(sub(mover->start, mover->pivot)), turn = mover->rate.w;
     double margin = mover->body->reach + arm * turn * turn / 8.0;
     mover->half = vec(margin, margin);
-    mover->box = united((Box){mover->start, mover->start}, (Box){mover->end, mover->end});
-    mover->box = (Box){sub(mover->box.low, mover->half), add(mover->box.high, mover->half)};
+    mover->box = box_of_way(mover->start, mover->end, margin);
 }
 
 // Convex shapes, and corners of them.
@@ -101,7 +100,7 @@ static void add_amount(Amount *amount, const Mover *mover) {
     amount->corners += mover->corners;
 }
 
-// The corners of all pairs of shapes of which one is of the first, one of the second amount.
+// The corners of all pairs of a shape of the first and a shape of the second amount.
 static double corners_of_pairs(Amount one, Amount other) {
     return one.shapes * other.corners + other.shapes * one.corners;
 }
@@ -216,7 +215,7 @@ Mover mover_of(Body *body, Twist way) {
                    .island = -1,
                    .next = -1,
                    .leader = -1};
-    // A turning disc covers the same ground.
+    // A disc covers the same ground however it turns.
     mover.rate = (Twist){way.v, mover.turning > 0.0 ? way.w : 0.0};
     fit_box(&mover);
     return mover;

@@ -7,12 +7,12 @@
 // tree need not change in each step. Fast bodies overlap in the tree then wherever they are (Munk2D as in Pymunk
 // 7.3.1): 12,000 discs of 20 km/s that touch nothing make pairs of 930 MB and steps of 1.6 s, 40 lists of 900
 // spheres of 1 km/s steps of 40 to 60 s. That is so in a free fall of some minutes, too.
-// Method: a body whose extended boxes overlap so many others that it costs less to index it in each step is indexed
+// Method: a body whose extended boxes overlap more others than indexing it in each step would cost is indexed
 // where the coming step ends, at rest: the tree's box is extended by a tenth of its size only (`GetBB`), and
 // Chipmunk finds it valid. Position, angle and velocity are as they were to the bit.
 // Scope: it depends on what is near a body: a crowd that falls, a single fast body, and one that slides over tiles
 // are left to Chipmunk.
-// Cost: some 0.5 µs for the count of each body that is fast enough for so many pairs (10 m/s with a half width of 5
+// Cost: some 0.5 µs for the count of each body that is fast enough for that many pairs (10 m/s with a half width of 5
 // cm), and as much for each that is indexed, in each step.
 // Without it `test/engine/stages/test_tight_boxes.py` fails.
 // It can go once Pymunk has `cpBBTreeSetVelocityFunc`.
@@ -56,20 +56,13 @@ static void index_at_end(World *world, cpBody *engine) {
     set_twist(engine, twist);
 }
 
-// The box of a body, extended as Chipmunk does.
-static Box extended_box(const Body *body) {
-    Vec start = body->engine->p, end = add(start, scaled(body->engine->v, extension));
-    Vec reach = vec(body->reach, body->reach);
-    return united((Box){sub(start, reach), add(start, reach)}, (Box){sub(end, reach), add(end, reach)});
-}
-
 // The box of all that fast bodies could meet.
 static Box box_of_fast(const World *world) {
     Box all = nowhere;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
         if (is_fast_in_crowd(body)) {
-            all = united(all, extended_box(body));
+            all = united(all, box_ahead(body, extension));
         }
     }
     return all;
@@ -86,7 +79,7 @@ void tighten_boxes(World *world) {
     Box *boxes = TAKE(arena, Box, world->body_count);
     int count = 0;
     for (int place = 0; place < world->body_count - 1; place++) {
-        boxes[count] = extended_box(world->bodies + place);
+        boxes[count] = box_ahead(world->bodies + place, extension);
         if (overlap(boxes[count], all)) {
             bodies[count++] = world->bodies + place;
         }

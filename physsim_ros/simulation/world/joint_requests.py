@@ -153,7 +153,13 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
                 field='joint',
             )
     for command in request.commands:
-        live.space.command_motor(command, live.step_count)
+        properties = live.space.joints.by_name[command.joint].joint.properties
+        latency, rate = properties.latency or (0.0, 0.0), properties.command_rate or 0.0
+        begun = live.begin_of_command(command.joint, latency, rate)
+        if begun == live.step_count and not live.space.joints.coming.of(command.joint):
+            live.space.command_motor(command, begun)
+        else:
+            live.space.command_motor_later(command, begun)
     subject = names[0] if len(names) == 1 else ''
     return Answer(subject=subject, message=f'commanded {counted(len(names), "motor")}')
 
@@ -320,7 +326,7 @@ def _seat(
     if kind.schema.has_axis:
         at_b = points[0]
     if kind.schema.rolls:
-        # What rolls to the right on what lies below it turns clockwise.
+        # A wheel that rolls to the right on a surface below it turns clockwise.
         ux, uy = -uy, ux
     length = math.dist(points[0], at_b)
     on_a, on_b = world_to_local(points[0], pose_a), world_to_local(at_b, pose_b)

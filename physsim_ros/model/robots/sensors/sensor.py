@@ -12,7 +12,7 @@ from typing import Annotated
 from physsim_ros.model.checks import Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.robots.latency import delays
+from physsim_ros.model.latency import delays
 from physsim_ros.model.robots.part_names import BASE, check_part
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Latency: the time that a command is on its way to a drive, and the message of a reading to a node.
+Latency: the time that a command is on its way to a drive or a motor, or a message of a reading.
 
 Law: it depends on seed, name and step alone, so that a rewind repeats it.
 """
@@ -15,6 +15,8 @@ from physsim_ros.model.transform import Point
 # Longest latency [s]. Commands on their way are part of the state, at most one for each step.
 LONGEST_DELAY = 5.0
 _DELAY = Within(0.0, LONGEST_DELAY, 's')
+# Looks for a command in a second: at most as many as a world makes steps.
+COMMAND_RATE = Within(0.0, 1e4, 'Hz')
 
 
 def delays(value: object, name: str) -> Point:
