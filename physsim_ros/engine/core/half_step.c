@@ -196,7 +196,7 @@ void find_free(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->state.free = false;
-        if (!body->dynamic || body->sprung || body->floor_friction > 0.0 || sleeps(body) ||
+        if (!body->dynamic || body->sprung || body->braking > 0.0 || sleeps(body) ||
             !has_stage(world, STAGE_HALF_STEP)) {
             continue;
         }
