@@ -58,7 +58,7 @@ static Twist *attracted(World *world, double ahead) {
     return forces;
 }
 
-// The mean force of all fields on a body in a time that begins with a twist, of which that of attraction is known.
+// The mean force of all fields on a body in a time that begins with a twist; `attraction` is the part of attraction.
 static Twist force_of_fields(const World *world, const Body *body, Twist twist, Twist attraction) {
     const Pull *pull = world->own->pulls + (body - world->bodies);
     Twist others = twist_sum(weight_of(world, body->engine), attraction, 1.0);
@@ -97,7 +97,7 @@ void begin_fields(World *world) {
     if (!has_fresh(world)) {
         return;
     }
-    find_leads(world);
+    find_leads(world, true);
     Media media = media_of(world, 0.0);
     const Twist *attraction = attracted(world, 0.0);
     for (int place = 0; place < world->body_count; place++) {

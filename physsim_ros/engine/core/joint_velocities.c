@@ -23,6 +23,7 @@
 // the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
 // pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that holds, as a taut
 // rope does, also gets the curvature term if that loads it more.
+// Cost: that of `joint_solver.c`.
 
 #include "joint_velocities.h"
 #include "mixed_lcp.h"

@@ -12,12 +12,14 @@
 //   the width across the flow. Turning counts by its part along n, at the centre of a round piece: friction alone would
 //   slow down the spin of a disc, and quadratic drag has none.
 // Both drags are -D (q - f) of the twists q of body and f of medium, with a matrix D that is symmetric and not
-// negative: drag takes energy from what moves in a medium at rest. What is dry, what is wet and their sum are the same
-// outline. Time: buoyancy and D are found once a step, for its middle; drag in each sub-step, of the velocity in the
-// middle of that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the
-// middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J.
-// Numer. Anal. 1970): no drag is too strong for the steps. Scope: no mass of medium that moves along (added mass), no
-// lift, no waves; a medium is not pushed. Cost: 0.1 µs a body and sub-step within a region, 0.5 µs at its surface.
+// negative. Buoyancy and D are found once a step, for its middle; drag in each sub-step, of the velocity in the middle
+// of that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the middle,
+// by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J. Numer.
+// Anal. 1970).
+// Scope: no mass of medium that moves along (added mass), no lift, no waves; a medium is not pushed.
+// Laws: drag takes energy from what moves in a medium at rest; no drag is too strong for the steps; what is dry, what
+// is wet and their sum are the same outline.
+// Cost: a hundred boxes that float apart take 1.5 times as long as a hundred that fall, discs 1.35 times.
 // Without it laws 70 and 71 fail: nothing floats.
 
 #include "media.h"

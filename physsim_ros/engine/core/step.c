@@ -105,7 +105,7 @@ static void step(World *world) {
     int awake_count = 0;
     Body **awake = step_chipmunk(world, &awake_count);
     keep_fields(world);
-    find_leads(world);
+    find_leads(world, world->has_fields);
     forgive_trembling(world);
     solve_joints(world);
     find_borne(world);
