@@ -39,6 +39,8 @@ class RobotState(NamedTuple):
     :ivar odometry: x, y [m], yaw [rad] by wheels and gyroscope, from the pose in which the robot
         was spawned
     :ivar covariance: of that pose
+    :ivar drawn: charge that its battery has given since it was spawned, less what docks have given
+        [A s]
     """
 
     aim: Twist
@@ -47,6 +49,7 @@ class RobotState(NamedTuple):
     travel: Pose
     odometry: Pose
     covariance: Covariance
+    drawn: float = 0.0
 
     def shifted(self, steps: int) -> Self:
         """Return the state with its steps counted from a beginning that is earlier."""
@@ -103,6 +106,7 @@ ROBOT_STATE = np.dtype(
         ('travel', np.float64, 3),
         ('odometry', np.float64, 3),
         ('covariance', np.float64, 6),
+        ('drawn', np.float64),
     ]
 )
 ACTOR_STATE = np.dtype([('begun', np.int64), ('reached', np.int64)])
