@@ -225,9 +225,9 @@ static void fit_drag(Pull *pull, const cpBody *engine, double lapse) {
 // The twist that a body in free flight has after a time, by implicit Euler with the drag of a guess of that twist.
 static Twist twist_after(Pull pull, const Share *shares, int count, const Flight *flight, const cpBody *engine) {
     add_drag(&pull, shares, count, flight->guess);
-    pull.inverse = inverse_of(times(pull.resistance, flight->ahead), engine->m, engine->i);
+    Resistance inverse = inverse_of(times(pull.resistance, flight->ahead), engine->m, engine->i);
     Twist all = twist_sum(twist_sum(pull.steady, flight->others, 1.0), resisted(pull.resistance, flight->now), -1.0);
-    return twist_sum(flight->now, resisted(pull.inverse, all), flight->ahead);
+    return twist_sum(flight->now, resisted(inverse, all), flight->ahead);
 }
 
 Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse) {
