@@ -10,7 +10,7 @@ square over two bodies welds them (a pin).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 import math
 
@@ -29,13 +29,11 @@ from physsim_ros.model.transform import Point
 _LEAST_ROUND = Limit(0.4, 0.03)
 # The size of an axle or a weld, in shares of the greatest.
 _SMALL = Limit(1.0, 0.06)
-# The greatest diameter of an axle, in side lengths of a square of the body's area: on one body;
-# on two that overlap.
+# The greatest diameter of an axle, and side of a weld, in side lengths of a square of the lesser
+# body's area: with its middle on one body, or in a gap; on two that overlap.
 _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
-# The least number of corners of a polygon that may be a small circle.
+# The least number of corners of a polygon that may be a small circle; one of four may be a square.
 _LEAST_CORNERS = 5
-# The greatest side of a weld, in side lengths of a square of the lesser body's area.
-_LARGEST_WELD = 0.5
 
 
 def disc_meanings(form: Form, context: Context) -> Iterator[Meaning]:
@@ -57,18 +55,25 @@ def oval_meanings(form: Form, context: Context) -> Iterator[Meaning]:
 
 
 def polygon_meanings(form: Form, context: Context) -> Iterator[Meaning]:
-    """Yield axle and polygon: small circles are drawn with corners."""
+    """Yield a polygon, and axle or weld: small circles are drawn with corners, squares askew."""
     points = form.points
+    build = partial(outcomes.polygon, points, context)
+    if len(points) < _LEAST_CORNERS:
+        yield from _weld_or_body(form, context, meaning=POLYGON, build=build)
+        return
     middle = points.mean(axis=0)
     center = point_of(middle)
-    share = 0.0
-    if len(points) >= _LEAST_CORNERS:
-        _, along, across = principal_axis(points - middle)
-        share = _axle_share(center, size_of(points) / 3, context)
-        share *= _LEAST_ROUND.above(math.sqrt(across / along))
+    _, along, across = principal_axis(points - middle)
+    share = _axle_share(center, size_of(points) / 3, context)
+    share *= _LEAST_ROUND.above(math.sqrt(across / along))
     circle = center, math.dist(middle, points[0])
-    build = partial(outcomes.polygon, points, context)
     yield from _axle_or_body(form, share, circle, context, meaning=POLYGON, build=build)
+
+
+def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
+    """Yield a weld and a rectangle."""
+    build = partial(outcomes.rectangle, form.points, context)
+    yield from _weld_or_body(form, context, meaning=RECTANGLE, build=build)
 
 
 def _axle_or_body(
@@ -93,17 +98,19 @@ def _axle_or_body(
     yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
 
 
-def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
-    """Yield a weld and a rectangle."""
+def _weld_or_body(
+    form: Form, context: Context, *, meaning: str, build: Callable[[], Outcome]
+) -> Iterator[Meaning]:
+    """Yield a weld and a body, which share the weight of an outline of few corners."""
     center = point_of(form.points.mean(axis=0))
     under = bodies_under.crossed_pair(center, context)
-    weld = form.weight * _weld_share(form.points, under, context)
-    yield Meaning(name='pin', weight=weld, build=partial(_weld_bodies, center, under, context))
-    yield Meaning(
-        name=RECTANGLE,
-        weight=form.weight - weld,
-        build=partial(outcomes.rectangle, form.points, context),
-    )
+    share = 0.0
+    if len(form.points) == 4 and len(under) == 2:
+        side = max(map(math.dist, form.points[:2], form.points[1:3]))
+        share = _SMALL.below(side / _largest_joint(center, under, context))
+    weld = partial(_weld_bodies, center, under, context)
+    yield Meaning(name='pin', weight=form.weight * share, build=weld)
+    yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
 
 
 def _axle_share(center: Point, radius: float, context: Context) -> float:
@@ -113,20 +120,25 @@ def _axle_share(center: Point, radius: float, context: Context) -> float:
     :param radius: of the shape [m]
     """
     scene = context.scene
-    covering = scene.bodies_at(center)[:2]
     # In a gap, an axle joins the bodies on either side.
-    under = covering or bodies_under.crossed_pair(center, context)
-    if not covering and not any(scene.body(name).dynamic for name in under):
+    under = bodies_under.crossed_pair(center, context)
+    if not under or not any(scene.body(name).dynamic for name in under):
         return 0.0
-    least = min(math.sqrt(scene.body(name).shape.form.area) for name in under)
-    limit = (_LARGEST if len(covering) < 2 else _LARGEST_ON_TWO) * least
+    limit = _largest_joint(center, under, context)
     if len(under) == 1:
         rim = outcomes.circle_outline(center, radius, sides=8)[:-1]
         inside = np.count_nonzero(scene.covers(under[0], rim))
         # A circle over the edge is a body of its own, unless it is as small as a hand can draw.
         if inside < len(rim) - 1:
-            limit = min(2 * context.settings.snap, 0.9 * least)
+            limit = min(2 * context.settings.snap, 0.9 * limit / _LARGEST)
     return _SMALL.below(2 * radius / limit)
+
+
+def _largest_joint(center: Point, under: Sequence[str], context: Context) -> float:
+    """Return the greatest diameter of an axle of some bodies, or side of a weld [m]."""
+    least = min(math.sqrt(context.scene.body(name).shape.form.area) for name in under)
+    on_two = len(context.scene.bodies_at(center)) > 1
+    return least * (_LARGEST_ON_TWO if on_two else _LARGEST)
 
 
 def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
@@ -138,14 +150,6 @@ def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
         message=f'an axle between {", ".join(names[:-1])} and {names[-1]}',
         outline=outcomes.circle_outline(point, radius),
     )
-
-
-def _weld_share(corners: Floats, under: tuple[str, ...], context: Context) -> float:
-    if len(under) < 2:
-        return 0.0
-    least = min(math.sqrt(context.scene.body(name).shape.form.area) for name in under)
-    side = max(math.dist(corners[0], corners[1]), math.dist(corners[1], corners[2]))
-    return _SMALL.below(side / (_LARGEST_WELD * least))
 
 
 def _weld_bodies(point: Point, under: tuple[str, ...], context: Context) -> Outcome:
