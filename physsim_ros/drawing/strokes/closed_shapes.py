@@ -17,10 +17,9 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.evidence import Form, Limit
-from physsim_ros.drawing.strokes.geometry import point_of, principal_axis, size_of
+from physsim_ros.drawing.strokes.geometry import circle_outline, point_of, principal_axis, size_of
 from physsim_ros.drawing.strokes.meanings import Context, Meaning, Outcome
 from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.transform import Point
@@ -126,7 +125,7 @@ def _axle_share(center: Point, radius: float, context: Context) -> float:
         return 0.0
     limit = _largest_joint(center, under, context)
     if len(under) == 1:
-        rim = outcomes.circle_outline(center, radius, sides=8)[:-1]
+        rim = circle_outline(center, radius, sides=8)[:-1]
         inside = np.count_nonzero(scene.covers(under[0], rim))
         # A circle over the edge is a body of its own, unless it is as small as a hand can draw.
         if inside < len(rim) - 1:
@@ -148,7 +147,7 @@ def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
         requests=tuple(outcomes.joins_at(JointKind.AXLE, point, pairs, context)),
         subject=names[0],
         message=f'an axle between {", ".join(names[:-1])} and {names[-1]}',
-        outline=outcomes.circle_outline(point, radius),
+        outline=circle_outline(point, radius),
     )
 
 

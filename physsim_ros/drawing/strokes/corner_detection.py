@@ -97,7 +97,19 @@ def bends_of(points: Floats) -> Floats:
     return vertices(points, at, closed=False)
 
 
-def side_error(outline: Floats, at: list[int]) -> float:
+def outline_corners(outline: Floats) -> tuple[list[int], Floats, float]:
+    """
+    Return the corners of an outline and their positions.
+
+    :return: their indices; (k, 2) float64 [m]; the distance of the outline from the sides between
+        them (rms) [m], infinite where they are fewer than three
+    """
+    at = corners(outline, closed=True)
+    error = _side_error(outline, at) if len(at) > 2 else math.inf
+    return at, vertices(outline, at, closed=True), error
+
+
+def _side_error(outline: Floats, at: list[int]) -> float:
     """Return the distance of a closed stroke from the sides between its corners (rms) [m]."""
     path = np.vstack((outline, outline[: at[0] + 1]))
     ends = np.array([*at, at[0] + len(outline)])

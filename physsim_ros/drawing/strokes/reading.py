@@ -35,13 +35,14 @@ from functools import cache
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
+from physsim_ros.drawing.strokes.bodies_under import joint_ends, wheels_passed
 from physsim_ros.drawing.strokes.evidence import (
     Form,
     group_confidence,
     LEAST,
     share_confidence,
 )
-from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.features import Features, features_of
 from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.meanings import (
@@ -133,10 +134,23 @@ class Reading(Outcome):
         return _values(self.guesses)
 
 
-def in_scene(stroke: Stroke, scene: SceneQuery, settings: DrawingSettings) -> Context:
+def in_scene(
+    stroke: Stroke,
+    scene: SceneQuery,
+    settings: DrawingSettings,
+    forms_of: Callable[[Features], Sequence[Form]] = forms_of,
+) -> Context:
     """Return a stroke with its features and forms in the scene that it was drawn over."""
     features = features_of(stroke)
-    return Context(features=features, forms=forms_of(features), scene=scene, settings=settings)
+    ends = joint_ends(stroke.points, scene, settings.snap)
+    return Context(
+        features=features,
+        forms=forms_of(features),
+        scene=scene,
+        settings=settings,
+        ends=ends,
+        wheels=wheels_passed(stroke.points, ends, scene, settings.snap) if ends else (),
+    )
 
 
 def meanings_of(context: Context) -> Iterator[Meaning]:
