@@ -126,6 +126,12 @@ def logistic(odds: float) -> float:
     return 1.0 / (1.0 + math.exp(min(max(-odds, -50.0), 50.0)))
 
 
+def log_odds(share: float) -> float:
+    """Return the log odds of a share, 0 .. 1."""
+    share = min(max(share, _LEAST), 1.0 - _LEAST)
+    return math.log(share / (1.0 - share))
+
+
 def terms_of(sign: str) -> Sequence[Term]:
     """Return the terms of the evidence for a sign."""
     return _TABLE[sign]
@@ -178,5 +184,4 @@ def share_confidence(share: float) -> float:
 
 
 def _platt(share: float, bias: float, slope: float) -> float:
-    odds = max(share, _LEAST) / max(1.0 - share, _LEAST)
-    return 1.0 / (1.0 + math.exp(-bias - slope * math.log(odds)))
+    return logistic(bias + slope * log_odds(share))

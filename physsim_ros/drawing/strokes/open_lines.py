@@ -27,10 +27,9 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.transform import cross, norms
 
-# The least straightness of a rod: the distance of its ends by its length.
+# The least straightness of a rod, and the greatest of a rope: the distance of the ends by the
+# length. An arc as high as a seventh of its chord has 0.95.
 _STRAIGHT = 0.95
-# The greatest straightness of a rope; an arc as high as a seventh of its chord has 0.95.
-_SAGGING = 0.95
 # The least number of bends, on alternate sides, of a spring. Of round teeth: the least height, in
 # shares of the size, that no hand trembles by; the least straightness of their advance.
 _FEWEST_TEETH, _HIGH, _STEADY = 3, 0.06, 0.9
@@ -87,7 +86,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     joins = between or (ends is not None and ends[0].body in at_ends)
     if between and _is_toothed(context.features, points):
         return JointKind.SPRING, BETWEEN
-    if joins and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
+    if joins and math.dist(start, end) < _STRAIGHT * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
     straight = math.dist(start, end) > _STRAIGHT * float(norms(sides).sum())
     return JointKind.ROD, BETWEEN if joins and straight else 0.0
