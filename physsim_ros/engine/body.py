@@ -25,7 +25,7 @@ from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
-from physsim_ros.model.states import ACTOR_STATE, ComingCommands, ROBOT_STATE, SPAWNED, WAITING
+from physsim_ros.model.states import ACTOR_STATE, ROBOT_STATE, SPAWNED, WAITING
 from physsim_ros.model.transform import (
     local_to_world,
     NO_WRENCH,
@@ -73,7 +73,6 @@ class RigidBody:
     :param wrench_until: step at which the wrench ends; None is never
     :param state: `BodyState`, in the table of the core once it is in one
     :param driven: `RobotState` of a robot, likewise
-    :param coming: commands of a robot that its drive does not obey yet
     :param acting: `ActorState` of an actor, likewise
 
     :ivar address: of the struct of Chipmunk
@@ -87,7 +86,6 @@ class RigidBody:
     wrench_until: int | None = None
     state: np.void = field(default_factory=_NEW.copy)
     driven: np.void = field(default_factory=_SPAWNED.copy)
-    coming: ComingCommands = ()
     acting: np.void = field(default_factory=_WAITING.copy)
     address: int = field(init=False)
 

@@ -81,11 +81,12 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         field_leads=table.field_leads,
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
-        commands=tuple(space.joints.commands.values()),
+        commands=space.joints.all_commands,
         bounds=space.joints.bounds(),
         robots=table.robot_states,
         coming=tuple(
-            (table.columns.rows[rigid.body.name], rigid.coming) for rigid in space.commanded()
+            (table.columns.rows[name], coming)
+            for name, coming in space.coming.in_order(space.bodies.by_name)
         ),
         actors=table.actor_states,
     )
@@ -122,7 +123,7 @@ def saved_state(space: Space, step: int) -> WorldState:
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
                 driven=driven[row].shifted(-step) if row in driven else None,
-                coming=tuple(command.shifted(-step) for command in rigid.coming),
+                coming=tuple(each.shifted(-step) for each in space.coming.of(rigid.body.name)),
                 acting=acting[row].shifted(-step) if row in acting else None,
             )
         )
@@ -181,10 +182,10 @@ def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
-        space.put_coming(rigids[row], coming)
+        space.coming.put(rigids[row].body.name, coming)
     space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
-    for command, begun in checkpoint.commands:
-        space.joints.command(command, begun)
+    for command in checkpoint.commands:
+        space.joints.put_command(command, checkpoint.step)
     return checkpoint
 
 
@@ -234,7 +235,7 @@ def _timed(state: WorldState, step: int) -> dict[str, Any]:
 
 def _shifted(commands: Commands, steps: int) -> Commands:
     """Return commands in a world that counts its steps from so many earlier."""
-    return tuple((command, begun + steps) for command, begun in commands)
+    return tuple(each._replace(begun=each.begun + steps) for each in commands)
 
 
 def _leads_of(checkpoint: Checkpoint) -> list[Twist | None]:
@@ -285,7 +286,7 @@ def restore_checkpoint(
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
-        space.put_coming(rigids[row], coming)
+        space.coming.put(rigids[row].body.name, coming)
     space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
@@ -298,8 +299,8 @@ def restore_checkpoint(
     space.core.write_state(checkpoint.state)
     for joint in scene.joints:
         space.joints.add(joint)
-    for command, begun in checkpoint.commands:
-        space.joints.command(command, begun)
+    for command in checkpoint.commands:
+        space.joints.put_command(command, checkpoint.step)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()

@@ -19,6 +19,7 @@ from physsim_ros.engine.body import RigidBody, same_in_engine
 from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
+from physsim_ros.engine.coming import ComingCommands
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
@@ -27,12 +28,12 @@ from physsim_ros.engine.scene_columns import check_columns, check_floor, columns
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.motor_command import CommandPoint, MotorCommand
+from physsim_ros.model.motor_command import CommandPoint, MotorCommand, TimedCommand
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
-from physsim_ros.model.states import ComingCommand, ComingCommands
+from physsim_ros.model.states import ComingCommand
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
 
@@ -81,8 +82,7 @@ class Space:
         self._fields: tuple[object, ...] | None = None
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
-        # Robots with commands that their drives do not obey yet, by name.
-        self._commanded: dict[str, RigidBody] = {}
+        self.coming: ComingCommands[ComingCommand] = ComingCommands()
         self.grips = GripSet()
         self._settings = WorldSettings(gravity=(0.0, 0.0))
         self.configure(settings)
@@ -198,7 +198,7 @@ class Space:
             self.changes += body != old.body
             old.take_over_roles(old, body)
             old.body = body
-            self._keep_coming(old, old.coming)
+            self._keep_coming(body, self.coming.of(body.name))
             if pose != old.pose:
                 self.set_pose(old, pose)
             if twist != self.twist_of(old):
@@ -209,6 +209,7 @@ class Space:
         rigid.row = old.row
         pose = self.joints.with_turns(old, pose)
         touching = self.bodies.touching(old.pm_body)
+        coming = self.coming.of(body.name)
         self.joints.detach(body.name)
         self._take_out(old)
         self._insert(rigid, pose, twist)
@@ -217,7 +218,7 @@ class Space:
         if not body.dynamic:
             self.grips.remove_from(body.name)
         rigid.take_over_roles(old, body)
-        self._keep_coming(rigid, old.coming)
+        self._keep_coming(body, coming)
         self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
@@ -285,6 +286,11 @@ class Space:
 
     # Motors and robots
 
+    def command_motor_later(self, command: MotorCommand, step: int) -> None:
+        """Have the motor of a joint obey a command from a step to come on, in their order."""
+        self.joints.coming.add(command.joint, TimedCommand(command, step))
+        self.changes += 1
+
     def command_motor(self, command: MotorCommand, step: int) -> None:
         """
         Have the motor of a joint obey a command; a trajectory begins where the joint is.
@@ -319,40 +325,19 @@ class Space:
         rigid.pm_body.activate()
 
     def drive_later(self, rigid: RigidBody, command: ComingCommand) -> None:
-        """
-        Have a robot drive from a step to come on; commands are obeyed in their order.
-
-        A command that would begin before the last one begins with it, in its place.
-        """
-        coming, begun = rigid.coming, command.begun
-        if coming and coming[-1].begun >= begun:
-            begun = coming[-1].begun
-            coming = coming[:-1]
-        self.put_coming(rigid, (*coming, command._replace(begun=begun)))
+        """Have a robot drive from a step to come on; commands are obeyed in their order."""
+        self.coming.add(rigid.body.name, command)
         self.changes += 1
 
-    def put_coming(self, rigid: RigidBody, coming: ComingCommands) -> None:
-        """Set the commands that the drive of a robot does not obey yet."""
-        rigid.coming = coming
-        if coming:
-            self._commanded[rigid.body.name] = rigid
-        else:
-            self._commanded.pop(rigid.body.name, None)
-
-    def _keep_coming(self, rigid: RigidBody, coming: ComingCommands) -> None:
+    def _keep_coming(self, body: Body, coming: tuple[ComingCommand, ...]) -> None:
         """Set the commands to come after a change of a body, none where it has no drive."""
-        robot = rigid.body.robot
-        self.put_coming(rigid, () if robot is None or robot.drive is None else coming)
-
-    def commanded(self) -> list[RigidBody]:
-        """Return the robots with commands that their drives do not obey yet, in spawn order."""
-        rows = self.table.columns.rows
-        return sorted(self._commanded.values(), key=lambda rigid: rows[rigid.body.name])
+        has_drive = body.robot is not None and body.robot.drive is not None
+        self.coming.put(body.name, coming if has_drive else ())
 
     def drive_of(self, rigid: RigidBody) -> tuple[Twist, int]:
         """Return the velocity of the last command [m/s, rad/s], and the step at which it ends."""
-        if rigid.coming:
-            return rigid.coming[-1].aim, rigid.coming[-1].until
+        if coming := self.coming.of(rigid.body.name):
+            return coming[-1].aim, coming[-1].until
         return self._obeyed_by(rigid)
 
     @staticmethod
@@ -422,7 +407,7 @@ class Space:
         """
         if self._wrenched:
             self._end_wrenches(number)
-        if self._commanded:
+        if self.coming or self.joints.coming:
             self._begin_commands(number)
         table, core, made = self.table, self.core, self._steps_until_event(number, count)
         if table.columns.moving:
@@ -464,23 +449,22 @@ class Space:
                 self.set_wrench(rigid, NO_WRENCH, None)
 
     def _begin_commands(self, number: int) -> None:
-        """Have drives obey the commands that begin at a step, or have begun."""
-        for rigid in self.commanded():
-            begun = [command for command in rigid.coming if command.begun <= number]
-            if begun:
-                later = (command for command in rigid.coming if command.begun > number)
-                self.put_coming(rigid, tuple(later))
-                self.drive(rigid, begun[-1].aim, begun[-1].until)
+        """Have drives and motors obey the commands that begin at a step, or have begun."""
+        for name, command in self.coming.take(number, self.bodies.by_name):
+            self.drive(self.bodies.by_name[name], command.aim, command.until)
+        for _, motor in self.joints.coming.take(number, self.joints.by_name):
+            self.command_motor(motor.command, number)
 
     def _steps_until_event(self, number: int, count: int) -> int:
         """Return how many of some steps follow each other without anything between them."""
-        if not (self._wrenched or self._commanded or self.table.columns.expiries):
+        coming = *self.coming.steps, *self.joints.coming.steps
+        if not (self._wrenched or coming or self.table.columns.expiries):
             return count
         ends = (rigid.wrench_until for rigid in self._wrenched.values())
         events = (
             *self.table.columns.expiries,
             *(end for end in ends if end is not None),
-            *(rigid.coming[0].begun for rigid in self._commanded.values()),
+            *coming,
         )
         return min([count, *(event - number for event in events if event > number)])
 
@@ -530,7 +514,7 @@ class Space:
         self.changes += 1
         self.bodies.take_out(rigid)
         self._wrenched.pop(rigid.body.name, None)
-        self._commanded.pop(rigid.body.name, None)
+        self.coming.put(rigid.body.name, ())
 
     def _drop_table(self) -> None:
         """Drop the table, before a body or joint is added, removed or changed."""

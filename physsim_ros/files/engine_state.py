@@ -19,7 +19,7 @@ import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.engine.core import sub_step_of
-from physsim_ros.files.world_schema import ROUNDING
+from physsim_ros.files.world_schema import MOST_COMING, ROUNDING
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.checks import ListOf, LONGEST, number, pair, Row, Whole, Within
 from physsim_ros.model.declarations import Checked
@@ -29,7 +29,6 @@ from physsim_ros.model.robots import Robot
 from physsim_ros.model.states import (
     ActorState,
     ComingCommand,
-    ComingCommands,
     Covariance,
     NEVER,
     RobotState,
@@ -47,8 +46,6 @@ _POSE = Row((Within(-_GREATEST, _GREATEST),) * 3)
 _PRODUCTS = Row((Within(-(_GREATEST**2), _GREATEST**2),) * len(SPAWNED.covariance))
 # Greatest number of points that an actor has reached, and of steps that a wrench acts.
 _MOST_REACHED, _MOST_STEPS = 2**53, 10**14
-# Greatest number of commands on their way to a drive: one for each step of the longest latency.
-_MOST_COMING = 100_000
 
 
 def _covariance(value: object, name: str) -> Covariance:
@@ -91,7 +88,7 @@ class _Driven(Checked):
     seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until the command ends'] = None
     coming: Annotated[
         tuple[_Coming, ...],
-        ListOf(lambda value, name: _saved(_Coming, value, name), 'mappings', _MOST_COMING),
+        ListOf(lambda value, name: _saved(_Coming, value, name), 'mappings', MOST_COMING),
         'commands on their way',
     ] = ()
 
@@ -153,7 +150,7 @@ def _step_in(seconds: float | None, physics_rate: float) -> int:
     return NEVER if seconds is None else round(seconds * physics_rate)
 
 
-def _coming_entry(coming: ComingCommands, physics_rate: float) -> dict[str, object]:
+def _coming_entry(coming: tuple[ComingCommand, ...], physics_rate: float) -> dict[str, object]:
     """Return the key of the commands that a drive does not obey yet; nothing where none is."""
     commands = [
         {
@@ -166,7 +163,9 @@ def _coming_entry(coming: ComingCommands, physics_rate: float) -> dict[str, obje
     return {'coming': commands} if commands else {}
 
 
-def _coming(robot: Robot, commands: tuple[_Coming, ...], physics_rate: float) -> ComingCommands:
+def _coming(
+    robot: Robot, commands: tuple[_Coming, ...], physics_rate: float
+) -> tuple[ComingCommand, ...]:
     """
     Return the commands that the drive of a robot does not obey yet.
 

@@ -8,19 +8,26 @@ Laws: joints are made by requests to a world, so that files obey the rules of me
 seat is kept to the bit where nobody has edited the joint or moved its bodies.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+import itertools
 import math
 from typing import Annotated, Any
 
 from physsim_ros.engine.body_table import LOST
-from physsim_ros.files.world_schema import is_same, naming, OWN_JOINT_KEYS, ROUNDING
+from physsim_ros.files.world_schema import (
+    is_same,
+    MOST_COMING,
+    naming,
+    OWN_JOINT_KEYS,
+    ROUNDING,
+)
 from physsim_ros.model.checkpoint import Commands, WorldState
-from physsim_ros.model.checks import LONGEST, point_list, text, Within
+from physsim_ros.model.checks import ListOf, LONGEST, point_list, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import joined_from, MOST_RATIO
-from physsim_ros.model.motor_command import CommandPoint, MotorCommand, points_from
+from physsim_ros.model.motor_command import CommandPoint, MotorCommand, points_from, TimedCommand
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Guide, Joint, Seat
@@ -85,7 +92,12 @@ class _Command(Checked):
 
     mode: Annotated[str, text, 'of the values']
     points: Annotated[tuple[CommandPoint, ...], points_from, 'of a trajectory']
-    seconds: Annotated[float, Within(0.0, LONGEST, 's'), 'since it began'] = 0.0
+    seconds: Annotated[
+        float, Within(-LONGEST, LONGEST, 's'), 'since it began; below 0 of one on its way'
+    ] = 0.0
+
+
+_COMING = ListOf(_Command.from_value, 'mappings', MOST_COMING)
 
 
 def commands_from(
@@ -101,22 +113,31 @@ def commands_from(
     """
     commands = []
     for count, (entry, joint) in enumerate(zip(entries, joints, strict=True), 1):
-        if 'command' in entry:
-            with naming(entry, 'joint', count):
-                saved = _Command.from_value(entry['command'], 'command')
-                if not joint.properties.effort:
-                    raise BadProperty(f'{joint.name} has no motor', field='command')
-                command = MotorCommand(joint=joint.name, mode=saved.mode, points=saved.points)
-                commands.append((command, -round(saved.seconds * physics_rate)))
+        with naming(entry, 'joint', count):
+            saved = _COMING([entry['command']] if 'command' in entry else [], 'command')
+            saved += _COMING(entry.get('coming', []), 'coming')
+            if saved and not joint.properties.effort:
+                raise BadProperty(f'{joint.name} has no motor', field='command')
+            if any(b.seconds > a.seconds for a, b in itertools.pairwise(saved)):
+                raise BadProperty('commands on their way begin one after another', field='coming')
+            for each in saved:
+                command = MotorCommand(joint=joint.name, mode=each.mode, points=each.points)
+                commands.append(TimedCommand(command, -round(each.seconds * physics_rate)))
     return tuple(commands)
 
 
-def command_entry(command: MotorCommand, begun: int, physics_rate: float) -> dict[str, object]:
+def command_entries(commands: Sequence[TimedCommand], physics_rate: float) -> dict[str, object]:
     """
-    Return the entry of a command that `commands_from` makes it of.
+    Return the keys of the commands of a motor that `commands_from` makes them of.
 
-    :param begun: step at which it began, which counts from now
+    :param commands: in their order, whose steps count from now
     """
+    entries = [_command_entry(*each, physics_rate) for each in commands]
+    begun = {'command': entries.pop(0)} if commands and commands[0].begun <= 0 else {}
+    return {**begun, **({'coming': entries} if entries else {})}
+
+
+def _command_entry(command: MotorCommand, begun: int, physics_rate: float) -> dict[str, object]:
     points = [
         [each.time, each.value] + [each.rate] * math.isfinite(each.rate) for each in command.points
     ]

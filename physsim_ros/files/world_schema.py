@@ -33,7 +33,10 @@ BODY_KEYS = [
     *('motion', 'field_lead', 'wrench', 'driven', 'acting'),
 ]
 # Keys of a joint that the text of a marker does not have.
-OWN_JOINT_KEYS = ['name', 'points', 'seat', 'command']
+OWN_JOINT_KEYS = ['name', 'points', 'seat', 'command', 'coming']
+# Greatest number of commands on their way to a drive or a motor: one for each step of the longest
+# latency.
+MOST_COMING = 100_000
 # Tolerance between a saved number and the same number recomputed [m, rad, relative]: more than
 # rounding means that somebody has edited the file.
 ROUNDING = 1e-9

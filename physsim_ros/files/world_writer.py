@@ -17,12 +17,13 @@ import re
 
 from physsim_ros.files.engine_state import state_entry
 from physsim_ros.files.impulse_cache import cache_entry
-from physsim_ros.files.joint_reader import command_entry
+from physsim_ros.files.joint_reader import command_entries
 from physsim_ros.files.world_schema import FORMAT, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.declarations import entry_of
 from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.motor_command import TimedCommand
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Pose
 
@@ -63,12 +64,13 @@ def _lines(state: WorldState, physics_rate: float) -> Iterator[str]:
         yield f'  - {yaml_line(_entry(body, physics_rate))}\n'
     if state.joints:
         poses = {body.body.name: body.pose for body in state.bodies}
-        commands = {command.joint: (command, begun) for command, begun in state.commands}
+        commands: dict[str, list[TimedCommand]] = {}
+        for each in state.commands:
+            commands.setdefault(each.command.joint, []).append(each)
         yield 'joints:\n'
         for joint in state.joints:
             entry = _joint_entry(joint, poses)
-            if joint.name in commands:
-                entry['command'] = command_entry(*commands[joint.name], physics_rate)
+            entry.update(command_entries(commands.get(joint.name, []), physics_rate))
             yield f'  - {yaml_line(entry)}\n'
     if state.memory is not None:
         yield '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'

@@ -17,13 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.motor_command import MotorCommand
+from physsim_ros.model.motor_command import TimedCommand
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.states import (
     ActorState,
-    ComingCommands,
+    ComingCommand,
     NO_ACTORS,
     NO_ROBOTS,
     Records,
@@ -74,12 +74,12 @@ class BodyState:
     wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
     driven: RobotState | None = None
-    coming: ComingCommands = ()
+    coming: tuple[ComingCommand, ...] = ()
     acting: ActorState | None = None
 
 
-# The last command of each motor, and the step at which it began.
-Commands = tuple[tuple[MotorCommand, int], ...]
+# The last command of each motor, and those on their way to it in their order.
+Commands = tuple[TimedCommand, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +90,7 @@ class WorldState:
     :param settings: of the world
     :param bodies: in spawn order
     :param joints: in the order in which they were made
-    :param commands: of motors, with the step of each, which counts from now
+    :param commands: of motors, also those on their way, whose steps count from now
     :param memory: impulse cache; None in a file written by hand
     :param lesson: the task that belongs to the world; None is none
     :param world: the same for states that `replace` makes of one another, as a reset with another
@@ -162,7 +162,7 @@ class Checkpoint:
     :param memory: impulse cache
     :param grips: of hands on bodies
     :param unstepped: names of the joints whose first step is to come
-    :param commands: of motors, with the step of each
+    :param commands: of motors, also those on their way
     :param bounds: `lower` and `upper` of the rows of joints of which one moves, by name
     :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of the scene
     :param coming: row of the body of a robot, and the commands that its drive does not obey yet
@@ -181,7 +181,7 @@ class Checkpoint:
     commands: Commands = ()
     bounds: Mapping[str, NDArray[np.void]] = field(default_factory=dict)
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
-    coming: tuple[tuple[int, ComingCommands], ...] = ()
+    coming: tuple[tuple[int, tuple[ComingCommand, ...]], ...] = ()
     actors: Records = field(default_factory=lambda: NO_ACTORS)
 
     @property

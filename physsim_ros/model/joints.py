@@ -9,16 +9,18 @@ Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its gly
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Annotated, Any, Self
 
 from physsim_ros.model.checks import brief, FASTEST, flag, HEAVIEST, shown, Within
 from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.latency import COMMAND_RATE, delays
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.texts import name_meant, nearest_name
+from physsim_ros.model.transform import Point
 
 # Greatest ratio of a gear, and the inverse of the least: between the fastest and the slowest wheel
 # of a clock it is 1e6.
@@ -128,6 +130,8 @@ class JointKind(StrEnum):
                 'effort',
                 'max_speed',
                 'gain',
+                'latency',
+                'command_rate',
             ),
             words=(
                 *('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
@@ -181,7 +185,10 @@ class JointKind(StrEnum):
         Schema(
             2,
             'lets `a` slide along a line fixed to `b`, without rotating; with `rate` it is driven',
-            own=('lower', 'upper', 'friction', 'rate', 'effort', 'max_speed', 'gain'),
+            own=(
+                *('lower', 'upper', 'friction', 'rate', 'effort', 'max_speed', 'gain'),
+                *('latency', 'command_rate'),
+            ),
             words=('prismatic', 'groove', 'rail', 'piston'),
             least_distance=SMALLEST,
             has_axis=True,
@@ -293,6 +300,20 @@ class JointProperties(Checked):
         'speed of that motor towards a commanded position, divided by the distance to it',
         20.0,
     ] = None
+    # Digests leave both out: what they change is in the commands on their way, which digests have.
+    latency: Annotated[
+        Point | None,
+        delays,
+        'least and greatest time from a command to that motor, drawn by `seed`; one number is '
+        'both [s]',
+        0.0,
+    ] = field(default=None, repr=False)
+    command_rate: Annotated[
+        float | None,
+        COMMAND_RATE,
+        'times a second at which that motor looks for a new command; 0 is each step',
+        0.0,
+    ] = field(default=None, repr=False)
     friction: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N m or N'),

@@ -79,3 +79,15 @@ class MotorCommand(Checked):
     points: Annotated[
         tuple[CommandPoint, ...], points_from, 'time [s], value, rate; the last value stays'
     ]
+
+
+class TimedCommand(NamedTuple):
+    """
+    A command of a motor, and the step at which it begins: of one on its way, a later one.
+
+    :ivar command: of the motor
+    :ivar begun: the step, in a saved state counted from the moment of saving
+    """
+
+    command: MotorCommand
+    begun: int

@@ -74,10 +74,6 @@ class ComingCommand(NamedTuple):
         return self._replace(begun=self.begun + steps, until=until)
 
 
-# Those of a robot, in the order in which they begin.
-ComingCommands = tuple[ComingCommand, ...]
-
-
 class ActorState(NamedTuple):
     """
     The state of an actor.

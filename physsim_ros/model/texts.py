@@ -64,6 +64,8 @@ EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
     'effort': ('motor_torque', 'motor_force', 'max_effort'),
     'max_speed': ('max_velocity', 'velocity_limit', 'speed_limit'),
     'gain': ('kp', 'p_gain', 'proportional_gain'),
+    'latency': ('delay', 'dead_time', 'lag'),
+    'command_rate': ('update_rate', 'control_rate', 'control_frequency'),
     'stiffness': ('k', 'spring_constant', 'hardness', 'stiff'),
     'damping': ('damper', 'viscosity', 'c'),
     'rest_length': ('natural_length', 'free_length', 'rest'),

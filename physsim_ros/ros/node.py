@@ -137,7 +137,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.outputs = Outputs(self, values, self._session, simulation, boundary)
         self._closing.callback(self.outputs.close)
         expected = self._expected_commands
-        self.fleet = Fleet(self, values, simulation.requests, boundary, expected=expected)
+        requests, past = simulation.requests, simulation.past
+        self.fleet = Fleet(self, values, requests, past, boundary, expected=expected)
         self._live = LiveParameters(self, values, simulation, self._session, boundary)
         self.outputs.all.insert(0, self._live)
         self.outputs.all.append(self.fleet)

@@ -4,8 +4,19 @@
 """Commands on their way to a drive: when they arrive, and what is kept of them."""
 
 import numpy as np
-from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.requests import ChangeBody, Configure, Delete, DriveRobot, Restore
+from physsim_ros.files import robot_spawn
+from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.motor_command import MotorCommand
+from physsim_ros.model.requests import (
+    ChangeBody,
+    CommandMotors,
+    Configure,
+    Delete,
+    DriveRobot,
+    Restore,
+    Unjoin,
+)
 from physsim_ros.model.robots import Robot
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
@@ -194,3 +205,119 @@ def test_a_file_with_commands_that_cannot_be_is_refused(tmp_path, coming, code):
     robot = f'robot: {{drive: {{kind: omni}}}}, driven: {{coming: [{coming}]}}'
     refusal = refusal_of_file(tmp_path, f'{{name: a/0, circle: {{radius: 0.1}}, {robot}}}')
     assert refusal.cause == code
+
+
+SHOULDER = 'arm/0/shoulder/0'
+
+
+def armed_world(**motor: object) -> World:
+    """Return a world with an arm whose motor has a latency of 0.1 s unless another is said."""
+    link = {'name': 'upper', 'box': {'width': 0.4, 'height': 0.05}, 'at': [0.2, 0.0]}
+    shoulder = {'name': 'shoulder', 'kind': 'axle', 'a': 'upper', 'points': [[0.0, 0.0]]}
+    shoulder |= {'effort': 20.0, 'max_speed': 4.0, 'latency': 0.1, **motor}
+    world = seen_from_above()
+    arm = {'from': 'arm', 'links': [link], 'joints': [shoulder], 'sensors': []}
+    world.apply(robot_spawn(arm, name='arm/0'))
+    return world
+
+
+def bend(world: World, *points: tuple[float, ...], mode: str = 'position') -> None:
+    """Command the shoulder."""
+    motor = {'joint': SHOULDER, 'mode': mode, 'points': points}
+    world.apply(CommandMotors(commands=(motor,)))
+
+
+@pytest.mark.parametrize(
+    'points', [((0.0, 1.0),), ((0.2, 0.5), (0.4, -0.5)), ((0.2, 0.5, 0.0), (0.4, -0.5, 0.0))]
+)
+def test_a_motor_obeys_after_the_latency_as_it_would_have_at_once(points):
+    late, prompt = armed_world(), armed_world()
+    for world in (late, prompt):
+        bend(world, (0.0, 0.3), mode='velocity')
+    late.step(24)
+    bend(late, *points)
+    late.step(24 + 120)
+    prompt.step(48)
+    prompt.space.command_motor(motor_command(points), 48)
+    prompt.step(120)
+    # A path begins where the joint is when the command arrives.
+    assert np.array_equal(late.snapshot().poses[:, 2], prompt.snapshot().poses[:, 2])
+    assert abs(late.snapshot().poses[1, 2]) > 0.3
+
+
+def motor_command(points: tuple[tuple[float, ...], ...]) -> MotorCommand:
+    return MotorCommand(joint=SHOULDER, mode='position', points=points)
+
+
+def test_a_motor_looks_for_commands_at_its_rate():
+    world = armed_world(latency=0.0, command_rate=10.0)
+    obeyed = []
+    for number in range(200):
+        bend(world, (0.0, 0.001 * number), mode='velocity')
+        world.step(1)
+        obeyed += [command.begun for command in world.save().commands[:1]]
+    assert sorted(set(obeyed)) == [*range(-24, 0)]
+
+
+def test_commands_on_their_way_to_motors_are_saved_and_loaded_to_the_bit(tmp_path):
+    world = armed_world(latency=[0.1, 0.12])
+    for angle in (0.2, 0.4, 0.6):
+        bend(world, (0.0, angle), (0.3, angle + 0.5))
+        world.step(10)
+    assert len(world.save().commands) > 1
+    one, other = twins(world, tmp_path)
+    later = seen_from_above()
+    later.step(100)
+    later.apply(Restore(state=world.save()))
+    for _ in range(4):
+        for each in (one, other, later):
+            each.step(30)
+        assert one.digest() == other.digest()
+        assert np.array_equal(one.snapshot().poses, later.snapshot().poses)
+
+
+def test_a_rewind_repeats_commands_on_their_way_to_motors():
+    simulation = Simulation(checkpoints=0.1)
+    simulation.begin(armed_world(latency=[0.05, 0.25]).save())
+    for angle in np.linspace(0.1, 1.0, 12):
+        command = {'joint': SHOULDER, 'mode': 'position', 'points': ((0.0, angle),)}
+        simulation.perform(CommandMotors(commands=(command,)))
+        simulation.run(1 / 15)
+    end, digest = simulation.stamp, simulation.world.digest()
+    simulation.seek(300_000_000)
+    assert simulation.world.digest() != digest
+    simulation.seek(end)
+    assert simulation.world.digest() == digest
+
+    moment, other = simulation.checkpoint(), Simulation()
+    other.restore(moment)
+    for each in (simulation, other):
+        each.run(0.5)
+    assert simulation.world.digest() == other.world.digest()
+    assert not [each for each in simulation.frame.answers if each.code == 'divergence']
+
+
+def test_a_command_on_its_way_is_dropped_with_its_joint():
+    world = armed_world()
+    bend(world, (0.0, 1.0))
+    assert world.save().commands
+    world.apply(Unjoin(name=SHOULDER))
+    assert not world.save().commands
+    world.step(60)
+
+
+@pytest.mark.parametrize(
+    ('said', 'refusal'),
+    [
+        ({'latency': -0.1}, BadProperty),
+        ({'latency': [0.2, 0.1]}, BadProperty),
+        ({'latency': [0.1]}, Malformed),
+        ({'command_rate': -1.0}, BadProperty),
+    ],
+)
+def test_a_latency_of_a_motor_that_cannot_be_is_refused(said, refusal):
+    with pytest.raises(refusal) as refused:
+        JointProperties.from_mapping(said)
+    assert refused.value.field in said
+    with pytest.raises(UnknownProperty):
+        JointProperties(latency=(0.1, 0.1)).check_kind(JointKind.PIN)

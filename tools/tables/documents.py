@@ -46,7 +46,7 @@ _YAML_HEAD = """\
 """
 _COLUMNS = ('key', 'default', 'range', 'meaning')
 # Keys that the text above the table of sensors explains.
-_OF_EVERY_SENSOR = {'name', 'rate', 'at', 'link'}
+_OF_EVERY_SENSOR = {'name', 'rate', 'at', 'link', 'latency'}
 # The parts of the file of parameters.
 _GROUPS: Mapping[str, type[Checked]] = {
     'The node': NodeSettings,

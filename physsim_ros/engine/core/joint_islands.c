@@ -226,6 +226,7 @@ static int number_in(const World *world, Island *island, int *numbers, int *plac
         island->engine[number] = engine;
         island->jointed[number] = world->bodies[body].jointed;
         island->inverses[number] = (Inverse){engine->m_inv, engine->i_inv};
+        island->turns[number] = (Turn){0.0, {1.0, 0.0}};
     }
     return numbers[body] - 1;
 }
@@ -291,6 +292,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
     island->jointed = TAKE(arena, bool, most);
     island->inverses = TAKE(arena, Inverse, most);
     island->poses = TAKE(arena, Pose, most);
+    island->turns = TAKE(arena, Turn, most);
     island->velocities = TAKE(arena, Twist, most);
     island->rows = TAKE(arena, const Row *, island->joint_row_count);
     island->joint_of_row = TAKE(arena, int, island->joint_row_count);

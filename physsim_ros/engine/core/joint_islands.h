@@ -22,6 +22,12 @@ typedef struct Bearing {
     Row *roll;      // of its rolling resistance; NULL is none
 } Bearing;
 
+// The rotation of a body by a yaw, kept for the next poses with that.
+typedef struct Turn {
+    double yaw; // [rad]
+    Rotation by;
+} Turn;
+
 // The rows of an island: those of joints and of rolling resistance, then normals of contacts, then tangents.
 typedef struct Island {
     int joint_count, joint_row_count, touch_count, body_count, row_count;
@@ -36,6 +42,7 @@ typedef struct Island {
     bool *jointed;   // (body_count)
     Inverse *inverses;
     Pose *poses;
+    Turn *turns;
     Twist *velocities;
     const Guide *guides; // of all rows
     Ends *ends;          // (link_count)

@@ -13,12 +13,16 @@
 
 static const double full_turn = 6.283185307179586;
 
-Anchors anchors_at(const Joint *joint, Pose a, Pose b) {
-    Anchors anchors = {.of_b = rotation(b.yaw)};
-    anchors.arm_a = rotated(vec(joint->anchor_a[0], joint->anchor_a[1]), rotation(a.yaw));
-    anchors.arm_b = rotated(vec(joint->anchor_b[0], joint->anchor_b[1]), anchors.of_b);
-    anchors.apart = sub(add(a.p, anchors.arm_a), add(b.p, anchors.arm_b));
+Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation of_b) {
+    Anchors anchors = {.of_b = of_b};
+    anchors.arm_a = rotated(vec(joint->anchor_a[0], joint->anchor_a[1]), of_a);
+    anchors.arm_b = rotated(vec(joint->anchor_b[0], joint->anchor_b[1]), of_b);
+    anchors.apart = sub(add(a, anchors.arm_a), add(b, anchors.arm_b));
     return anchors;
+}
+
+Anchors anchors_at(const Joint *joint, Pose a, Pose b) {
+    return anchors_turned(joint, a.p, rotation(a.yaw), b.p, rotation(b.yaw));
 }
 
 Jacobian along(Vec direction, Vec arm_a, Vec arm_b) {

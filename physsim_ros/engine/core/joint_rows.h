@@ -16,6 +16,9 @@ typedef struct Anchors {
 
 Anchors anchors_at(const Joint *joint, Pose a, Pose b);
 
+// The same, of which the rotations are known.
+Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation of_b);
+
 // Whether a row holds x where it is.
 static inline bool is_equality(const Row *row) {
     return row->law == LAW_BOUNDS && row->lower == row->upper;

@@ -24,8 +24,10 @@ typedef struct Solve {
     bool *springs;       // (row_count)
 } Solve;
 
-// Begin to solve an island, of whose system the memory is of an arena of its own (`system_of`).
-Solve joint_solve(World *world, const Island *island, Arena *of_system, const System *former);
+Layout layout_of(const Island *island);
+
+// Begin to solve an island.
+Solve joint_solve(World *world, const Island *island, const System *system);
 
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);

@@ -51,7 +51,10 @@ static void close_island(World *world, Solve *solve) {
     bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {
-            set_pose(island->engine[body], island->poses[body]);
+            Pose now = pose_of(island->engine[body]), next = island->poses[body];
+            if (next.p.x != now.p.x || next.p.y != now.p.y || next.yaw != now.yaw) {
+                set_pose(island->engine[body], next);
+            }
             // A slow swing would fall asleep at its turn.
             island->engine[body]->idle_time = may_sleep ? island->engine[body]->idle_time : 0.0;
         }
@@ -65,25 +68,45 @@ void find_joint_islands(World *world) {
     }
 }
 
-void solve_joints(World *world) {
-    if (!has_stage(world, STAGE_JOINTS)) {
-        return;
+// Whether all islands have the layouts of the last sub-step.
+static bool have_systems(const Private *own, const Islands *found) {
+    bool have = own->system_count == found->count;
+    for (int number = 0; number < found->count && have; number++) {
+        have = has_layout(own->systems + number, layout_of(found->islands + number));
     }
-    Private *own = world->own;
-    Islands *found = own->joint_islands;
-    found->solves = TAKE(&own->arena, Solve, found->count);
+    return have;
+}
+
+// Make the systems of islands in the other arena, of patterns that the islands of the last sub-step had.
+static void make_systems(Private *own, const Islands *found) {
     own->system_turn = 1 - own->system_turn;
     Arena *arena = own->system_arenas + own->system_turn;
     arena_reset(arena);
     System *systems = TAKE(arena, System, found->count);
     for (int number = 0; number < found->count; number++) {
         const System *former = number < own->system_count ? own->systems + number : NULL;
-        found->solves[number] = joint_solve(world, found->islands + number, arena, former);
-        systems[number] = found->solves[number].system;
-        solve_velocities(found->solves + number);
+        systems[number] = system_of(arena, layout_of(found->islands + number), former);
     }
     own->systems = systems;
     own->system_count = found->count;
+}
+
+void solve_joints(World *world) {
+    if (!has_stage(world, STAGE_JOINTS)) {
+        return;
+    }
+    Private *own = world->own;
+    Islands *found = own->joint_islands;
+    if (!have_systems(own, found)) {
+        make_systems(own, found);
+    }
+    found->solves = TAKE(&own->arena, Solve, found->count);
+    for (int number = 0; number < found->count; number++) {
+        const Island *island = found->islands + number;
+        begin_system(own->systems + number, island->inverses);
+        found->solves[number] = joint_solve(world, island, own->systems + number);
+        solve_velocities(found->solves + number);
+    }
 }
 
 void close_joints(World *world) {

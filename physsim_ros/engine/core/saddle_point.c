@@ -187,7 +187,7 @@ static void find_pattern(System *system, Arena *arena) {
     ldl_analyse(&system->factors, arena);
 }
 
-static bool has_layout(const System *system, Layout layout) {
+bool has_layout(const System *system, Layout layout) {
     if (system->body_count != layout.body_count || system->row_count != layout.row_count ||
         system->link_count != layout.further[layout.row_count]) {
         return false;
@@ -231,16 +231,20 @@ System system_of(Arena *arena, Layout layout, const System *former) {
     }
     system.factors.values = TAKE(arena, double, 6 * system.link_count);
     system.factors.diagonal = TAKE(arena, double, system.factors.size);
-    for (int body = 0; body < system.body_count; body++) {
-        int unknown = system.body_unknowns[body];
-        if (unknown != NO_UNKNOWN) {
-            Inverse inverse = system.inverses[body];
-            system.factors.diagonal[unknown] = system.factors.diagonal[unknown + 1] = 1.0 / inverse.mass;
-            system.factors.diagonal[unknown + 2] = 1.0 / inverse.moment;
-        }
-    }
     system.side = TAKE(arena, double, system.factors.size);
     return system;
+}
+
+void begin_system(System *system, const Inverse *inverses) {
+    system->inverses = inverses;
+    for (int body = 0; body < system->body_count; body++) {
+        int unknown = system->body_unknowns[body];
+        if (unknown != NO_UNKNOWN) {
+            system->factors.diagonal[unknown] = system->factors.diagonal[unknown + 1] = 1.0 / inverses[body].mass;
+            system->factors.diagonal[unknown + 2] = 1.0 / inverses[body].moment;
+        }
+    }
+    memset(system->factors.changed, true, (size_t)system->factors.size * sizeof(bool));
 }
 
 Solution solution_for(const System *system, Arena *arena) {

@@ -19,13 +19,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.coming import ComingCommands
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints import stiffness
 from physsim_ros.engine.joints.joint_table import check_joint, JointTable
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.motor_command import MotorCommand
+from physsim_ros.model.motor_command import MotorCommand, TimedCommand
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.snapshot import Springs
@@ -70,7 +71,8 @@ class JointSet:
         # The impulses of each joint in the step before, by name, from the same table.
         self._totals: dict[str, Floats] = {}
         # The last command of each motor, by the name of its joint, and its step.
-        self.commands: dict[str, tuple[MotorCommand, int]] = {}
+        self.commands: dict[str, TimedCommand] = {}
+        self.coming: ComingCommands[TimedCommand] = ComingCommands()
         # The bounds of the rows of each joint that has one which moves, by name, likewise.
         self._bounds: dict[str, NDArray[np.void]] = {}
 
@@ -101,7 +103,7 @@ class JointSet:
             self._remove_constraints(old)
             if (old.joint.kind, old.joint.a, old.joint.b) != (joint.kind, joint.a, joint.b):
                 self._totals.pop(joint.name, None)
-                self.commands.pop(joint.name, None)
+                self._drop_commands(joint.name)
             if _reference(old.joint) != _reference(joint):
                 self._bounds.pop(joint.name, None)
         self._add_constraints(joint)
@@ -114,7 +116,7 @@ class JointSet:
         """Remove a joint for good."""
         self._remove_constraints(self.by_name[name])
         self._totals.pop(name, None)
-        self.commands.pop(name, None)
+        self._drop_commands(name)
         self._bounds.pop(name, None)
         del self.by_name[name], self._serials[name]
 
@@ -124,6 +126,7 @@ class JointSet:
         self._drop_table()
         self._totals.clear()
         self.commands.clear()
+        self.coming = ComingCommands()
         self._bounds.clear()
         self.by_name.clear()
         self._on.clear()
@@ -189,9 +192,33 @@ class JointSet:
 
         :param begun: step at which the command began
         """
-        self.commands[command.joint] = command, begun
+        self.commands[command.joint] = TimedCommand(command, begun)
         if self._table is not None:
             self._table.command(command, begun)
+
+    @property
+    def all_commands(self) -> tuple[TimedCommand, ...]:
+        """Return the command that each motor obeys, then those on their way to it."""
+        return tuple(
+            command
+            for name in self.by_name
+            for command in (*filter(None, [self.commands.get(name)]), *self.coming.of(name))
+        )
+
+    def put_command(self, command: TimedCommand, step: int) -> None:
+        """
+        Set a command that a motor obeys or, where it does not begin before a step, is to obey.
+
+        :param step: count of steps that the world has made
+        """
+        if command.begun < step:
+            self.command(*command)
+        else:
+            self.coming.add(command.command.joint, command)
+
+    def _drop_commands(self, name: str) -> None:
+        self.commands.pop(name, None)
+        self.coming.put(name, ())
 
     def _soft_springs(self) -> dict[str, float]:
         """Return the dampings of the springs that Chipmunk does not solve, by name."""

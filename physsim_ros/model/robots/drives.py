@@ -18,7 +18,7 @@ from typing import Annotated, ClassVar
 
 from physsim_ros.model.checks import FASTEST, Within
 from physsim_ros.model.declarations import Checked, OfKind
-from physsim_ros.model.robots.latency import delays
+from physsim_ros.model.latency import COMMAND_RATE, delays
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Point, Pose, Twist
 
@@ -26,8 +26,6 @@ from physsim_ros.model.transform import Point, Pose, Twist
 _STRONGEST = 1e2
 # Longest time for which a command counts [s].
 _LONGEST = 1e6
-# Most looks for a command in a second: as many as a world makes steps.
-_OFTENEST = 1e4
 
 LENGTH = Within(SMALLEST, LARGEST, 'm')
 
@@ -67,7 +65,7 @@ class Drive(Checked, ABC):
     ] = field(default=(0.0, 0.0), repr=False)
     command_rate: Annotated[
         float,
-        Within(0.0, _OFTENEST, 'Hz'),
+        COMMAND_RATE,
         'times a second at which it looks for a new command; 0 is each step',
     ] = field(default=0.0, repr=False)
     track: Annotated[

@@ -15,6 +15,7 @@ from typing import Annotated
 from physsim_ros.model.checks import ListOf, Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.latency import delays
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import check_tree, Link, LinkJoint, TREE_KINDS
@@ -40,6 +41,13 @@ class Odometry(Checked):
         'standard deviations of its drift, 0 .. 1: of the path after 1 m [m], of the heading '
         'after 1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
     ] = (0.0, 0.0)
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    latency: Annotated[
+        Point,
+        delays,
+        'least and greatest time from a pose to its messages on `odom` and `/tf`, as of a sensor '
+        '[s]',
+    ] = field(default=(0.0, 0.0), repr=False)
 
 
 # Names of topics that every robot has beside that of its commands.

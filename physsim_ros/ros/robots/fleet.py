@@ -14,6 +14,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
+import itertools
+import math
 import time
 from typing import Any
 
@@ -22,13 +24,14 @@ from physsim_ros.model.errors import InPast, Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.model.transform import REST
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
+from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
 
@@ -44,6 +47,7 @@ class Fleet:
     :param node: that owns their topics
     :param values: of the parameters of the node, by name, always up to date
     :param requests: the queue that commands are submitted to
+    :param past: whose cached frames have what was on its way at a moment of it
     :param boundary: of the node
     :param expected: type of commands that is subscribed to while nobody publishes, so that
         `cmd_vel` is listed; None is none, where the process has other nodes: it takes one type for
@@ -61,6 +65,7 @@ class Fleet:
         node: Node,
         values: Mapping[str, Any],
         requests: RequestQueue,
+        past: Past,
         boundary: ErrorBoundary,
         *,
         expected: type | None = None,
@@ -70,6 +75,7 @@ class Fleet:
         self._node = node
         self._values = values
         self._requests = requests
+        self._past = past
         self._boundary = boundary
         self._expected = expected
         self._scene: Scene | None = None
@@ -79,6 +85,8 @@ class Fleet:
         self._look_due = 0.0
         # Steady time since which a command is waited for [s]; None is none.
         self._waiting_since: float | None = None
+        # Whether time went back at the last frame: messages are on their way that are of before.
+        self._went_back = False
         # Whether it was told that a robot has stopped as no command came.
         self._has_told_timeout = False
 
@@ -197,18 +205,17 @@ class Fleet:
             before = last.before if stands else last.snapshot
         self.view = view = StampedView(frame, before)
         frozen = frame.past and self._values['robots_in_past'] == 'freeze'
-        if frozen or (before is not None and snapshot.stamp < before.stamp):
+        goes_back = before is not None and snapshot.stamp < before.stamp
+        if frozen or goes_back:
             # The scan that was to be answered is of a time that is not shown.
             self._expect_no_answers()
-        lasers = self._laser_changes
-        if lasers != self._lasers:
-            self._lasers, self._scene = lasers, None
-            self._close()
-        if snapshot.scene is not self._scene:
-            self._scene = snapshot.scene
-            self._update(snapshot.scene)
+        self._match_scene(snapshot.scene)
+        self._went_back |= goes_back
         if stands or frozen or not self.robots:
             return
+        if self._went_back and not goes_back:
+            self._send_again(frame, before)
+            self._went_back = False
         self._waiting_since = None
         for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
             robot = self.robots.get(snapshot.scene.names[row])
@@ -216,10 +223,27 @@ class Fleet:
                 if robot is None:
                     continue
                 scanned = robot.publish(view, row, number)
-                if scanned and robot.commands is not None:
-                    robot.commands.expect_answer(snapshot.stamp)
+                if scanned is not None and robot.commands is not None:
+                    robot.commands.expect_answer(scanned)
             if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
                 self._tell_timeout(robot)
+
+    def _send_again(self, frame: Frame, last: Snapshot | None) -> None:
+        """Send the messages that were on their way at a snapshot from which time goes on again."""
+        longest = max(robot.longest_latency for robot in self.robots.values())
+        if last is None or longest == 0.0:
+            return
+        step, stamp = frame.snapshot.step - last.step, frame.snapshot.stamp - last.stamp
+        begin = last.step - math.ceil(longest * 1e9 * step / stamp)
+        frames = self._past.frames.frames_after(begin - 1, last.step)
+        views: dict[str, list[tuple[StampedView, int, int]]] = {name: [] for name in self.robots}
+        for (before, _), (snapshot, contacts) in itertools.pairwise(frames):
+            view = StampedView(replace(frame, snapshot=snapshot, contacts=contacts), before)
+            for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
+                views.get(snapshot.scene.names[row], []).append((view, row, number))
+        for name, robot in self.robots.items():
+            with self._boundary.output('robots'):
+                robot.send_again(views[name], last.stamp)
 
     def _tell_timeout(self, robot: RobotTopics) -> None:
         """Tell once that a robot has stopped as no command came: people expect it to drive on."""
@@ -241,6 +265,16 @@ class Fleet:
         """Take the topics of all robots back."""
         while self.robots:
             self.robots.popitem()[1].close()
+
+    def _match_scene(self, scene: Scene) -> None:
+        """Have the topics of the robots of a scene, with lasers as the parameters are now."""
+        lasers = self._laser_changes
+        if lasers != self._lasers:
+            self._lasers, self._scene = lasers, None
+            self._close()
+        if scene is not self._scene:
+            self._scene = scene
+            self._update(scene)
 
     def _update(self, scene: Scene) -> None:
         """Make topics for robots that have come, and take those of others back."""

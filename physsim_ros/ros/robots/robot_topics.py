@@ -5,24 +5,28 @@
 The topics of one robot, below its namespace.
 
 Laws: a reading that nobody subscribes to is not made, and one of a moment is the same whoever
-subscribes; a topic that ROS refuses, as another type has it, is refused, and the others are there.
+subscribes; its latency depends on seed and moment alone, so that a rewind repeats it; a topic that
+ROS refuses, as another type has it, is refused, and the others are there.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import replace
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.latency import delay
 from physsim_ros.model.robots import part_name, Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.states import SPAWNED
+from physsim_ros.model.transform import Point
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import (
@@ -45,23 +49,47 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 
-class _Topic(NamedTuple):
+@dataclass(slots=True, kw_only=True)
+class _Topic:
     """
     A topic of a robot that is published at frames, while it is heard.
 
     :ivar publisher: of the topic
     :ivar message: makes its message, of a view, the row of the robot's body in the scene, and the
         number of the robot among those of the scene
-    :ivar name: that sets the moments of its rate
+    :ivar name: that sets the moments of its rate, and the latencies of its messages
     :ivar rate: [Hz]; None is each frame
+    :ivar latency: least and greatest time from the frame of a message to its arrival [s]
     :ivar sensor: whose reading it is; None for other topics
+    :ivar coming: messages on their way in their order, with the stamps at which they arrive, and
+        of their frames [ns]
     """
 
     publisher: Publisher
     message: Callable[[StampedView, int, int], Any]
     name: str
     rate: float | None = None
+    latency: Point = (0.0, 0.0)
     sensor: Sensor | None = None
+    coming: deque[tuple[int, int, Any]] = field(default_factory=deque)
+
+    def send(self, message: Any, view: StampedView) -> None:
+        """Send the message of a frame, which arrives after those that were sent before."""
+        snapshot = view.snapshot
+        arrival = snapshot.stamp
+        if any(self.latency):
+            seed = snapshot.scene.settings.seed
+            arrival += round(1e9 * delay(self.latency, seed, self.name, snapshot.step))
+        if self.coming:
+            arrival = max(arrival, self.coming[-1][0])
+        self.coming.append((arrival, snapshot.stamp, message))
+
+    def arrived(self, now: int) -> list[tuple[int, Any]]:
+        """Return the messages that have arrived at a stamp, after the stamps of their frames."""
+        messages = []
+        while self.coming and self.coming[0][0] <= now:
+            messages.append(self.coming.popleft()[1:])
+        return messages
 
     @property
     def is_heard(self) -> bool:
@@ -114,13 +142,15 @@ class RobotTopics:
             # Before the readings, which are looked up in it by their stamps.
             if robot.drive is not None or robot.links:
                 transforms = partial(self._transforms, kind)
-                self._add(kind, 'tf', transforms, below=below, depth=TF_DEPTH)
+                latency = robot.odometry.latency
+                self._add(kind, 'tf', transforms, latency=latency, below=below, depth=TF_DEPTH)
             fixed = self._publisher(kind, 'tf_static', below=below, durability=latched)
             if fixed is not None:
                 fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
         self._add(Odometry, 'ground_truth', self.truth)
         if robot.drive is not None:
-            self._add(Odometry, 'odom', self.odometry, rate=robot.odometry.rate)
+            rate, latency = robot.odometry.rate, robot.odometry.latency
+            self._add(Odometry, 'odom', self.odometry, rate=rate, latency=latency)
         # Lasers as they are published, by the name of their topic.
         self._lasers: dict[str, Laser] = {}
         for sensor in robot.sensors:
@@ -128,7 +158,14 @@ class RobotTopics:
                 self._lasers[sensor.name] = self._changed(sensor, lasers)
             kind = READINGS[type(sensor)].kind
             message = partial(self.reading, sensor)
-            self._add(kind, sensor.name, message, rate=sensor.rate, sensor=sensor)
+            self._add(
+                kind,
+                sensor.name,
+                message,
+                rate=sensor.rate,
+                latency=sensor.latency,
+                sensor=sensor,
+            )
         self._description = self._publisher(
             String, 'robot_description', depth=1, durability=latched
         )
@@ -160,13 +197,22 @@ class RobotTopics:
         message: Callable[[StampedView, int, int], Any],
         *,
         rate: float | None = None,
+        latency: Point = (0.0, 0.0),
         sensor: Sensor | None = None,
         **options: Any,
     ) -> None:
         """Add a topic to those that are published at frames, unless ROS refuses it."""
         publisher = self._publisher(kind, name, **options)
         if publisher is not None:
-            self._topics.append(_Topic(publisher, message, name, rate, sensor))
+            topic = _Topic(
+                publisher=publisher,
+                message=message,
+                name=f'{self.body}|{name}',
+                rate=rate,
+                latency=latency,
+                sensor=sensor,
+            )
+            self._topics.append(topic)
 
     def _publisher(
         self,
@@ -214,26 +260,58 @@ class RobotTopics:
         """Whether a bumper has subscribers."""
         return any(isinstance(each.sensor, Bumper) and each.is_heard for each in self._topics)
 
-    def publish(self, view: StampedView, row: int, number: int) -> bool:
+    @property
+    def longest_latency(self) -> float:
+        """Return the longest time that a message that is heard can be on its way [s]."""
+        return max((each.latency[1] for each in self._topics if each.is_heard), default=0.0)
+
+    def publish(self, view: StampedView, row: int, number: int) -> int | None:
         """
-        Publish what is due at a frame and has subscribers.
+        Publish what arrives at a frame and has subscribers.
+
+        While time goes back, messages have no latency.
 
         :param view: of the frame
         :param row: of the robot's body in the scene
         :param number: of the robot among those of the scene
-        :return: whether a scan of the first laser with subscribers is among it, which is the one
-            that a controller answers: others may be heard by a recording alone
+        :return: stamp of the last scan of the first laser with subscribers [ns], which is the one
+            that a controller answers: others may be heard by a recording alone; None without one
         """
-        scanned, first = False, None
+        now, before = view.snapshot.stamp, view.before
+        goes_back = before is not None and now < before.stamp
+        scanned, first = None, None
         for topic in self._topics:
+            if goes_back or not topic.is_heard:
+                topic.coming.clear()
             if not topic.is_heard:
                 continue
             if first is None and isinstance(topic.sensor, Laser):
                 first = topic
             if self._is_due(topic, view):
-                topic.publisher.publish(topic.message(view, row, number))
-                scanned |= topic is first
+                message = topic.message(view, row, number)
+                if goes_back:
+                    topic.publisher.publish(message)
+                else:
+                    topic.send(message, view)
+            for stamp, message in topic.arrived(now):
+                topic.publisher.publish(message)
+                scanned = stamp if topic is first else scanned
         return scanned
+
+    def send_again(self, views: Sequence[tuple[StampedView, int, int]], now: int) -> None:
+        """
+        Send the messages that were on their way at a stamp, after a jump to it.
+
+        :param views: of the frames up to that, as of `publish`
+        :param now: the stamp [ns]
+        """
+        late = [each for each in self._topics if each.latency[1] > 0.0 and each.is_heard]
+        for topic in late:
+            topic.coming.clear()
+            for view, row, number in views:
+                if self._is_due(topic, view):
+                    topic.send(topic.message(view, row, number), view)
+            topic.arrived(now)
 
     def _transforms(self, kind: type, view: StampedView, _: int, number: int) -> Any:
         """Return the message of the transforms that move."""
@@ -299,4 +377,4 @@ class RobotTopics:
             return True
         # In a rewind, the frame before is a later one: the period that counts ends with this one.
         period = abs(now - before.stamp)
-        return is_due(f'{self.body}|{topic.name}', topic.rate, now - period, now)
+        return is_due(topic.name, topic.rate, now - period, now)

@@ -153,7 +153,13 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
                 field='joint',
             )
     for command in request.commands:
-        live.space.command_motor(command, live.step_count)
+        properties = live.space.joints.by_name[command.joint].joint.properties
+        latency, rate = properties.latency or (0.0, 0.0), properties.command_rate or 0.0
+        begun = live.begin_of_command(command.joint, latency, rate)
+        if begun == live.step_count and not live.space.joints.coming.of(command.joint):
+            live.space.command_motor(command, begun)
+        else:
+            live.space.command_motor_later(command, begun)
     subject = names[0] if len(names) == 1 else ''
     return Answer(subject=subject, message=f'commanded {counted(len(names), "motor")}')
 

@@ -29,6 +29,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import no_body, no_frame
+from physsim_ros.model.latency import delay
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import local_to_world, Point, Pose
@@ -64,6 +65,24 @@ class LiveSpace:
     def settings(self) -> WorldSettings:
         """Return the settings of the world."""
         return self.space.settings
+
+    def begin_of_command(self, name: str, latency: Point, command_rate: float) -> int:
+        """
+        Return the step at which a drive or a motor obeys a command that is given now.
+
+        :param name: of its body or joint
+        :param latency: least and greatest time that the command is on its way [s]
+        :param command_rate: looks for a command in a second [Hz]; 0 is each step
+        """
+        begun, rate = self.step_count, self.physics_rate
+        seconds = delay(latency, self.space.settings.seed, f'command of {name}', begun)
+        if seconds > 0.0:
+            begun += steps_in(seconds, rate)
+        if command_rate > 0.0:
+            # The first look at or after that step.
+            look = math.ceil(begun * command_rate / rate - 1e-9)
+            begun = math.ceil(look * rate / command_rate - 1e-9)
+        return begun
 
     def step_after(self, seconds: float) -> int | None:
         """Return the step at which a time from now on has passed [s]; None for 0: never."""

@@ -10,18 +10,16 @@ Law: no two robots have one topic or frame.
 from __future__ import annotations
 
 from collections.abc import Iterable
-import math
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import BadProperty, Exists, UnknownBody
 from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.robots import Drive, Robot
-from physsim_ros.model.robots.latency import delay
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.states import ComingCommand, NEVER
-from physsim_ros.simulation.world.live_space import LiveSpace, steps_in
+from physsim_ros.simulation.world.live_space import LiveSpace
 
 # Number of robots that a refusal names.
 _MOST_NAMED = 10
@@ -38,27 +36,15 @@ def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     if robot.drive is None:
         raise BadProperty(f'{request.name} has no drive', field='name')
     timeout = robot.drive.timeout if request.timeout is None else request.timeout
-    begun, end = _begin_of_command(live, request.name, robot.drive), live.step_after(timeout)
+    begun = live.begin_of_command(request.name, robot.drive.latency, robot.drive.command_rate)
+    end = live.step_after(timeout)
     until = NEVER if end is None else end + begun - live.step_count
-    if begun == live.step_count and not rigid.coming:
+    if begun == live.step_count and not live.space.coming.of(request.name):
         live.space.drive(rigid, request.velocity, until)
     else:
         aim = robot.drive.aim(request.velocity)
         live.space.drive_later(rigid, ComingCommand(begun, aim, until))
     return Answer(subject=request.name, message=f'drives {request.name}')
-
-
-def _begin_of_command(live: LiveSpace, name: str, drive: Drive) -> int:
-    """Return the step at which a drive obeys a command that is given now."""
-    begun, rate = live.step_count, live.physics_rate
-    seconds = delay(drive.latency, live.space.settings.seed, f'command of {name}', begun)
-    if seconds > 0.0:
-        begun += steps_in(seconds, rate)
-    if drive.command_rate > 0.0:
-        # The first look at or after that step.
-        look = math.ceil(begun * drive.command_rate / rate - 1e-9)
-        begun = math.ceil(look * rate / drive.command_rate - 1e-9)
-    return begun
 
 
 def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:

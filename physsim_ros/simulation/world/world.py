@@ -187,10 +187,10 @@ class World(LiveSpace):
         digest.update(free.tobytes())
         for rigid in self.space.wrenched():
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
-        for rigid in self.space.commanded():
-            digest.update(f'{rigid.body.name} {rigid.coming!r}'.encode())
-        for command in self.space.joints.commands.values():
-            digest.update(repr(command).encode())
+        for name, coming in self.space.coming.in_order(self.space.bodies.by_name):
+            digest.update(f'{name} {coming!r}'.encode())
+        for command in self.space.joints.all_commands:
+            digest.update(repr(tuple(command)).encode())
         for grip in self.grips:
             digest.update(repr(grip).encode())
         for states in (self.space.table.robot_states, self.space.table.actor_states):

@@ -35,6 +35,7 @@ int call_mixed_lcp(int body_count, const double *inverses, int row_count, const 
     }
     Layout layout = {body_count, row_count, (const Inverse *)inverses, (const Ends *)ends, further, groups};
     System former = system_of(&arena, layout, NULL), system = system_of(&arena, layout, &former);
+    begin_system(&system, layout.inverses);
     Problem problem = {(const Jacobian *)jacobians, wanted, lower, upper, softness, NULL, NULL};
     Solution solution = solution_for(&system, &arena);
     solve_problem(&system, &problem, &solution, &arena);

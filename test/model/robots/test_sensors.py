@@ -30,6 +30,7 @@ def test_every_property_of_a_laser_is_written_as_it_is_read():
         'at': [-0.03, 0.5, 3.0],
         'rate': 5.0,
         'link': 'base',
+        'latency': [0.01, 0.03],
         'beams': 720,
         'angle': [-2.0, 2.0],
         'range': [0.12, 3.5],

@@ -12,6 +12,7 @@ from typing import Annotated
 from physsim_ros.model.checks import Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.latency import delays
 from physsim_ros.model.robots.part_names import BASE, check_part
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose
@@ -116,3 +117,10 @@ class Sensor(Checked, ABC):
     link: Annotated[str, check_part, 'that it is mounted on; `base` is the body of the robot'] = (
         field(default=BASE, repr=False)
     )
+    # The same.
+    latency: Annotated[
+        Point,
+        delays,
+        'least and greatest time from a reading to its message, which has the stamp of the '
+        'reading, drawn by `seed`; one number is both [s]',
+    ] = field(default=(0.0, 0.0), repr=False)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Latency: the time that a command is on its way from a controller to a drive.
+Latency: the time that a command is on its way to a drive or a motor, or a message of a reading.
 
 Law: it depends on seed, name and step alone, so that a rewind repeats it.
 """
@@ -15,6 +15,8 @@ from physsim_ros.model.transform import Point
 # Longest latency [s]. Commands on their way are part of the state, at most one for each step.
 LONGEST_DELAY = 5.0
 _DELAY = Within(0.0, LONGEST_DELAY, 's')
+# Looks for a command in a second: at most as many as a world makes steps.
+COMMAND_RATE = Within(0.0, 1e4, 'Hz')
 
 
 def delays(value: object, name: str) -> Point:
@@ -35,11 +37,11 @@ def delays(value: object, name: str) -> Point:
 
 def delay(latency: Point, seed: int, name: str, step: int) -> float:
     """
-    Return the latency of a command that leaves at a step [s].
+    Return the latency of a command or a reading that leaves at a step [s].
 
     :param latency: least and greatest time [s]
     :param seed: of all noise
-    :param name: of the command
+    :param name: of the command or the reading
     :param step: number of steps since the world began
     """
     low, high = latency
