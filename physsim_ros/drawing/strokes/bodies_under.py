@@ -41,10 +41,10 @@ _INSIDE = 0.95
 # Name of a body -> which of these points lie on it, (43,) bool.
 Crossed = dict[str, NDArray[np.bool_]]
 # The least share of the stroke on a body that is covered.
-COVERING = 0.3
+_COVERING = 0.3
 # Of a body with a smaller share, whose centroid lies in the bounding box of the stroke: its
 # greatest outer radius, in diagonals of that box, and the least number of entries of the stroke.
-AS_LARGE, LEAST_ENTRIES = 0.75, 2
+_AS_LARGE, _LEAST_ENTRIES = 0.75, 2
 
 
 def joint_ends(points: Floats, scene: SceneQuery, snap: float) -> tuple[End, End] | None:
@@ -282,18 +282,18 @@ def covered_bodies(points: Floats, crossed: Crossed, scene: SceneQuery) -> tuple
     :param crossed: the bodies that it crosses, by `crossed_bodies`
     """
     low, high = points.min(axis=0), points.max(axis=0)
-    reach = AS_LARGE * float(norms(high - low))
+    reach = _AS_LARGE * float(norms(high - low))
     covered = set()
     for name, hits in crossed.items():
         form = scene.body(name).shape.form
         middle = scene.in_world(name, form.centroid)
         within = bool(((middle >= low) & (middle <= high)).all()) and form.outer <= reach
-        if hits.mean() >= COVERING or (within and _entries(hits) >= LEAST_ENTRIES):
+        if hits.mean() >= _COVERING or (within and _entries(hits) >= _LEAST_ENTRIES):
             covered.add(name)
     if not covered and crossed:
         # Of a scribble across a long wall, only little of either lies on the other.
         most = max(crossed, key=lambda name: _entries(crossed[name]))
-        if _entries(crossed[most]) >= LEAST_ENTRIES:
+        if _entries(crossed[most]) >= _LEAST_ENTRIES:
             covered.add(most)
     return tuple(name for name in scene.names if name in covered)
 

@@ -20,6 +20,7 @@ from physsim_ros.drawing.strokes.evidence import Form, Limit
 from physsim_ros.drawing.strokes.geometry import circle_outline, point_of, principal_axis, size_of
 from physsim_ros.drawing.strokes.meanings import Context, Meaning, Outcome
 from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.transform import Point
@@ -34,81 +35,78 @@ _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
 # The least number of corners of a polygon that may be a small circle; one of four may be a square.
 _LEAST_CORNERS = 5
 
+# The meaning of an outline that is a body, and the function of its points that builds that.
+Body = tuple[str, Callable[[Floats, Context], Outcome]]
+
 
 def disc_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and disc."""
-    points = form.points
-    circle = point_of(points[0]), math.dist(*points)
-    share = _axle_share(*circle, context)
-    build = partial(outcomes.disc, points, context)
-    yield from _axle_or_body(form, share, circle, context, meaning=DISC, build=build)
+    circle = point_of(form.points[0]), math.dist(*form.points)
+    return _axle_or_body(form, circle, (DISC, outcomes.disc), context)
 
 
 def oval_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and polygon, which is not regularised."""
-    points = form.points
-    circle = point_of(points.mean(axis=0)), size_of(points) / 3
-    share = _axle_share(*circle, context)
-    build = partial(outcomes.smooth_polygon, points, context)
-    yield from _axle_or_body(form, share, circle, context, meaning=POLYGON, build=build)
+    circle = point_of(form.points.mean(axis=0)), size_of(form.points) / 3
+    return _axle_or_body(form, circle, (POLYGON, outcomes.smooth_polygon), context)
 
 
 def polygon_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a polygon, and axle or weld: small circles are drawn with corners, squares askew."""
-    points = form.points
-    build = partial(outcomes.polygon, points, context)
+    points, body = form.points, (POLYGON, outcomes.polygon)
     if len(points) < _LEAST_CORNERS:
-        yield from _weld_or_body(form, context, meaning=POLYGON, build=build)
-        return
+        return _weld_or_body(form, body, context)
     middle = points.mean(axis=0)
-    center = point_of(middle)
     _, along, across = principal_axis(points - middle)
-    share = _axle_share(center, size_of(points) / 3, context)
-    share *= _LEAST_ROUND.above(math.sqrt(across / along))
-    circle = center, math.dist(middle, points[0])
-    yield from _axle_or_body(form, share, circle, context, meaning=POLYGON, build=build)
+    circle = point_of(middle), size_of(points) / 3
+    roundness = _LEAST_ROUND.above(math.sqrt(across / along))
+    return _axle_or_body(form, circle, body, context, roundness)
 
 
 def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a weld and a rectangle."""
-    build = partial(outcomes.rectangle, form.points, context)
-    yield from _weld_or_body(form, context, meaning=RECTANGLE, build=build)
+    return _weld_or_body(form, (RECTANGLE, outcomes.rectangle), context)
 
 
 def _axle_or_body(
-    form: Form,
-    share: float,
-    circle: tuple[Point, float],
-    context: Context,
-    *,
-    meaning: str,
-    build: Callable[[], Outcome],
+    form: Form, circle: tuple[Point, float], body: Body, context: Context, roundness: float = 1.0
 ) -> Iterator[Meaning]:
     """
-    Yield an axle and a body, which share the weight of an outline.
+    Yield an axle and a body.
 
-    :param share: of the axle, 0 .. 1
-    :param circle: centre and radius that the preview of the axle shows [m]
-    :param meaning: of the body
-    :param build: returns its outcome
+    :param circle: centre and radius of the axle [m]
+    :param roundness: factor on the share of the axle, 0 .. 1
     """
-    axle = partial(_build_axle, *circle, context)
-    yield Meaning(name='axle', weight=form.weight * share, build=axle)
-    yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
+    share = roundness * _axle_share(*circle, context)
+    return _either(form, share, ('axle', partial(_build_axle, *circle, context)), body, context)
 
 
-def _weld_or_body(
-    form: Form, context: Context, *, meaning: str, build: Callable[[], Outcome]
-) -> Iterator[Meaning]:
-    """Yield a weld and a body, which share the weight of an outline of few corners."""
-    center = point_of(form.points.mean(axis=0))
+def _weld_or_body(form: Form, body: Body, context: Context) -> Iterator[Meaning]:
+    """Yield a weld of the two bodies under an outline of four corners, and a body."""
+    center, share = point_of(form.points.mean(axis=0)), 0.0
     under = bodies_under.crossed_pair(center, context)
-    share = 0.0
     if len(form.points) == 4 and len(under) == 2:
         side = max(map(math.dist, form.points[:2], form.points[1:3]))
         share = _SMALL.below(side / _largest_joint(center, under, context))
     weld = partial(_weld_bodies, center, under, context)
-    yield Meaning(name='pin', weight=form.weight * share, build=weld)
+    return _either(form, share, ('pin', weld), body, context)
+
+
+def _either(
+    form: Form,
+    share: float,
+    joint: tuple[str, Callable[[], Outcome]],
+    body: Body,
+    context: Context,
+) -> Iterator[Meaning]:
+    """
+    Yield a joint and a body, which share the weight of an outline.
+
+    :param share: of the joint, 0 .. 1
+    """
+    meaning, outcome = body
+    yield Meaning(name=joint[0], weight=form.weight * share, build=joint[1])
+    build = partial(outcome, form.points, context)
     yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
 
 

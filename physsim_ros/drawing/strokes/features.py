@@ -32,11 +32,11 @@ from physsim_ros.model.transform import cross, norms
 _ANGLES = np.arange(12) * math.pi / 12
 _DIRECTIONS = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
 # Number of outermost points at either side that the extent of a stroke leaves out.
-FRINGE = 4
+_FRINGE = 4
 # The least count of swings whose height and advance are measured.
 FEWEST = 3
 # The advance of all swings, and of one, between those of scribbles and zigzags, in mean heights.
-FAR_APART, WIDE_TOOTH = 1.75, 0.23
+_FAR_APART, _WIDE_TOOTH = 1.75, 0.23
 # Stride of the points between which crossings are searched.
 _STRIDE = 3
 # Pairs of segments between those points that may cross, the earlier first: not a segment and its
@@ -72,7 +72,7 @@ class Swings:
         A scribble of many swings may go far, if each lies close to the one before it.
         """
         tooth = self.advance / max(self.count, 1)
-        return min(self.advance / FAR_APART, tooth / WIDE_TOOTH)
+        return min(self.advance / _FAR_APART, tooth / _WIDE_TOOTH)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -117,9 +117,9 @@ def swings_of(points: Floats) -> Swings:
     # A row for each direction: numpy sorts and sums those twice as fast as columns.
     x, y = points.T
     across = _DIRECTIONS[:, :1] * x + _DIRECTIONS[:, 1:] * y
-    ordered = np.partition(across, (FRINGE, len(points) - 1 - FRINGE), axis=1)
+    ordered = np.partition(across, (_FRINGE, len(points) - 1 - _FRINGE), axis=1)
     # The outermost points may be drawn by mistake.
-    low, high = ordered[:, FRINGE, None], ordered[:, -1 - FRINGE, None]
+    low, high = ordered[:, _FRINGE, None], ordered[:, -1 - _FRINGE, None]
     extent = np.maximum(high - low, 1e-12)
     place = (across - low) / extent
     side = np.where(place > 0.64, 1, np.where(place < 0.36, -1, 0))

@@ -165,7 +165,7 @@ _SIDES = 48
 # Stride of the points between which strokes are compared: 1.6 % of the length.
 _FEW = 2
 # The least width of an outline after stretching, in shares of its length, and the greatest factor.
-WIDE, WIDEST = 0.3, 10.0
+WIDE, _WIDEST = 0.3, 10.0
 
 
 def spaced(path: Floats, count: int) -> Floats:
@@ -246,7 +246,7 @@ def widened(outline: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
     :return: the polyline, evenly spaced; and the function that undoes the stretching
     """
     angle, along, across = principal_axis(outline - outline.mean(axis=0))
-    factor = min(max(WIDE / max(math.sqrt(across / along), 1e-6), 1.0), WIDEST)
+    factor = min(max(WIDE / max(math.sqrt(across / along), 1e-6), 1.0), _WIDEST)
     side = unit_vector(angle + math.pi / 2)
     path = stretched(outline, side, factor)
     narrowed = partial(stretched, along=side, factor=1.0 / factor)

@@ -34,7 +34,7 @@ _STRAIGHT = 0.95
 # shares of the size, that no hand trembles by; the least straightness of their advance.
 _FEWEST_TEETH, _HIGH, _STEADY = 3, 0.06, 0.9
 # Factor on the density of a body by each line of its hatching.
-HEAVIER = 1.25
+_HEAVIER = 1.25
 
 
 def meanings(form: Form, context: Context) -> Iterator[Meaning]:
@@ -143,11 +143,11 @@ def hatching_meaning(body: str, lines: int, context: Context, *, weight: float) 
 
 def _make_heavier(name: str, lines: int, context: Context) -> Outcome:
     body = context.scene.body(name)
-    density = body.total_mass / body.shape.form.area * HEAVIER**lines
+    density = body.total_mass / body.shape.form.area * _HEAVIER**lines
     heavier = ChangeBody(name=name, properties=Properties(density=density))
     return Outcome(
         requests=(heavier,),
         subject=name,
-        message=f'{name} is heavier by {HEAVIER**lines - 1.0:.0%}: {density:.3g} kg/m²',
+        message=f'{name} is heavier by {_HEAVIER**lines - 1.0:.0%}: {density:.3g} kg/m²',
         outline=context.drawn.points,
     )

@@ -73,7 +73,7 @@ _EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -5.5, 2.8, 5.55, 4.95, 7.5,
 # The least residual that is told from 0, in shares of the size.
 _EXACT = 0.001
 # Factor on the weight of an outline that is neither round nor made of straight sides.
-BLOB = 0.8
+_BLOB = 0.8
 
 
 def plain_forms(features: Features, plain: float) -> Iterator[Form]:
@@ -143,8 +143,8 @@ def _shapes(outline: Floats) -> Iterator[Form]:
     oval = ellipse.corners(_OVAL_SIDES)
     yield Form(name=OVAL, weight=broad * circle * (1.0 - circular), points=oval)
     square = _SQUARE.below(off) * _SQUARER.below(off / max(error, 1e-6))
-    if len(at) == 4 and squareness(found) > square:
-        corners, square = found, squareness(found)
+    if len(at) == 4 and _squareness(found) > square:
+        corners, square = found, _squareness(found)
     else:
         corners = narrowed(corners)
     yield Form(name=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
@@ -153,7 +153,7 @@ def _shapes(outline: Floats) -> Iterator[Form]:
         sided = sided if boundary is not None else 0.0
         found = found if boundary is None else boundary
     sided *= 1.0 - square
-    free = BLOB * max(1.0 - max(square, circle) - sided, 0.0)
+    free = _BLOB * max(1.0 - max(square, circle) - sided, 0.0)
     if free > sided:
         # Neither round nor sided: a polygon along the stroke.
         along = traced(outline)
@@ -194,7 +194,7 @@ def _bulge(outline: Floats, at: list[int]) -> float:
     return min(max(beyond / (1.0 - math.sin(turn) / turn), 0.0), 2.0)
 
 
-def squareness(found: Floats) -> float:
+def _squareness(found: Floats) -> float:
     """Return how well four corners fit a rectangle, 0 .. 1."""
     nearest = rectangle(found)
     sides = next_vertices(found) - found

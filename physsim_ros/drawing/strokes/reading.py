@@ -63,7 +63,7 @@ from physsim_ros.model.errors import NotRecognised
 # The greatest number of guesses that a reading has.
 MOST_GUESSES = 3
 # The least confidence with which bodies are deleted, and gravity is turned.
-SURE = 0.9
+_SURE = 0.9
 
 # The function from each form to its meanings, by the form's name.
 _MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
@@ -117,16 +117,6 @@ class Reading(Outcome):
     def confidence(self) -> float:
         """Return the confidence in the meaning, 0 .. 1."""
         return self.guesses[0].confidence
-
-    @property
-    def runner_up(self) -> str:
-        """Return the second most likely meaning; '' where there is none."""
-        return self.guesses[1].meaning if len(self.guesses) > 1 else ''
-
-    @property
-    def runner_up_confidence(self) -> float:
-        """Return the confidence in the runner-up, 0 .. 1."""
-        return self.guesses[1].confidence if len(self.guesses) > 1 else 0.0
 
     @property
     def values(self) -> tuple[tuple[str, str], ...]:
@@ -259,7 +249,7 @@ def is_likely(guesses: Sequence[Guess], settings: DrawingSettings) -> bool:
     if not guesses:
         return False
     guess = guesses[0]
-    if guess.meaning in {DELETION, GRAVITY} and guess.group_confidence < SURE:
+    if guess.meaning in {DELETION, GRAVITY} and guess.group_confidence < _SURE:
         return False
     return guess.group_confidence >= settings.sketch_confidence
 
