@@ -16,7 +16,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.settings import STANDARD_GRAVITY
 from physsim_ros.model.snapshot import Snapshot
 
 # Colours at no force, and at the full-scale force: red, green, blue.
@@ -69,9 +68,8 @@ def full_scale_force(scene: Scene) -> float:
 
     It is a round number, at least twice the weight of the heaviest body.
     """
-    # In worlds without gravity, standard gravity.
-    gravity = math.hypot(*scene.settings.gravity) or STANDARD_GRAVITY
-    greatest = _FULL_SCALE * gravity * float(scene.inertia[:, 0].max(initial=0.0))
+    heaviest = float(scene.inertia[:, 0].max(initial=0.0))
+    greatest = _FULL_SCALE * scene.settings.reference_gravity * heaviest
     return nice_number(max(greatest, _LEAST))
 
 

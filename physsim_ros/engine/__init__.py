@@ -6,6 +6,6 @@ The physics engine: Pymunk's space, and the stages that make a step of it accura
 
 The only folder that imports Pymunk; an immutable value or a fresh array is all that crosses its
 border. Not here: requests, time and history (`simulation`). Start with `space` (bodies, joints,
-walls), then `core_world` and `body_table`, the tables that the core steps. `core` has all that
+walls); `bodies` has them in Pymunk, `body_table` as the core steps them. `core` has all that
 happens within a step, in C; `joints` has the kinds of joints.
 """

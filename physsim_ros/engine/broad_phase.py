@@ -2,22 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Broad phase: pairs of axis-aligned boxes that overlap, by a sweep or a hierarchical grid.
+Broad phase: pairs of axis-aligned boxes that overlap, and discs that may cover a point.
 
+Problem: comparing all with all takes n² / 2 comparisons.
+Method: hundreds of boxes are sorted and swept from left to right. Of more, and of discs, each is
+kept by size, in cells of a power of two that is at least its size, so that it overlaps others of
+its level in 3 x 3 cells only; a smaller one is looked up in each coarser level (Ericson, Real-Time
+Collision Detection, 7.5 and 7.2).
 Law: every overlapping pair is found once, whatever the sizes and wherever the boxes are; a pair
-costs the same whatever else is in the world. Hundreds of boxes are sorted and swept from left to
-right. Of more, boxes are kept by size, in cells of a power of two that is at least their size, so
-that a box overlaps others of its level in 3 x 3 cells only; a smaller box is looked up in each
-coarser level. Ericson, Real-Time Collision Detection, 7.5 and 7.2.
+costs the same whatever else is in the world.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 import itertools
+import math
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
+from physsim_ros.model.transform import Point
 
 # Smallest cell, as a power of two [m]: 1 µm, so that cells 1e12 m away have a 64-bit number.
 _FINEST = -20
@@ -155,3 +159,40 @@ def _ranges(first: Ints, count: Ints) -> Ints:
     rows: Ints = np.repeat(first - ends + count, count)
     rows += np.arange(len(rows))
     return rows
+
+
+class PointGrid:
+    """
+    Discs that stay where they are, asked which of them may cover a point.
+
+    A disc is in the cell of its centre, in the level whose cells are as wide as its radius, or up
+    to twice as wide.
+
+    :param centers: of the discs [m]
+    :param radii: of them, in the same order [m]
+    """
+
+    def __init__(self, centers: Iterable[Point], radii: Iterable[float]) -> None:
+        # Row, centre and radius of each disc, by level, column and row of its cell.
+        self._cells: dict[tuple[int, int, int], list[tuple[int, Point, float]]] = {}
+        for row, ((x, y), radius) in enumerate(zip(centers, radii, strict=True)):
+            # A share for the rounding of places, 1 nm at 1 000 km.
+            reach = radius * (1.0 + 1e-12) + 1e-15 * (abs(x) + abs(y))
+            cell = _cell_of(x, y, math.frexp(reach)[1])
+            self._cells.setdefault(cell, []).append((row, (x, y), reach))
+        self._levels = {level for level, _, _ in self._cells}
+
+    def near(self, point: Point) -> Iterator[int]:
+        """Yield the rows of the discs that may cover a point [m]."""
+        for level in self._levels:
+            _, column, line = _cell_of(*point, level)
+            columns, lines = range(column - 1, column + 2), range(line - 1, line + 2)
+            for cell in itertools.product((level,), columns, lines):
+                for row, center, reach in self._cells.get(cell, ()):
+                    if math.dist(center, point) <= reach:
+                        yield row
+
+
+def _cell_of(x: float, y: float, level: int) -> tuple[int, int, int]:
+    """Return level, column and row of a place [m]; a cell is 2 to the level wide [m]."""
+    return level, math.floor(math.ldexp(x, -level)), math.floor(math.ldexp(y, -level))

@@ -14,37 +14,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-import math
-from typing import Any
 
 import numpy as np
-from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import BODY_STATE, engine_motion, RigidBody
-from physsim_ros.engine.boundary import wall_count
-from physsim_ros.engine.scene_columns import columns_of
+from physsim_ros.engine.bodies import BODY_STATE, build_body, RigidBody, wake_bodies
 from physsim_ros.engine.space import Space
-from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
-from physsim_ros.model.checkpoint import (
-    BodyState,
-    Checkpoint,
-    Commands,
-    ImpulseCache,
-    Motion,
-    WorldState,
-)
+from physsim_ros.engine.warm_start import read_impulses, write_impulses
+from physsim_ros.model.checkpoint import Checkpoint
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Scene
-from physsim_ros.model.states import (
-    ACTOR_STATE,
-    ActorState,
-    Records,
-    ROBOT_STATE,
-    RobotState,
-    SPAWNED,
-    states_in,
-    WAITING,
-)
-from physsim_ros.model.transform import NO_WRENCH, Twist
+from physsim_ros.model.states import Records
+import pymunk
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
@@ -70,9 +49,14 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         memory=replace(
             read_impulses(
                 space.shapes,
-                rigids,
-                space.boundary.first_shape,
-                without=shape_numbers(rigids[row] for row in np.flatnonzero(unsupported)),
+                sleeping=(rigid.pm_body for rigid in rigids if rigid.pm_body.is_sleeping),
+                ids=[rigid.first_shape for rigid in rigids],
+                walls=space.boundary.first_shape,
+                without=[
+                    number
+                    for row in np.flatnonzero(unsupported).tolist()
+                    for number in rigids[row].shape_numbers
+                ],
                 joints=space.joints.impulses(),
             ),
             totals=space.joints.totals(),
@@ -89,175 +73,6 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             for name, coming in space.coming.in_order(space.bodies.by_name)
         ),
         actors=table.actor_states,
-    )
-
-
-def saved_state(space: Space, step: int) -> WorldState:
-    """
-    Return the saved state of a space, whose times count from now.
-
-    :param step: steps that the world has made
-    """
-    checkpoint, bodies = take_checkpoint(space, step), []
-    # A contact may have ended as a stage moved a body, with its impulses still in the cache. A
-    # rebuilt space does not find it, and what is loaded must be saved as it was.
-    memory = take_checkpoint(restore_checkpoint(checkpoint, space.dt), step).memory
-    robots, actors = checkpoint.scene.robot_rows.tolist(), checkpoint.scene.actor_rows.tolist()
-    driven = dict(zip(robots, states_in(checkpoint.robots, RobotState), strict=True))
-    acting = dict(zip(actors, states_in(checkpoint.actors, ActorState), strict=True))
-    motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
-    leads = _leads_of(checkpoint)
-    _, twists = space.core.observe()
-    rigids = enumerate(space.bodies.by_name.values())
-    for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
-        body, until = rigid.body, rigid.wrench_until
-        if body.expires is not None:
-            body = replace(body, expires=body.expires - step)
-        bodies.append(
-            BodyState(
-                body=body,
-                pose=rigid.pose,
-                twist=tuple(twists[row].tolist()),
-                motion=Motion._make((*state, free)),
-                field_lead=leads[row],
-                wrench=rigid.wrench,
-                wrench_steps=None if until is None else until - step,
-                driven=driven[row].shifted(-step) if row in driven else None,
-                coming=tuple(each.shifted(-step) for each in space.coming.of(rigid.body.name)),
-                acting=acting[row].shifted(-step) if row in acting else None,
-            )
-        )
-    return WorldState(
-        settings=checkpoint.scene.settings,
-        bodies=tuple(bodies),
-        joints=space.joints.drawn_now(),
-        commands=_shifted(checkpoint.commands, -step),
-        lesson=checkpoint.scene.lesson,
-        memory=memory,
-    )
-
-
-def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
-    """
-    Return the checkpoint at which a world begins with a state.
-
-    :param step: steps that the world has made
-    :param dt: of a sub-step [s]
-    """
-    motions = [saved.motion or engine_motion(saved, state.settings, dt) for saved in state.bodies]
-    return Checkpoint(
-        **_timed(state, step),
-        scene=Scene(
-            bodies=_bodies_at(state, step),
-            settings=state.settings,
-            joints=state.joints,
-            lesson=state.lesson,
-        ),
-        state=np.array([motion[:6] for motion in motions], np.float64).reshape(-1, 6),
-        free=np.array([motion.free for motion in motions], np.bool_),
-        field_leads=np.array(
-            [saved.field_lead or (math.nan,) * 3 for saved in state.bodies], np.float64
-        ).reshape(-1, 3),
-        memory=state.memory or _no_impulses(state),
-        unstepped=frozenset(joint.name for joint in state.joints),
-    )
-
-
-def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int) -> Checkpoint:
-    """
-    Have a space that was built for a step, and has made none, begin at another one.
-
-    :param checkpoint: from which it was built
-    :param state: of which that is the checkpoint
-    :param step: steps that the world has made
-    :return: the checkpoint of the state at that step
-    """
-    scene, rigids = checkpoint.scene, tuple(space.bodies.by_name.values())
-    if columns_of(scene, space.dt).expiries:
-        scene = replace(scene, bodies=_bodies_at(state, step))
-        for rigid, body in zip(rigids, scene.bodies, strict=True):
-            rigid.body = body
-        space.lay_out(scene)
-    checkpoint = replace(checkpoint, scene=scene, **_timed(state, step))
-    for row, wrench, until in checkpoint.wrenches:
-        space.put_wrench(rigids[row], wrench, until)
-    for row, coming in checkpoint.coming:
-        space.coming.put(rigids[row].body.name, coming)
-    space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
-    for command in checkpoint.commands:
-        space.joints.put_command(command, checkpoint.step)
-    return checkpoint
-
-
-def _bodies_at(state: WorldState, step: int) -> tuple[Body, ...]:
-    """Return the bodies of a state in a world that has made a number of steps."""
-    bodies = (saved.body for saved in state.bodies)
-    return tuple(
-        body if body.expires is None else replace(body, expires=body.expires + step)
-        for body in bodies
-    )
-
-
-def _timed(state: WorldState, step: int) -> dict[str, Any]:
-    """Return the fields of the checkpoint of a state that count steps, without its bodies."""
-    return {
-        'step': step,
-        'wrenches': tuple(
-            (row, saved.wrench, None if steps is None else step + steps)
-            for row, saved in enumerate(state.bodies)
-            for steps in (saved.wrench_steps,)
-            if saved.wrench != NO_WRENCH
-        ),
-        'commands': _shifted(state.commands, step),
-        'robots': np.array(
-            [
-                (saved.driven or SPAWNED).shifted(step)
-                for saved in state.bodies
-                if saved.body.robot is not None
-            ],
-            ROBOT_STATE,
-        ),
-        'coming': tuple(
-            (row, tuple(command.shifted(step) for command in saved.coming))
-            for row, saved in enumerate(state.bodies)
-            if saved.coming
-        ),
-        'actors': np.array(
-            [
-                (saved.acting or WAITING).shifted(step)
-                for saved in state.bodies
-                if saved.body.actor is not None
-            ],
-            ACTOR_STATE,
-        ),
-    }
-
-
-def _shifted(commands: Commands, steps: int) -> Commands:
-    """Return commands in a world that counts its steps from so many earlier."""
-    return tuple(each._replace(begun=each.begun + steps) for each in commands)
-
-
-def _leads_of(checkpoint: Checkpoint) -> list[Twist | None]:
-    """Return the leads of velocities by fields; None where one is to be found."""
-    if not len(checkpoint.field_leads):
-        return [None] * len(checkpoint.scene.bodies)
-    rows = checkpoint.field_leads.tolist()
-    return [None if math.isnan(x) else (x, y, turn) for x, y, turn in rows]
-
-
-def _no_impulses(state: WorldState) -> ImpulseCache:
-    """Return the impulse cache of a space that has not stepped."""
-    counts = [len(saved.body.shape.form.pieces) for saved in state.bodies]
-    ends = np.cumsum([wall_count(state.settings), *counts], dtype=np.int64)
-    return ImpulseCache(
-        ids=ends[:-1],
-        walls=0,
-        following=int(ends[-1]),
-        pairs=np.empty((0, 2), np.int64),
-        hashes=np.empty(0, np.uint64),
-        impulses=np.empty((0, 2)),
-        joints=np.empty((0, 2)),
     )
 
 
@@ -338,4 +153,76 @@ def _scattered(row: int) -> int:
 def _rigid_body(body: Body, pool: Mapping[str, RigidBody]) -> RigidBody:
     """Return the engine's objects of a body, from the pool if it has them."""
     rigid = pool.get(body.name)
-    return rigid if rigid is not None and rigid.body is body else rigid_body.build(body)
+    return rigid if rigid is not None and rigid.body is body else build_body(body)
+
+
+class BodyPool:
+    """
+    Pymunk's bodies for the next rebuild of the world, made a few in each frame.
+
+    They are outside any space, at rest and without contacts. To make a thousand bodies at once and
+    to free as many takes three times as long as the rest of a checkpoint. Bodies of the space
+    before this one are used again.
+
+    :param retired: a space that is not used any more; None if there is none
+    """
+
+    def __init__(self, retired: Space | None = None) -> None:
+        self.bodies: dict[str, RigidBody] = {}
+        self._retired = retired
+        self._has_contacts = retired is not None
+        # The scene of the next rebuild, and the row of the next body to make.
+        self._scene: Scene | None = None
+        self._row = 0
+
+    def is_complete(self, scene: Scene) -> bool:
+        """Return whether all bodies of a scene are made, and those of the retired space used."""
+        return self._scene is scene and self._row == len(scene.bodies)
+
+    def build_bodies(self, scene: Scene, count: int) -> None:
+        """Make up to a number of further bodies of a scene."""
+        if self._has_contacts and self._retired is not None:
+            # Not in the frame of the checkpoint, which takes long.
+            _clear_contacts(self._retired)
+            self._has_contacts = False
+            return
+        while count and self._retired is not None and self._retired.bodies.by_name:
+            rigid = _extract_body(self._retired)
+            self.bodies[rigid.body.name] = rigid
+            count -= 1
+        if scene is not self._scene:
+            self._scene, self._row = scene, 0
+        while count and self._row < len(scene.bodies):
+            body = scene.bodies[self._row]
+            spare = self.bodies.get(body.name)
+            if spare is None or spare.body is not body:
+                self.bodies[body.name] = build_body(body)
+                count -= 1
+            self._row += 1
+
+
+def _clear_contacts(space: Space) -> None:
+    """
+    Clear the engine's contacts, by a step with all bodies far from each other.
+
+    For each shape that is removed, Chipmunk searches all contacts that it caches.
+    """
+    space.joints.clear()
+    rigids = space.bodies.by_name.values()
+    wake_bodies(rigid.pm_body for rigid in rigids)
+    state = np.zeros((len(rigids), 6))
+    # In random order: in ascending order the engine's tree is as deep as there are bodies, and
+    # 20,000 took 4 s.
+    state[:, 0] = np.random.default_rng(0).permutation(len(rigids)) * 1e6
+    space.core.write_state(state)
+    space.pm_space.step(space.dt)
+
+
+def _extract_body(space: Space) -> RigidBody:
+    """Remove a body from a retired space and return it, at rest and without a wrench."""
+    rigid = space.bodies.by_name.popitem()[1]
+    space.shapes.remove(rigid.pm_body.shapes)
+    space.pm_space.remove(rigid.pm_body)
+    # The last step left a bias velocity, by which the next one would push overlaps apart.
+    pymunk.Body.update_position(rigid.pm_body, 0.0)
+    return RigidBody(rigid.body, rigid.pm_body)

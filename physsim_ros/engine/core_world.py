@@ -20,6 +20,9 @@ from pymunk._chipmunk_cffi import ffi as pymunk_ffi
 from pymunk._chipmunk_cffi import lib as pymunk_lib
 
 Table = NDArray[np.void]
+# A body at or beyond this position, angle or velocity is lost and removed [m, rad, s]; a double
+# resolves 0.1 mm there.
+LOST = 1e12
 # Functions of Chipmunk by the fields of `Chipmunk`.
 _FUNCTIONS = {
     'space_step': 'cpSpaceStep',
@@ -72,7 +75,7 @@ class CoreWorld:
         )
         self._world = ffi.gc(lib.core_new(*pointers), lib.core_free)
         self._world.stages = lib.STAGE_ALL & ~self.left_out
-        self._world.longest_call = self.longest_call
+        self._world.longest_call, self._world.farthest = self.longest_call, LOST
         # Kept while the core uses them: what it calls, and its tables.
         self._pm_space = pm_space
         self._tables: dict[str, tuple[Table, ...]] = {}
@@ -148,7 +151,7 @@ class CoreWorld:
         :param number: count of steps that the world has made
         :param age: count of steps since the space was built; stages that act every n steps count
             by it, so that a space restored from a checkpoint goes on alike
-        :param drag_force: greatest force of a hand, in weights of the body
+        :param drag_force: greatest force of a hand, on a body of 1 kg [N]
         :return: count of the steps that were made: fewer where a joint breaks, a body is lost, or
             the time of a call is over
         """

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.core import dtype_of
 from physsim_ros.engine.core_world import Table
 from physsim_ros.model.snapshot import Grip

@@ -14,17 +14,20 @@ from collections.abc import Iterable
 from dataclasses import replace
 import math
 
-from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import RigidBody, same_in_engine
-from physsim_ros.engine.body_set import BodySet, wake_bodies
-from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.bodies import (
+    BodySet,
+    build_body,
+    RigidBody,
+    same_in_engine,
+    wake_bodies,
+)
+from physsim_ros.engine.body_table import BodyTable, check_columns, check_floor, columns_of
 from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.coming import ComingCommands
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.scene_columns import check_columns, check_floor, columns_of
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
@@ -186,7 +189,7 @@ class Space:
     def add(self, body: Body, pose: Pose, twist: Twist) -> RigidBody:
         """Add a new body, the topmost one."""
         check_columns(body, self._settings, self.dt)
-        rigid = rigid_body.build(body)
+        rigid = build_body(body)
         self._insert(rigid, pose, twist)
         return rigid
 
@@ -204,7 +207,7 @@ class Space:
             if twist != self.twist_of(old):
                 self.set_twist(old, twist)
             return
-        rigid = rigid_body.build(body)
+        rigid = build_body(body)
         # What it touches it does not touch anew.
         rigid.row = old.row
         pose = self.joints.with_turns(old, pose)
@@ -419,7 +422,7 @@ class Space:
                 made,
                 number=number,
                 age=self._age,
-                drag_force=self._settings.drag_force,
+                drag_force=self._settings.drag_force * self._settings.reference_gravity,
                 reports_contacts=reports_contacts,
             )
         self._age += made

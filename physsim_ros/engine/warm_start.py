@@ -14,12 +14,10 @@ can go when Pymunk reads and writes contact impulses.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
-import itertools
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.body import RigidBody
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.checkpoint import ImpulseCache
 import pymunk
@@ -127,9 +125,9 @@ class _Points(NamedTuple):
         for impulse in ('jnAcc', 'jtAcc'):
             self.points[impulse] *= share
 
-    def forget(self, numbers: Ints) -> None:
+    def forget(self, numbers: Sequence[int]) -> None:
         """Set the impulses of shapes to zero, by their numbers."""
-        parted = np.isin(self.pairs, numbers).any(axis=1)
+        parted = np.isin(self.pairs, np.array(numbers, np.int64)).any(axis=1)
         for impulse in ('jnAcc', 'jtAcc'):
             self.points[impulse][parted] = 0.0
 
@@ -149,28 +147,26 @@ def scale_impulses(shapes: ShapeIds, share: float) -> None:
     found.write()
 
 
-def shape_numbers(rigids: Iterable[RigidBody]) -> Ints:
-    """Return the engine's numbers of all shapes of some bodies, (k,) int64."""
-    numbers = (
-        range(rigid.first_shape, rigid.first_shape + len(rigid.body.shape.form.pieces))
-        for rigid in rigids
-    )
-    return np.fromiter(itertools.chain.from_iterable(numbers), np.int64)
-
-
 def read_impulses(
-    shapes: ShapeIds, rigids: Sequence[RigidBody], walls: int, *, without: Ints, joints: Floats
+    shapes: ShapeIds,
+    *,
+    sleeping: Iterable[pymunk.Body],
+    ids: Sequence[int],
+    walls: int,
+    without: Sequence[int],
+    joints: Floats,
 ) -> ImpulseCache:
     """
     Return the impulse cache of a space.
 
     :param shapes: in the space
-    :param rigids: all bodies, in spawn order
+    :param sleeping: the sleeping bodies
+    :param ids: number of the first shape of each body, in spawn order
     :param walls: number of the first wall
     :param without: numbers of the shapes whose impulses count as zero
     :param joints: (c, 2) float64: impulses of the constraints
     """
-    found = shapes.contacts(rigid.pm_body for rigid in rigids if rigid.pm_body.is_sleeping)
+    found = shapes.contacts(sleeping)
     found.forget(without)
     _, pairs, points = found
     # The engine lists by address, which is never the same twice.
@@ -180,7 +176,7 @@ def read_impulses(
     order = order[(points['jnAcc'][order] != 0.0) | (points['jtAcc'][order] != 0.0)]
     points = points[order]
     return ImpulseCache(
-        ids=np.array([rigid.first_shape for rigid in rigids], dtype=np.int64),
+        ids=np.array(ids, np.int64),
         walls=walls,
         following=shapes.following,
         pairs=pairs[order],

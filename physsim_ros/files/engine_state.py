@@ -16,9 +16,9 @@ import operator
 from typing import Annotated, Any, TypeVar
 
 import numpy as np
-from physsim_ros.engine.body import lead_of, offset_of
-from physsim_ros.engine.body_table import LOST
+from physsim_ros.engine.bodies import lead_of, offset_of
 from physsim_ros.engine.core import sub_step_of
+from physsim_ros.engine.core_world import LOST
 from physsim_ros.files.world_schema import MOST_COMING, ROUNDING
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.checks import ListOf, LONGEST, number, pair, Row, Whole, Within

@@ -14,7 +14,7 @@ import itertools
 import math
 from typing import Annotated, Any
 
-from physsim_ros.engine.body_table import LOST
+from physsim_ros.engine.core_world import LOST
 from physsim_ros.files.world_schema import (
     is_same,
     MOST_COMING,

@@ -4,6 +4,7 @@
 """Settings of a world: gravity, damping, solver, walls, and the default material of bodies."""
 
 from dataclasses import dataclass, field
+import math
 from typing import Annotated
 
 from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, VELOCITY, Whole, Within
@@ -15,7 +16,7 @@ from physsim_ros.model.transform import Point
 
 Bounds = tuple[float, float, float, float]
 
-# Standard gravity [m/s²]; `engine/core/world.h` has it for the core.
+# Standard gravity [m/s²]: also of weights on a floor, and where there is no gravity.
 STANDARD_GRAVITY = 9.81
 # Greatest gravity [m/s²]: a thousand times that of the earth, 40 m/s in a step.
 STRONGEST = 1e4
@@ -183,6 +184,11 @@ class WorldSettings(Checked):
         f'most joints, of which {MOST_JOINTS_ON_BODY} on one body; a joint beyond it is refused',
         LIMIT,
     ] = 20000
+
+    @property
+    def reference_gravity(self) -> float:
+        """Return the gravity of weights [m/s²]: the standard one where the world has none."""
+        return math.hypot(*self.gravity) or STANDARD_GRAVITY
 
     @property
     def air(self) -> Medium:

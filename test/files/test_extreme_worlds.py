@@ -12,7 +12,7 @@ import math
 from typing import Any
 
 from physsim_ros import Simulation
-from physsim_ros.engine.body_table import LOST
+from physsim_ros.engine.core_world import LOST
 from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.model.actors import actor_from
 from physsim_ros.model.body_properties import Properties

@@ -33,13 +33,15 @@ LABELS = """async () => {
     const camera = Object.assign(new (await import('/page/view/camera.js')).Camera(),
         {x: 0, y: 0, scale: 20, width: 400, height: 400});
     const bodies = ['first', 'second', 'third'].map((label, row) =>
-        ({label, shape: {radius: 0.1}, centroid: [0, 0], at: [row === 2 ? 5 : 0.2 * row, 0]}));
+        ({label, name: label, shape: {radius: 0.1}, centroid: [0, 0],
+            at: [row === 2 ? 5 : 0.2 * row, 0]}));
     let measured = 0;
     const ctx = {strokeText() {}, fillText: (text) => drawn.push(text),
         measureText: (text) => (measured += 1, {width: 50 * text.length})};
     const view = {ctx, camera, palette: {},
         bodies: {appearance: () => ({inner: 0.1}), isOnPage: () => true},
-        world: {count: 3, scene: {bodies}, place: (row) => bodies[row].at}};
+        world: {count: 3, scene: {bodies, joints: []}, place: (row) => bodies[row].at,
+            boundsOfAll: () => [0, 0, 0, 0]}};
     drawLabels(view);
     drawLabels(view);
     return [drawn, measured];

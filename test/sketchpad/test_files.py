@@ -107,7 +107,8 @@ def test_worlds_and_lessons_have_pictures_of_their_bodies(browser: Browser) -> N
     page, worlds = browser.open_page(), worlds_of(browser)
     (worlds / 'lessons').mkdir()
     (worlds / 'lessons' / 'mine.yaml').write_text(
-        'format: 1\nbodies: [{name: a/0, circle: {radius: 1.5}}]'
+        'format: 1\nbodies: [{name: a/0, circle: {radius: 1.5}}]\njoints: [{name: b/0, '
+        'kind: rope, a: a/0, b: world, points: [[0, 0], [3, 4], [5, 0]], over: [world]}]'
     )
     listed = page.last('worlds')
     names = [each['name'] for each in listed['worlds'] + listed['lessons']]
@@ -117,8 +118,10 @@ def test_worlds_and_lessons_have_pictures_of_their_bodies(browser: Browser) -> N
         picture = ET.fromstring(response.body)  # noqa: S314 - of this server
         assert picture.attrib['viewBox'].count(' ') == 3
         assert len(picture[0]) > 0, name
-    (disc,) = picture[0][0]
+    disc, rope = picture[0][0][0], picture[0][-3]
     assert float(disc.attrib['r']) == 1.5
+    # A rope goes to what it passes.
+    assert 'L3 4L' in rope.attrib['d']
     (worlds / 'bad.yaml').write_text('format: 1\nbodies: [{name: "<script>"}]')
     assert browser.fetch('/gallery/bad.svg').code == 404
 

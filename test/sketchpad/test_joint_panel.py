@@ -127,3 +127,4 @@ def test_a_gear_is_made_by_its_tool_and_reached_from_its_wheels(sheet: Sheet) ->
     ratio = sheet.page.get_by_label('Ratio, typed')
     assert ratio.input_value() == '−2'
     sheet.page.get_by_text('Force now: 0 N m').wait_for()
+    sheet.page.get_by_label('Breaks at [N m]').wait_for()

@@ -20,8 +20,10 @@ bodies:
   - {name: arm/0, robot: arm, at: [-2, 2]}
   - {name: belt/0, box: {width: 4, height: 0.5}, at: [1.5, 1], anchored: true, belt: -1}
   - {name: gripper/0, robot: gripper, at: [2, 4]}
+  - {name: conveyor/0, box: {width: 3, height: 1}, at: [-2, 4], anchored: true, sensor: true,
+    surface_velocity: [1, 0]}
 """
-BODIES = 8
+BODIES = 9
 # Colours along a horizontal line of the page [px].
 ROW = """([x, y, width]) => [...document.querySelector('canvas').getContext('2d').getImageData(
     x * devicePixelRatio, y * devicePixelRatio, width * devicePixelRatio, 1).data]"""
@@ -73,9 +75,10 @@ def test_a_copy_of_a_part_is_a_whole_robot(sheet: Sheet) -> None:
     sheet.wait('count => Object.keys(physsim.bodies).length === count', BODIES)
 
 
-def test_the_treads_of_a_belt_run_with_time(sheet: Sheet) -> None:
+@pytest.mark.parametrize('at', [(0.0, 1.25), (-2.5, 4.0)], ids=['side', 'above'])
+def test_the_treads_of_a_belt_run_with_time(sheet: Sheet, at: tuple[float, float]) -> None:
     def treads() -> list[int]:
-        x, y = sheet.place(0.0, 1.25)
+        x, y = sheet.place(*at)
         colors: list[int] = sheet.page.evaluate(ROW, [x, y, 60])
         return colors
 

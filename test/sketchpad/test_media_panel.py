@@ -66,6 +66,18 @@ def test_a_pool_without_water_is_the_body_that_it_was(sheet: Sheet) -> None:
     assert sheet.pose('block/0')[1] == pytest.approx(4.4, abs=1e-3)
 
 
+def test_what_floated_in_an_emptied_pool_falls_to_its_floor(sheet: Sheet) -> None:
+    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    water = sheet.page.get_by_label('Water: bodies float in it')
+    water.check()
+    sheet.play_until(1.0)
+    water.uncheck()
+    gate = sheet.page.get_by_role('checkbox', name='Gate: lets bodies through', checked=True)
+    gate.wait_for()
+    sheet.press('Play')
+    sheet.wait('physsim.bodies["block/0"][1] < 0.41')
+
+
 def test_the_air_of_the_world_has_the_wind_that_is_typed(sheet: Sheet) -> None:
     sheet.press('Material')
     type_number(sheet, 'Viscosity of the air [N s/m²]', '2')

@@ -18,7 +18,7 @@ from unittest import mock
 
 import numpy as np
 from physsim_ros.engine import settings, warm_start
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints.joint_set import JointSet

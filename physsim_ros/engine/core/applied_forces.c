@@ -33,13 +33,11 @@ static Twist steady_lead(const World *world, const Body *body) {
     return twist_sum(body->state.field, gained, world->dt / 2.0);
 }
 
-void find_leads(World *world) {
+void find_leads(World *world, bool changed) {
     if (!has_stage(world, STAGE_HALF_STEP)) {
         return;
     }
-    // Without fields only requests change what is steady.
-    bool changes = world->has_fields || world->own->all_active;
-    for (int number = 0; changes && number < active_count(world); number++) {
+    for (int number = 0; changed && number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->state.lead = steady_lead(world, body);
     }

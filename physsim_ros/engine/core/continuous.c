@@ -31,14 +31,6 @@ static Twist way_of(const World *world, const Body *body) {
     return twist_sum((Twist){0}, twist_of(body->engine), world->dt);
 }
 
-// The box of the way of a body, that of its mover.
-static Box swept_box(const World *world, const Body *body) {
-    Vec start = body->engine->p, end = add(start, scaled(body->engine->v, world->dt)),
-        reach = vec(body->reach, body->reach);
-    Box box = united((Box){start, start}, (Box){end, end});
-    return (Box){sub(box.low, reach), add(box.high, reach)};
-}
-
 static bool stop(int number, void *data) {
     (void)number;
     *(bool *)data = true;
@@ -63,7 +55,7 @@ static bool boxes_meet(World *world, const Statics *statics) {
     for (int place = 0; place < world->body_count && !meet; place++) {
         Body *body = world->bodies + place;
         if (is_solid(body)) {
-            Box box = swept_box(world, body);
+            Box box = box_ahead(body, world->dt);
             for (int number = 0; number < count; number++) {
                 meet = meet || (fast[number].body != body && overlap(fast[number].box, box));
             }

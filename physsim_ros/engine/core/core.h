@@ -58,6 +58,7 @@ typedef struct BodyScratch {
     Twist field;     // half of what fields change its velocity by in this step
     uint8_t afloat;  // the surface of a medium crosses it
     uint8_t stirred; // fields act on it that change while it rests
+    uint8_t lost;    // it has left the range of numbers
 } BodyScratch;
 
 // A body as requests define it, with its state; the last one of the table is the background, which has the walls.
@@ -85,7 +86,7 @@ typedef struct Body {
     int32_t hull_count;    // 0 of a body of one piece, and where there is no medium
     int64_t group;         // bodies of one group pass through each other; 0 is none
     Twist wrench;          // force [N] and torque [N m] that act on it
-    double floor_friction; // coefficient of friction with the floor; 0 where none acts
+    double braking;        // greatest deceleration by friction with the floor [m/s²]; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
     double belt;           // velocity of its surface along its outline, counter-clockwise [m/s]
     double rolling;        // coefficient of rolling resistance
@@ -414,12 +415,13 @@ typedef struct World {
     uint8_t reports_contacts;
     uint8_t statics_moved; // an anchored body or a wall has been moved since the last step
     uint8_t has_fields;    // fields act, or velocities lead by them
-    double drag_force;     // greatest force of a hand, in weights of the body
+    double drag_force;     // greatest force of a hand, on a body of 1 kg [N]
     // Of attraction (`attraction.c`): G [N m^p/kg²], k [N m^p/C²], p and ε [m].
     double gravitation, coulomb, attraction_power, softening;
     int64_t step;        // count of steps that the world has made
     int64_t age;         // count of steps since the space was built
     double longest_call; // time after which a call of `core_step` makes no further sub-step [s]
+    double farthest;     // a body beyond this position, angle or velocity is lost [m, rad, s]
     // The bodies with the background, the others as they are in the world.
     Body *bodies;
     Joint *joints;
@@ -438,7 +440,7 @@ typedef struct World {
     // These fields are results of the last steps.
     uint8_t within_step; // a step is begun and not ended
     uint8_t has_broken;  // a joint
-    uint8_t has_lost;    // a body has left the range of numbers
+    uint8_t has_lost;    // a body
     int64_t swept;       // pairs of bodies whose time of impact has been looked for since the world was made
     int32_t contact_count, begun_count, frame_steps;
     Contact *contacts; // of the frame, by place

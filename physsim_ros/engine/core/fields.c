@@ -97,7 +97,7 @@ void begin_fields(World *world) {
     if (!has_fresh(world)) {
         return;
     }
-    find_leads(world);
+    find_leads(world, true);
     Media media = media_of(world, 0.0);
     const Twist *attraction = attracted(world, 0.0);
     for (int place = 0; place < world->body_count; place++) {

@@ -53,7 +53,7 @@ typedef struct Surface {
 } Surface;
 
 static Surface surface_of(const World *world, const Body *body) {
-    double most = body->floor_friction * standard_gravity * world->dt;
+    double most = body->braking * world->dt;
     double gyration = body->engine->i / body->engine->m;
     return (Surface){body->lever, most, most * body->lever * body->lever / gyration};
 }
@@ -220,7 +220,7 @@ static Driving driving_of(const World *world, int place, const Robot **robot, co
 
 bool has_floor(const World *world) {
     for (int place = 0; place < world->body_count; place++) {
-        if (world->bodies[place].floor_friction > 0.0) {
+        if (world->bodies[place].braking > 0.0) {
             return true;
         }
     }
@@ -241,7 +241,7 @@ void pull_by_floor(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         Driving driving = driving_of(world, place, &robot, &actor);
-        if (body->floor_friction > 0.0) {
+        if (body->braking > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_sum(driving.mean, belt, 1.0), end = twist_sum(driving.end, belt, 1.0);
             drag(world, body, mean, end);
@@ -256,7 +256,7 @@ void find_pushes(World *world) {
     }
     for (int place = 0; world->own->has_floor && place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        if (body->floor_friction == 0.0) {
+        if (body->braking == 0.0) {
             continue;
         }
         // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in

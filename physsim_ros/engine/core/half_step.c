@@ -115,7 +115,7 @@ static void find_unsupported(World *world, uint8_t *unsupported) {
 
 // Find the free flight that the next step begins with, and the bodies whose support was removed (body_count).
 static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
-    find_leads(world);
+    find_leads(world, world->own->all_active);
     bool released = false;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
@@ -196,7 +196,7 @@ void find_free(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->state.free = false;
-        if (!body->dynamic || body->sprung || body->floor_friction > 0.0 || sleeps(body) ||
+        if (!body->dynamic || body->sprung || body->braking > 0.0 || sleeps(body) ||
             !has_stage(world, STAGE_HALF_STEP)) {
             continue;
         }

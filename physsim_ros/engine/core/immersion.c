@@ -6,28 +6,36 @@
 // Corners of the polygon that counts for a round region.
 enum { ROUND_CORNERS = 96 };
 
-// A polygon that is clipped; `own` tells which edges, each from its corner on, are of the outline of the body.
+// A corner of a polygon that is clipped, and whether the edge from it on is of the outline of the body.
+typedef struct Vertex {
+    Vec place;
+    bool own;
+} Vertex;
+
 typedef struct Outline {
-    Vec *corners;
-    bool *own;
+    Vertex *vertices;
     int count;
 } Outline;
 
-// A basin as seen from the centre of mass of a body, and the numbers of the edges that the body may cross.
+// An edge of a basin as seen from the centre of mass of a body: a corner, and the normal outwards.
+typedef struct Line {
+    Vec corner, normal;
+} Line;
+
+// A basin as seen from the centre of mass of a body, and the edges that the body may cross.
 typedef struct Around {
     const Basin *basin;
-    Outline edges;
-    int *crossing;
-    int crossing_count;
+    Vec origin;
+    Line *lines;
+    int line_count;
 } Around;
 
 static Outline outline_of(int most, Arena *arena) {
-    return (Outline){TAKE(arena, Vec, most), TAKE(arena, bool, most), 0};
+    return (Outline){TAKE(arena, Vertex, most), 0};
 }
 
-static void add_corner(Outline *outline, Vec corner, bool own) {
-    outline->corners[outline->count] = corner;
-    outline->own[outline->count++] = own;
+static inline void add_vertex(Outline *outline, Vec place, bool own) {
+    outline->vertices[outline->count++] = (Vertex){place, own};
 }
 
 // Regions
@@ -90,19 +98,23 @@ Fit fit_of(const Basin *basin, Vec center, double reach) {
 
 // Polygons
 
-// What of a convex polygon lies behind a line, whose normal points away from it.
-static Outline clipped(Outline from, Vec corner, Vec normal, Arena *arena) {
+// What of a convex polygon lies behind a line.
+static Outline clipped(Outline from, Line line, Arena *arena) {
     Outline kept = outline_of(from.count + 1, arena);
-    for (int number = 0; number < from.count; number++) {
-        Vec a = from.corners[number], b = from.corners[(number + 1) % from.count];
-        double out_a = dot(normal, sub(a, corner)), out_b = dot(normal, sub(b, corner));
+    Vertex a = from.vertices[0];
+    double out_a = dot(line.normal, sub(a.place, line.corner));
+    for (int number = 1; number <= from.count; number++) {
+        Vertex b = from.vertices[number < from.count ? number : 0];
+        double out_b = dot(line.normal, sub(b.place, line.corner));
         if (out_a <= 0.0) {
-            add_corner(&kept, a, from.own[number]);
+            add_vertex(&kept, a.place, a.own);
         }
         if ((out_a <= 0.0) != (out_b <= 0.0)) {
-            Vec crossing = add(a, scaled(sub(b, a), out_a / (out_a - out_b)));
-            add_corner(&kept, crossing, out_a > 0.0 && from.own[number]);
+            Vec crossing = add(a.place, scaled(sub(b.place, a.place), out_a / (out_a - out_b)));
+            add_vertex(&kept, crossing, out_a > 0.0 && a.own);
         }
+        a = b;
+        out_a = out_b;
     }
     return kept;
 }
@@ -115,24 +127,24 @@ static void add_area(Wet *wet, Vec a, Vec b, Vec c) {
 
 // Clip a polygon at the edges of a basin that its body may cross; no basin leaves it whole.
 static Outline in_basin(Outline outline, const Around *around, Arena *arena) {
-    for (int number = 0; around != NULL && number < around->crossing_count && outline.count > 0; number++) {
-        int edge = around->crossing[number];
-        outline = clipped(outline, around->edges.corners[edge], around->basin->normals[edge], arena);
+    for (int number = 0; around != NULL && number < around->line_count && outline.count > 0; number++) {
+        outline = clipped(outline, around->lines[number], arena);
     }
     return outline;
 }
 
 static void add_bulk(Wet *wet, Outline outline) {
+    const Vertex *vertices = outline.vertices;
     for (int number = 2; number < outline.count; number++) {
-        add_area(wet, outline.corners[0], outline.corners[number - 1], outline.corners[number]);
+        add_area(wet, vertices[0].place, vertices[number - 1].place, vertices[number].place);
     }
 }
 
 static void add_sides(Wet *wet, Outline outline) {
     for (int number = 0; number < outline.count; number++) {
-        if (outline.own[number]) {
-            Vec end = outline.corners[(number + 1) % outline.count];
-            wet->sides[wet->side_count++] = (Side){outline.corners[number], end};
+        if (outline.vertices[number].own) {
+            const Vertex *end = outline.vertices + (number + 1 < outline.count ? number + 1 : 0);
+            wet->sides[wet->side_count++] = (Side){outline.vertices[number].place, end->place};
         }
     }
 }
@@ -166,8 +178,8 @@ static void add_disc_segment(Wet *wet, Vec center, double radius, Vec normal, do
 // Add what of a disc lies in a convex polygon, as the sum over the triangles that the centre makes with its edges.
 static void add_disc(Wet *wet, Vec center, double radius, const Outline *basin) {
     for (int number = 0; number < basin->count; number++) {
-        Vec a = sub(basin->corners[number], center);
-        Vec b = sub(basin->corners[(number + 1) % basin->count], center), edge = sub(b, a);
+        Vec a = sub(basin->vertices[number].place, center);
+        Vec b = sub(basin->vertices[(number + 1) % basin->count].place, center), edge = sub(b, a);
         double square = dot(edge, edge), middle = dot(a, edge);
         double within = middle * middle - square * (dot(a, a) - radius * radius);
         double half = sqrt(greatest(within, 0.0));
@@ -188,13 +200,22 @@ static void add_disc(Wet *wet, Vec center, double radius, const Outline *basin) 
     }
 }
 
-static void add_disc_in_basin(Wet *wet, Vec center, double radius, const Around *around) {
-    if (around->crossing_count == 1) {
-        int edge = around->crossing[0];
-        Vec normal = around->basin->normals[edge];
-        add_disc_segment(wet, center, radius, normal, dot(normal, sub(center, around->edges.corners[edge])));
+// All edges of a basin, as seen from the centre of mass of a body.
+static Outline edges_of(const Around *around, Arena *arena) {
+    Outline edges = outline_of(around->basin->count, arena);
+    for (int number = 0; number < around->basin->count; number++) {
+        add_vertex(&edges, sub(around->basin->corners[number], around->origin), false);
+    }
+    return edges;
+}
+
+static void add_disc_in_basin(Wet *wet, Vec center, double radius, const Around *around, Arena *arena) {
+    if (around->line_count == 1) {
+        Line line = around->lines[0];
+        add_disc_segment(wet, center, radius, line.normal, dot(line.normal, sub(center, line.corner)));
     } else {
-        add_disc(wet, center, radius, &around->edges);
+        Outline edges = edges_of(around, arena);
+        add_disc(wet, center, radius, &edges);
     }
 }
 
@@ -212,7 +233,7 @@ static Outline polygon_of(const cpShape *shape, Rotation by, Arena *arena) {
     int count = corner_count(shape);
     Outline outline = outline_of(count, arena);
     for (int number = 0; number < count; number++) {
-        add_corner(&outline, corner_at(shape, number, by), true);
+        add_vertex(&outline, corner_at(shape, number, by), true);
     }
     return outline;
 }
@@ -220,7 +241,7 @@ static Outline polygon_of(const cpShape *shape, Rotation by, Arena *arena) {
 static Outline hull_of(const Body *body, Rotation by, Arena *arena) {
     Outline outline = outline_of(body->hull_count, arena);
     for (int number = 0; number < body->hull_count; number++) {
-        add_corner(&outline, rotated(body->hull[number], by), true);
+        add_vertex(&outline, rotated(body->hull[number], by), true);
     }
     return outline;
 }
@@ -229,10 +250,10 @@ static Outline hull_of(const Body *body, Rotation by, Arena *arena) {
 static Outline bar_of(Vec a, Vec b, double radius, Arena *arena) {
     Vec along = sub(b, a), side = scaled(perpendicular(along), radius / length(along));
     Outline bar = outline_of(4, arena);
-    add_corner(&bar, sub(a, side), true);
-    add_corner(&bar, sub(b, side), false);
-    add_corner(&bar, add(b, side), true);
-    add_corner(&bar, add(a, side), false);
+    add_vertex(&bar, sub(a, side), true);
+    add_vertex(&bar, sub(b, side), false);
+    add_vertex(&bar, add(b, side), true);
+    add_vertex(&bar, add(a, side), false);
     return bar;
 }
 
@@ -247,7 +268,7 @@ static void add_segment(Wet *wet, Vec a, Vec b, double radius, const Around *aro
         if (around == NULL) {
             add_whole_arc(wet, ends[end], radius, atan2(away.y, away.x) - pi / 2.0, pi);
         } else {
-            Outline beyond = clipped(around->edges, ends[end], negated(away), arena);
+            Outline beyond = clipped(edges_of(around, arena), (Line){ends[end], negated(away)}, arena);
             add_disc(wet, ends[end], radius, &beyond);
         }
     }
@@ -260,7 +281,7 @@ static void add_piece(Wet *wet, const cpShape *shape, Rotation by, const Around 
         if (around == NULL) {
             add_whole_arc(wet, corner_at(shape, 0, by), radius, 0.0, 2.0 * pi);
         } else {
-            add_disc_in_basin(wet, corner_at(shape, 0, by), radius, around);
+            add_disc_in_basin(wet, corner_at(shape, 0, by), radius, around, arena);
         }
         break;
     case SHAPE_SEGMENT:
@@ -275,29 +296,33 @@ static void add_piece(Wet *wet, const cpShape *shape, Rotation by, const Around 
 }
 
 static Around around_of(const Basin *basin, Vec origin, double reach, Arena *arena) {
-    Around around = {basin, outline_of(basin->count, arena), TAKE(arena, int, basin->count), 0};
+    Around around = {basin, origin, TAKE(arena, Line, basin->count), 0};
     for (int number = 0; number < basin->count; number++) {
-        Vec corner = sub(basin->corners[number], origin);
-        add_corner(&around.edges, corner, false);
-        if (dot(basin->normals[number], corner) < reach) {
-            around.crossing[around.crossing_count++] = number;
+        Line line = {sub(basin->corners[number], origin), basin->normals[number]};
+        if (dot(line.normal, line.corner) < reach) {
+            around.lines[around.line_count++] = line;
         }
     }
     return around;
 }
 
 Wet immersed(const Body *body, Pose pose, const Basin *basin, bool outlined, Arena *arena) {
+    Wet wet = {0};
+    if (basin == NULL && !outlined) {
+        wet.area = body->area;
+        return wet;
+    }
     Rotation by = rotation(pose.yaw);
     Around around = basin == NULL ? (Around){0} : around_of(basin, pose.p, body->reach, arena);
     const Around *edges = basin == NULL ? NULL : &around;
-    Wet wet = {0};
     for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
         // A polygon has a side an edge. Each edge of the basin, and that which halves the disc at an end of a segment,
         // makes two arcs at most.
+        int edge_count = basin == NULL ? 0 : basin->count;
         wet.sides = TAKE(arena, Side, corner_count(shape));
-        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 4 * (around.edges.count + 2));
+        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 4 * (edge_count + 2));
         wet.side_count = wet.bow_count = 0;
-        if (basin != NULL || (outlined && body->hull_count == 0)) {
+        if (basin != NULL || body->hull_count == 0) {
             add_piece(&wet, shape, by, edges, arena);
         }
     }

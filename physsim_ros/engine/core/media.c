@@ -17,7 +17,8 @@
 // middle of that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the
 // middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J.
 // Numer. Anal. 1970): no drag is too strong for the steps. Scope: no mass of medium that moves along (added mass), no
-// lift, no waves; a medium is not pushed. Cost: 0.1 µs a body and sub-step within a region, 0.5 µs at its surface.
+// lift, no waves; a medium is not pushed. Cost: a hundred boxes
+// that float apart take 1.5 times as long as a hundred that fall, discs 1.35 times.
 // Without it laws 70 and 71 fail: nothing floats.
 
 #include "media.h"

@@ -25,6 +25,18 @@ static inline Box united(Box a, Box b) {
                  {greatest(a.high.x, b.high.x), greatest(a.high.y, b.high.y)}};
 }
 
+// The box of all within a reach of a point that moves along a line [m].
+static inline Box box_of_way(Vec start, Vec end, double reach) {
+    Box line = united((Box){start, start}, (Box){end, end});
+    return (Box){sub(line.low, vec(reach, reach)), add(line.high, vec(reach, reach))};
+}
+
+// The box of a body that goes on at its velocity for a time [s].
+static inline Box box_ahead(const Body *body, double seconds) {
+    Vec start = body->engine->p;
+    return box_of_way(start, add(start, scaled(body->engine->v, seconds)), body->reach);
+}
+
 // A body, or a shape that never moves, in the coming step.
 typedef struct Mover {
     Body *body;

@@ -31,11 +31,6 @@ static Softness softness(double dt) {
     return (Softness){omega / a1, a2 * a3, a3};
 }
 
-static double greatest_force(const World *world, double mass) {
-    double gravity = length(world->space->gravity);
-    return world->drag_force * mass * (gravity > 0.0 ? gravity : standard_gravity);
-}
-
 // Solve one grip on a body that has a velocity, which is changed. Return its impulse, which was `before` [N s].
 static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Vec arm, Pose pose, Twist *twist,
                       Vec before) {
@@ -50,7 +45,7 @@ static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Ve
     double share = soft.mass_scale / (k11 * k22 - k12 * k12);
     Vec impulse = {before.x - share * (k22 * u.x - k12 * u.y) - soft.impulse_scale * before.x,
                    before.y - share * (k11 * u.y - k12 * u.x) - soft.impulse_scale * before.y};
-    double size = length(impulse), most = greatest_force(world, body->engine->m) * world->dt;
+    double size = length(impulse), most = world->drag_force * body->engine->m * world->dt;
     if (size > most) {
         impulse = scaled(impulse, most / size);
     }

@@ -13,7 +13,8 @@ void begin_half_step(World *world);
 
 // Constant forces on bodies, and their part of the lead of a body in free flight (`applied_forces.c`).
 void apply_forces(World *world);
-void find_leads(World *world);
+// `changed`: requests or fields may have changed what does not turn with a body.
+void find_leads(World *world, bool changed);
 
 // Forces that depend on where all bodies are and how they move: media (`media.c`), attraction (`attraction.c`);
 // their half-step treatment (`fields.c`).

@@ -6,9 +6,6 @@
 #include "stages.h"
 #include <time.h>
 
-// A body beyond this position or speed is removed [m, m/s, rad, rad/s]; a double resolves 0.1 mm there.
-static const double lost = 1e12;
-
 static void begin_body(Body *body) {
     assert(body_of(body->engine) == body);
     body->scratch.begin = pose_of(body->engine);
@@ -43,16 +40,18 @@ static void keep_twists(World *world) {
     }
 }
 
-static bool is_lost(const cpBody *engine) {
+static bool is_lost(const cpBody *engine, double farthest) {
     // NaN compares false, so that it is lost too.
-    return !(fabs(engine->p.x) < lost && fabs(engine->p.y) < lost && fabs(engine->a) < lost &&
-             fabs(engine->v.x) < lost && fabs(engine->v.y) < lost && fabs(engine->w) < lost);
+    return !(fabs(engine->p.x) < farthest && fabs(engine->p.y) < farthest && fabs(engine->a) < farthest &&
+             fabs(engine->v.x) < farthest && fabs(engine->v.y) < farthest && fabs(engine->w) < farthest);
 }
 
 static void find_lost(World *world) {
     world->has_lost = false;
     for (int number = 0; number < active_count(world); number++) {
-        world->has_lost = world->has_lost || is_lost(active_at(world, number)->engine);
+        Body *body = active_at(world, number);
+        body->scratch.lost = is_lost(body->engine, world->farthest);
+        world->has_lost = world->has_lost || body->scratch.lost;
     }
 }
 
@@ -106,7 +105,7 @@ static void step(World *world) {
     int awake_count = 0;
     Body **awake = step_chipmunk(world, &awake_count);
     keep_fields(world);
-    find_leads(world);
+    find_leads(world, world->has_fields);
     forgive_trembling(world);
     solve_joints(world);
     find_borne(world);

@@ -87,8 +87,7 @@ void fit_box(Mover *mover) {
     double arm = length(sub(mover->start, mover->pivot)), turn = mover->rate.w;
     double margin = mover->body->reach + arm * turn * turn / 8.0;
     mover->half = vec(margin, margin);
-    mover->box = united((Box){mover->start, mover->start}, (Box){mover->end, mover->end});
-    mover->box = (Box){sub(mover->box.low, mover->half), add(mover->box.high, mover->half)};
+    mover->box = box_of_way(mover->start, mover->end, margin);
 }
 
 // Convex shapes, and corners of them.
@@ -216,7 +215,7 @@ Mover mover_of(Body *body, Twist way) {
                    .island = -1,
                    .next = -1,
                    .leader = -1};
-    // A turning disc covers the same ground.
+    // A disc covers the same ground however it turns.
     mover.rate = (Twist){way.v, mover.turning > 0.0 ? way.w : 0.0};
     fit_box(&mover);
     return mover;

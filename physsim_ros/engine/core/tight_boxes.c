@@ -56,20 +56,13 @@ static void index_at_end(World *world, cpBody *engine) {
     set_twist(engine, twist);
 }
 
-// The box of a body, extended as Chipmunk does.
-static Box extended_box(const Body *body) {
-    Vec start = body->engine->p, end = add(start, scaled(body->engine->v, extension));
-    Vec reach = vec(body->reach, body->reach);
-    return united((Box){sub(start, reach), add(start, reach)}, (Box){sub(end, reach), add(end, reach)});
-}
-
 // The box of all that fast bodies could meet.
 static Box box_of_fast(const World *world) {
     Box all = nowhere;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
         if (is_fast_in_crowd(body)) {
-            all = united(all, extended_box(body));
+            all = united(all, box_ahead(body, extension));
         }
     }
     return all;
@@ -86,7 +79,7 @@ void tighten_boxes(World *world) {
     Box *boxes = TAKE(arena, Box, world->body_count);
     int count = 0;
     for (int place = 0; place < world->body_count - 1; place++) {
-        boxes[count] = extended_box(world->bodies + place);
+        boxes[count] = box_ahead(world->bodies + place, extension);
         if (overlap(boxes[count], all)) {
             bodies[count++] = world->bodies + place;
         }

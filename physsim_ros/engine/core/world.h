@@ -14,9 +14,6 @@
 // Overlaps are not smaller than this by rounding, within a kilometre of the origin [m].
 #define ROUNDING_OF_POSITIONS 1e-12
 
-// Standard gravity [m/s²]: of weights on the floor, and of the forces of hands in worlds without gravity.
-static const double standard_gravity = 9.81;
-
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;

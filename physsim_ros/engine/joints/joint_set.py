@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.coming import ComingCommands
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld

@@ -17,7 +17,7 @@ from itertools import chain, pairwise
 import math
 from typing import NamedTuple
 
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.core import lib
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD

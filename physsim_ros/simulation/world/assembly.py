@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, Exists

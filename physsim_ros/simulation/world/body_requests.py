@@ -16,7 +16,7 @@ from dataclasses import replace
 import math
 from typing import Any
 
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import check_pose

@@ -20,7 +20,7 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 
 import numpy as np
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.overlaps import core_boxes, count_inside, count_overlaps, laid_out
 from physsim_ros.engine.space import Space
 from physsim_ros.model.attraction import check_attraction

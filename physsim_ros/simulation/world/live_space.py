@@ -16,15 +16,10 @@ from collections.abc import Collection, Iterable, Sequence
 import math
 from typing import NamedTuple
 
-from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.body_pool import BodyPool
-from physsim_ros.engine.checkpoint import (
-    begin_at,
-    checkpoint_of,
-    restore_checkpoint,
-    take_checkpoint,
-)
+from physsim_ros.engine.bodies import RigidBody
+from physsim_ros.engine.checkpoint import BodyPool, restore_checkpoint, take_checkpoint
 from physsim_ros.engine.core import sub_step_of
+from physsim_ros.engine.saved_state import begin_at, checkpoint_of
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import check_pose

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import BadProperty, Exists, UnknownBody
 from physsim_ros.model.requests import DriveRobot

@@ -17,8 +17,8 @@ import hashlib
 from operator import gt
 from typing import Any
 
-from physsim_ros.engine.checkpoint import saved_state
 from physsim_ros.engine.contacts import take_contacts
+from physsim_ros.engine.saved_state import saved_state
 from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import StepFailed

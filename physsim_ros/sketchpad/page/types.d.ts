@@ -122,6 +122,8 @@ export interface Body {
   sensor: boolean;
   /** Velocity of its surface, counter-clockwise [m/s]. */
   belt?: number;
+  /** Of a conveyor seen from above, in its axes [m/s]. */
+  surface_velocity?: Point;
   rolling_resistance?: number;
   /** Direction in its axes in which others pass it. */
   one_way?: Point;

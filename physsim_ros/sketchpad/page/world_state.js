@@ -6,6 +6,8 @@ import {distance, rotated} from './vectors.js';
 
 /** @import {Body, Bounds, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
+const HINGED = ['axle', 'motor', 'spring', 'rod', 'rope'], HINGE = 0.35; // m: kinds of joints with a hinge on the background, and how far it reaches
+
 export class WorldState {
   /** @param {Connection} connection */
   constructor(connection) {
@@ -233,9 +235,21 @@ export class WorldState {
     return [x[sun] - reach, y[sun] - reach, x[sun] + reach, y[sun] + reach];
   }
 
-  /** @returns {Bounds} of what a lesson shows first; of the world, or of its bodies */
+  /**
+   * @param {Bounds} box
+   * @returns {Bounds[]} of the symbols of hinges on the background that are in the box: below an axle, beyond the end of a line
+   */
+  #hingesIn([left, low, right, high]) {
+    const hinges = this.scene.joints.filter(({kind, b, points: [, [x, y]]}) => b < 0 && HINGED.includes(kind) && left <= x && x <= right && low <= y && y <= high);
+    return hinges.map(({a, points: [p, [x, y]]}) => {
+      const [, from] = this.place(a, p);
+      return from < y - HINGE / 2 ? [x, y, x, y + HINGE] : [x, y - HINGE, x, y];
+    });
+  }
+
+  /** @returns {Bounds} of what a lesson shows first; of the world, or of its bodies, with the hinges in it */
   extent() {
     const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.#orbits() ?? this.bodiesExtent());
-    return box.every(Number.isFinite) ? box : [-6, -1, 6, 6];
+    return box.every(Number.isFinite) ? unionOf([box, ...this.#hingesIn(box)]) : [-6, -1, 6, 6];
   }
 }

@@ -112,7 +112,7 @@ def body_entry(body: Body) -> dict[str, Any]:
         **({'belt': body.belt} if body.belt else {}),
         **{
             name: value
-            for name in ('rolling_resistance', 'one_way', 'closed_sides')
+            for name in ('surface_velocity', 'rolling_resistance', 'one_way', 'closed_sides')
             if (value := getattr(body, name)) != BODY_DEFAULTS[name]
         },
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),

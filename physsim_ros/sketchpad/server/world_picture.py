@@ -16,12 +16,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from physsim_ros.appearance import JointGlyphs
 from physsim_ros.files import load_world
 from physsim_ros.model.checkpoint import BodyState, WorldState
-from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import WORLD
-from physsim_ros.model.scene import Joint
-from physsim_ros.model.transform import local_to_world, Point, Pose
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.transform import local_to_world, Point
 from physsim_ros.sketchpad.server.scene_codec import shape_entry
 
 # Greatest number of bodies and of joints in a picture.
@@ -34,8 +33,8 @@ _MARGIN = 0.04
 _DARKER = 0.6
 # Opacity of a sensor.
 _SHEER = 0.4
-# Radius of an axle [pixels].
-_AXLE = 2.0
+# Half the size of the smallest symbol of a joint [pixels].
+_LEAST = 2.0
 _INK = '#55585f'
 
 
@@ -134,18 +133,9 @@ def _line(points: Iterable[Point], width: float, color: str) -> str:
 
 def _joints(state: WorldState, pixel: float) -> Iterator[str]:
     """Yield the elements of the joints."""
-    poses = {each.body.name: each.pose for each in state.bodies} | {WORLD: (0.0, 0.0, 0.0)}
-    for joint in state.joints[:MOST_DRAWN]:
-        a, b = _ends(joint, poses)
-        if joint.kind in {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}:
-            yield _line((a, b), pixel, _INK)
-        elif joint.kind in {JointKind.AXLE, JointKind.MOTOR}:
-            yield f'<circle cx="{_texts(a[0])}" cy="{_texts(a[1])}" r="{_texts(_AXLE * pixel)}"'
-            yield f' fill="#fff" stroke="{_INK}"/>'
-
-
-def _ends(joint: Joint, poses: dict[str, Pose]) -> tuple[Point, Point]:
-    """Return the places of both ends of a joint [m]."""
-    seat = joint.seat
-    a = local_to_world((seat.ax, seat.ay), poses[joint.a])
-    return a, local_to_world((seat.bx, seat.by), poses[joint.b])
+    bodies = tuple(each.body for each in state.bodies)
+    scene = Scene(bodies=bodies, settings=state.settings, joints=state.joints[:MOST_DRAWN])
+    glyphs = JointGlyphs(scene, least=_LEAST * pixel)
+    poses = np.array([each.pose for each in state.bodies], np.float64).reshape(-1, 3)
+    for strip in np.split(glyphs.corners(poses), np.cumsum(glyphs.lengths)[:-1]):
+        yield _line(strip.tolist(), pixel, _INK)

@@ -6,7 +6,7 @@
 import math
 
 import numpy as np
-from physsim_ros.engine import body as rigid_body
+from physsim_ros.engine.bodies import build_body
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.requests import Configure, Spawn
@@ -54,7 +54,7 @@ class Overlaps:
 
     def __init__(self, scene):
         self._space = pymunk.Space()
-        self._rigids = [rigid_body.build(body) for body in scene.bodies]
+        self._rigids = [build_body(body) for body in scene.bodies]
         for rigid in self._rigids:
             self._space.add(rigid.pm_body, *rigid.pm_body.shapes)
 

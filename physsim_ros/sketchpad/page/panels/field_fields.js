@@ -8,6 +8,7 @@ import {t} from '../strings.js';
 
 /** Of a body that becomes water: twice as dense as a new body, so that this one floats. */
 export const WATER = {density: 2, viscosity: 0.5};
+const SKIN = 0.01; // m: what lies on a pool does not float in it
 
 /**
  * @param {Parts<'world'>} parts
@@ -27,7 +28,11 @@ export function mediumFields({world}, {name, medium, charge = 0}, change) {
   };
   const flow = () => world.scene.bodies[world.row(name)]?.medium?.flow ?? medium.flow;
   return [
-    checkField(t('Water: bodies float in it'), true, () => change({medium: null, sensor: false})),
+    checkField(t('Water: bodies float in it'), true, () => {
+      const [left, low, right, high] = world.boundsOfAll([name]);
+      // A solid body would overlap what floats in it.
+      change({medium: null, sensor: !world.isFree([left + SKIN, low + SKIN, right - SKIN, high - SKIN])});
+    }),
     createElement('fieldset', {className: 'force'}, createElement('legend', {}, t('Water or air')),
       range(t('Density of the medium [kg/m²]'), 0, 20, 0.1, medium.density, (density) => set({density})),
       range(t('Viscosity [N s/m²]'), 0, 10, 0.1, medium.viscosity, (viscosity) => set({viscosity})),

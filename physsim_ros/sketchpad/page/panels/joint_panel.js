@@ -41,7 +41,7 @@ export function jointContent({world, connection, selection, meters, words}, [nam
   const change = (/** @type {Record<string, number | string | null>} */ properties) => connection.send('change_joint', {name, properties});
   const unit = joint.kind === 'slider' ? 'm' : 'rad', force = createElement('p');
   /** @type {['lower' | 'upper' | 'max_force' | 'break_force', string][]} */
-  const limits = [['break_force', t('Breaks at [N]')]];
+  const limits = [['break_force', t('Breaks at [{unit}]', {unit: unitOf(joint)})]];
   if (['rope', 'slider'].includes(joint.kind)) limits.unshift(['max_force', t('Greatest force [N]')]);
   if (LIMITED.includes(joint.kind)) limits.unshift(['lower', t('Least [{unit}]', {unit})], ['upper', t('Greatest [{unit}]', {unit})]);
   return {title: capital(thingWord(joint.kind)), name: isDrawn(name) || world.scene.lesson ? '' : name, first: [force], rest: [

@@ -118,9 +118,10 @@ export class BodyView {
     } else {
       if (size < MEDIUM && appearance.plain) this.#drawMedium(body, appearance, 1 - RIM / size);
       else this.#drawLarge(body, appearance, pixel);
-      if (body.medium) this.#drawFlow(body.medium, appearance, pixel);
-      else if (body.anchored) this.#drawRim(body, appearance, pixel);
-      else if (size >= MARKED) this.#drawMark(body, appearance, pixel);
+      const flow = body.medium?.flow ?? body.surface_velocity;
+      if (flow) this.#drawFlow(flow, frame.time, appearance, pixel);
+      if (body.anchored && !body.medium) this.#drawRim(body, appearance, pixel);
+      else if (size >= MARKED && !body.medium) this.#drawMark(body, appearance, pixel);
       if (body.belt) this.#drawBelt(body.belt * frame.time, body.shape, appearance, pixel);
       if (body.one_way) this.#drawOneWay(body.centroid, body.one_way, appearance, pixel);
     }
@@ -162,14 +163,15 @@ export class BodyView {
   }
 
   /**
-   * Arrows along the flow of a medium, which lie on a grid of the page; none in still water.
-   * @param {import('../types.js').Medium} medium
+   * Arrows along the flow of a medium, or the surface of a conveyor, which move with it; none in still water.
+   * @param {Point} flow [m/s]
+   * @param {number} time [s]
    * @param {Appearance} appearance
    * @param {number} pixel [m]
    */
-  #drawFlow({flow: [vx, vy]}, {path, line, reach}, pixel) {
+  #drawFlow([vx, vy], time, {path, line, reach}, pixel) {
     if (!Math.hypot(vx, vy)) return;
-    const {ctx} = this, gap = Math.max(FLOW_GAP * pixel, reach / MOST_ARROWS);
+    const {ctx} = this, gap = Math.max(FLOW_GAP * pixel, reach / MOST_ARROWS), first = -Math.ceil(reach / gap + 1) * gap;
     ctx.save();
     ctx.clip(path);
     ctx.strokeStyle = line;
@@ -177,8 +179,8 @@ export class BodyView {
     ctx.lineWidth = 2 * pixel;
     ctx.beginPath();
     const along = Math.atan2(vy, vx), half = gap / 5;
-    for (let x = -Math.ceil(reach / gap) * gap; x <= reach; x += gap) {
-      for (let y = -Math.ceil(reach / gap) * gap; y <= reach; y += gap) {
+    for (let x = first + vx * time % gap; x <= reach + gap; x += gap) {
+      for (let y = first + vy * time % gap; y <= reach + gap; y += gap) {
         const at = (/** @type {number} */ ahead, /** @type {number} */ aside) => /** @type {[number, number]} */ (
           [x + Math.cos(along) * ahead - Math.sin(along) * aside, y + Math.sin(along) * ahead + Math.cos(along) * aside]);
         ctx.moveTo(...at(-half, 0));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Joints as what they are: coil, rod, rope, axle, motor, rail, toothed wheels. */
 
+import {boundsOf} from './body_path.js';
 import {ropeHeadings, ropeStops} from '../rope_path.js';
 import {distance, rotated} from '../vectors.js';
 
@@ -10,6 +11,7 @@ const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
 const ON_BODIES = ['pin', 'axle', 'motor', 'slider']; // kinds whose symbol lies on their bodies, and is no larger than they
 const COILS = 8, TEETH = 10, SPIRAL = 3; // turns of a coil, teeth of a wheel, turns of a torsion spring
+const RACK = 10; // teeth to each side of a rack that is no body
 const RAIL = 1; // m of rail shown to each side where there is no limit
 const TENSE = 10; // weights at which a joint is drawn in the colour of warning
 
@@ -241,16 +243,18 @@ export class JointView {
   }
 
   /**
-   * @param {Joint} rack
-   * @param {Point} q the middle of its teeth
+   * @param {Joint} rack whose teeth are as long as its bar
+   * @param {Point} q where they begin
    */
-  #teeth({axis: [ux, uy], b, rest_length: radius}, [x, y]) {
-    const [dx, dy] = rotated([ux, uy], b < 0 ? 0 : this.world.frame.yaw[b]);
-    const pitch = 2 * Math.PI * radius * this.camera.scale / TEETH;
+  #teeth({axis: [ux, uy], b, points: [, [sx, sy]], rest_length: radius}, [x, y]) {
+    const {scene: {bodies}, frame} = this.world, scale = this.camera.scale;
+    const [dx, dy] = rotated([ux, uy], b < 0 ? 0 : frame.yaw[b]), pitch = 2 * Math.PI * radius / TEETH;
+    const [least, , most] = b < 0 ? [-RACK * pitch, 0, RACK * pitch] :
+      boundsOf(bodies[b].shape, (point) => rotated([point[0] - sx, point[1] - sy], -Math.atan2(uy, ux)));
     /** @type {Point[]} */
     const points = [];
-    for (let i = -4 * TEETH; i <= 4 * TEETH; i++) {
-      const along = i * pitch / 4, down = (i & 2 ? -0.15 : 0.15) * pitch;
+    for (let i = Math.ceil(4 * least / pitch); i <= 4 * most / pitch; i++) {
+      const along = i * pitch / 4 * scale, down = (i & 2 ? -0.15 : 0.15) * pitch * scale;
       points.push([x + along * dx + down * dy, y - along * dy + down * dx]);
     }
     this.#line(points);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * What is written around bodies: their labels, upright at the centre of mass and as large as the body has room for;
- * numbers at arrows; and below them the grid in metres, rulers whose steps follow the zoom, and the beams of a laser.
+ * What is written around bodies: their labels, upright at the centre of mass and as large as the body has room for, or
+ * beside a body on which a joint is; numbers at arrows; and below them the grid in metres, rulers whose steps follow the zoom, and the beams of a laser.
  */
 
 import {fixed, multiplesOf} from '../rounding.js';
+import {ropeStops} from '../rope_path.js';
 import {rotated} from '../vectors.js';
 
 /** @import {Frame, Point, SceneView} from '../types.js' */
@@ -24,9 +25,12 @@ const REMEMBERED = 500; // texts whose sizes are known
 const sizes = new Map();
 
 /** @param {SceneView} view */
-export function drawLabels({ctx, camera, palette, world, bodies}) {
+export function drawLabels(view) {
+  const {ctx, camera, palette, world, bodies} = view;
+  if (!world.scene.bodies.some(({label}) => label)) return;
   /** @type {Box[]} */
   const drawn = [];
+  const lines = jointLines(view);
   for (let row = 0; row < world.count; row++) {
     const body = world.scene.bodies[row], appearance = bodies.appearance(body);
     if (!body.label || !bodies.isOnPage(world.frame, row, appearance)) continue;
@@ -34,9 +38,8 @@ export function drawLabels({ctx, camera, palette, world, bodies}) {
     const room = width ? Math.min(width / wide, height / high) :
       (thickness ?? 2 * appearance.inner) / Math.hypot(wide, high);
     const size = Math.min(Math.max(room * camera.scale, SMALLEST), LARGEST);
-    const [x, y] = camera.toPage(...world.place(row, body.centroid)), lines = body.label.split('\n');
-    const right = (wide - MARGIN) * size / 2, below = lines.length * LINE * size / 2;
-    const box = /** @type {Box} */ ([x - right, y - below, x + right, y + below]);
+    const texts = body.label.split('\n'), half = (wide - MARGIN) * size / 2, below = texts.length * LINE * size / 2;
+    const box = labelBox(view, row, lines, half, below), x = box[0] + half, y = box[1] + below;
     // Larger than its body, it may lie on others, but not on their labels.
     if (room * camera.scale < SMALLEST && drawn.some((other) => overlap(box, other))) continue;
     drawn.push(box);
@@ -47,13 +50,30 @@ export function drawLabels({ctx, camera, palette, world, bodies}) {
     ctx.lineWidth = size / 4;
     ctx.strokeStyle = palette.paper;
     ctx.fillStyle = palette.ink;
-    lines.forEach((line, i) => {
-      const at = y + (i - (lines.length - 1) / 2) * LINE * size;
+    texts.forEach((line, i) => {
+      const at = y + (i - (texts.length - 1) / 2) * LINE * size;
       ctx.strokeText(line, x, at);
       ctx.fillText(line, x, at);
     });
     ctx.textBaseline = 'alphabetic';
   }
+}
+
+/**
+ * @param {SceneView} view
+ * @param {number} row of the body
+ * @param {ReturnType<typeof jointLines>} lines
+ * @param {number} half of the width of its label [px]
+ * @param {number} below half of its height [px]
+ * @returns {Box} of the label: at the centre of mass, or where a joint lies there, beside the body
+ */
+function labelBox({camera, world}, row, lines, half, below) {
+  const {centroid, name} = world.scene.bodies[row], [x, y] = camera.toPage(...world.place(row, centroid));
+  const [xmin, ymin, xmax, ymax] = world.boundsOfAll([name]), [left, top] = camera.toPage(xmin, ymax), [right, low] = camera.toPage(xmax, ymin);
+  const places = [[x, y], [x, top - below], [x, low + below], [right + half + CLEAR, y], [left - half - CLEAR, y]];
+  const boxes = places.map(([px, py]) => /** @type {Box} */ ([px - half, py - below, px + half, py + below]));
+  const own = lines.filter(({rows}) => rows.includes(row));
+  return boxes.find((box) => !own.some(({ends}) => crosses(box, ...ends))) ?? boxes[0];
 }
 
 /**
@@ -80,7 +100,7 @@ function overlap(a, b) {
 
 const FONT = '13px system-ui, sans-serif';
 const HALF = 9, BETWEEN = 6, TIP = 7, CLEAR = 4; // px: half of the height of a number, from a tip to it, half of what a tip takes, beside a line
-const ALONG = ['spring', 'rod', 'rope']; // kinds of joints that are lines
+const ALONG = ['spring', 'rod', 'rope'], HINGES = ['axle', 'motor', 'pin']; // kinds of joints that are lines, and points
 const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; // rad and px of the places that are tried
 
 /**
@@ -135,14 +155,26 @@ function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
 
 /**
  * @param {SceneView} view
- * @returns {[Point, Point][]} lines of the page that a number would cross: bounds, springs, rods and ropes [px]
+ * @returns {[Point, Point][]} lines of the page that a number would cross: bounds and joints [px]
  */
-function linesOf({camera, world: {scene, count}, world}) {
-  const at = (/** @type {Point} */ point) => camera.toPage(...point), [left, low, right, high] = scene.bounds;
+function linesOf(view) {
+  const {camera, world: {scene}} = view, at = (/** @type {Point} */ point) => camera.toPage(...point), [left, low, right, high] = scene.bounds;
   const corners = /** @type {Point[]} */ (left === undefined ? [] : [[left, low], [right, low], [right, high], [left, high]]);
   const bounds = corners.map((corner, i) => /** @type {[Point, Point]} */ ([at(corner), at(corners[(i + 1) % 4])]));
-  const along = scene.joints.filter(({kind, a, b}) => ALONG.includes(kind) && a < count && b < count);
-  return [...bounds, ...along.map(({a, b, points: [p, q]}) => /** @type {[Point, Point]} */ ([at(world.place(a, p)), at(world.place(b, q))]))];
+  return [...bounds, ...jointLines(view).map(({ends}) => ends)];
+}
+
+/**
+ * @param {SceneView} view
+ * @returns {{rows: number[], ends: [Point, Point]}[]} springs, rods and spans of ropes, and hinges, which are points, with the
+ *   rows of their bodies [px]
+ */
+function jointLines({camera, world}) {
+  const at = (/** @type {Point} */ point) => camera.toPage(...point);
+  return world.scene.joints.filter(({kind, a, b}) => (ALONG.includes(kind) || HINGES.includes(kind)) && a < world.count && b < world.count).flatMap((joint) => {
+    const {a, b, kind} = joint, stops = ropeStops(world, joint), ends = HINGES.includes(kind) ? [stops[0], stops[0]] : stops;
+    return ends.slice(1).map((stop, i) => ({rows: [a, b], ends: /** @type {[Point, Point]} */ ([at(ends[i].at), at(stop.at)])}));
+  });
 }
 
 const DOT = 4; // px: of a hit
