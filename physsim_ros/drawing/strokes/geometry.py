@@ -160,8 +160,6 @@ def least_squares(columns: Floats, target: Floats) -> tuple[float, float]:
 
 # Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
 COUNT = 128
-# Number of sides that a circle is drawn with.
-_SIDES = 48
 # Stride of the points between which strokes are compared: 1.6 % of the length.
 _FEW = 2
 # The least width of an outline after stretching, in shares of its length, and the greatest factor.
@@ -189,7 +187,7 @@ def size_of(points: Floats) -> float:
     return float(norms(np.ptp(points, axis=0)))
 
 
-def circle_outline(center: Point, radius: float, sides: int = _SIDES) -> Floats:
+def circle_outline(center: Point, radius: float, sides: int = 48) -> Floats:
     """Return a circle as a closed outline, (sides + 1, 2) float64 [m]."""
     angles = np.linspace(0.0, 2 * math.pi, sides + 1)
     circle: Floats = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))

@@ -222,7 +222,10 @@ def _group_of(meaning: str) -> frozenset[str]:
 
 def not_recognised(guesses: Sequence[Guess]) -> NotRecognised:
     """Return the refusal of a stroke of which no guess is likely enough."""
-    return NotRecognised(_doubt(guesses), field='poses', values=_values(guesses))
+    words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
+    doubt = f'is not clear enough; it might be: {words}. Nothing was drawn'
+    message = f'the stroke {doubt if guesses else "looks like nothing that can be drawn"}'
+    return NotRecognised(message, field='poses', values=_values(guesses))
 
 
 def reading_of(guesses: Sequence[Guess], number: int, *, amends: tuple[int, ...] = ()) -> Reading:
@@ -266,11 +269,3 @@ def _values(guesses: Sequence[Guess]) -> tuple[tuple[str, str], ...]:
         for (name, share), guess in zip(keys, guesses, strict=False)
         for pair in ((name, guess.meaning), (share, f'{guess.confidence:.3f}'))
     )
-
-
-def _doubt(guesses: Sequence[Guess]) -> str:
-    """Return the message about a stroke that was not recognised."""
-    if not guesses:
-        return 'the stroke looks like nothing that can be drawn'
-    words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
-    return f'the stroke is not clear enough; it might be: {words}. Nothing was drawn'
