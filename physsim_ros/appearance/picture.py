@@ -19,7 +19,7 @@ from physsim_ros.model.transform import ORIGIN, Point, Pose, rotated_each
 
 # Light grey, as the page has it; and the edge of a body.
 _PAPER, _EDGE = (246, 247, 249), (46, 52, 64)
-# Drawn at so many times the size, and scaled down: Pillow draws no smooth edges.
+# Factor by which a picture is drawn larger, then scaled down: Pillow draws no smooth edges.
 _FINE = 2
 # Width of a line, and half the width of a cross, in the finished picture [pixels].
 _LINE, _CROSS = 2, 5

@@ -155,7 +155,7 @@ class _Joint:
         """Return the limits from where the joint is now."""
         if not self.joint.get('enableLimit'):
             return {}
-        # Where the joint is beyond a limit, that is where it is.
+        # A limit that the joint is beyond is moved to where the joint is.
         lower, upper = (float(self.joint.get(key, 0.0)) - now for key in (low, high))
         return {'lower': min(lower, 0.0), 'upper': max(upper, 0.0)}
 

@@ -28,6 +28,7 @@ from physsim_ros.model.attraction import attracts
 from physsim_ros.model.checkpoint import NO_FIELDS
 from physsim_ros.model.media import gust_waves
 from physsim_ros.model.noise import normals
+from physsim_ros.model.robots import Battery, MOST_DOCKS
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import STANDARD_GRAVITY, WorldSettings
 from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
@@ -398,7 +399,17 @@ def _robot_records(scene: Scene) -> Table:
         record['acceleration'] = robot.drive.acceleration
         record['curvature'] = robot.drive.most_curved
         record['slip'] = robot.odometry.slip
+        if robot.battery is not None:
+            record['battery'] = _battery_record(robot.battery, scene)
     return records
+
+
+def _battery_record(battery: Battery, scene: Scene) -> tuple[object, ...]:
+    docks = [row for name in battery.docks if (row := scene.row_of.get(name, -1)) >= 0]
+    capacity = battery.capacity * 3600.0
+    currents = battery.idle, battery.moving, battery.charging
+    docked = len(docks), [*docks, *[0] * (MOST_DOCKS - len(docks))]
+    return capacity, battery.level * capacity, *currents, *docked
 
 
 def _actor_records(

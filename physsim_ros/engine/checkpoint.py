@@ -181,6 +181,9 @@ class BodyPool:
 
     def build_bodies(self, scene: Scene, count: int) -> None:
         """Make up to a number of further bodies of a scene."""
+        if self._retired is not None and self._retired.joints.by_name:
+            self._retired.joints.take_out(count)
+            return
         if self._has_contacts and self._retired is not None:
             # Not in the frame of the checkpoint, which takes long.
             _clear_contacts(self._retired)
@@ -207,7 +210,6 @@ def _clear_contacts(space: Space) -> None:
 
     For each shape that is removed, Chipmunk searches all contacts that it caches.
     """
-    space.joints.clear()
     rigids = space.bodies.by_name.values()
     wake_bodies(rigid.pm_body for rigid in rigids)
     state = np.zeros((len(rigids), 6))

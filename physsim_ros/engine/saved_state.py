@@ -36,16 +36,17 @@ from physsim_ros.model.states import (
 from physsim_ros.model.transform import NO_WRENCH, Twist
 
 
-def saved_state(space: Space, step: int) -> WorldState:
+def saved_state(checkpoint: Checkpoint, dt: float) -> WorldState:
     """
-    Return the saved state of a space, whose times count from now.
+    Return the saved state of a checkpoint, whose times count from that; on any thread.
 
-    :param step: steps that the world has made
+    :param dt: of a sub-step [s]
     """
-    checkpoint, bodies = take_checkpoint(space, step), []
+    step, bodies = checkpoint.step, []
     # A contact may have ended as a stage moved a body, with its impulses still in the cache. A
     # rebuilt space does not find it, and what is loaded must be saved as it was.
-    memory = take_checkpoint(restore_checkpoint(checkpoint, space.dt), step).memory
+    space = restore_checkpoint(checkpoint, dt)
+    memory = take_checkpoint(space, step).memory
     robots, actors = checkpoint.scene.robot_rows.tolist(), checkpoint.scene.actor_rows.tolist()
     driven = dict(zip(robots, states_in(checkpoint.robots, RobotState), strict=True))
     acting = dict(zip(actors, states_in(checkpoint.actors, ActorState), strict=True))
@@ -178,7 +179,7 @@ def _timed(state: WorldState, step: int) -> dict[str, Any]:
 
 
 def _shifted(commands: Commands, steps: int) -> Commands:
-    """Return commands in a world that counts its steps from so many earlier."""
+    """Return commands with their steps counted from a beginning that is earlier."""
     return tuple(each._replace(begun=each.begun + steps) for each in commands)
 
 

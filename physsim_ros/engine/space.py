@@ -208,7 +208,7 @@ class Space:
                 self.set_twist(old, twist)
             return
         rigid = build_body(body)
-        # What it touches it does not touch anew.
+        # Its contacts continue: they do not begin anew.
         rigid.row = old.row
         pose = self.joints.with_turns(old, pose)
         touching = self.bodies.touching(old.pm_body)

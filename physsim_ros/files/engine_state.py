@@ -85,6 +85,7 @@ class _Driven(Checked):
     travel: Annotated[Pose, _POSE, 'way of the wheels'] = ORIGIN
     odometry: Annotated[Pose, _POSE, 'pose by odometry'] = ORIGIN
     covariance: Annotated[Covariance, _covariance, 'of that pose'] = SPAWNED.covariance
+    drawn: Annotated[float, Within(-_GREATEST, _GREATEST, 'A s'), 'from its battery'] = 0.0
     seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until the command ends'] = None
     coming: Annotated[
         tuple[_Coming, ...],
@@ -123,9 +124,10 @@ def state_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         }
     if state.driven is not None:
         driven = state.driven._asdict()
-        until = driven.pop('until')
+        until, drawn = driven.pop('until'), driven.pop('drawn')
         entry['driven'] = {
             **{key: list(each) for key, each in driven.items()},
+            **({'drawn': drawn} if drawn else {}),
             'seconds': _seconds_to(until, physics_rate),
             **_coming_entry(state.coming, physics_rate),
         }

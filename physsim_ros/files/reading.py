@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The reading of a file, on a thread of its own: others wait for it, and time goes on."""
+"""A file is read or written on a thread of its own: requests wait for it, and time goes on."""
 
 from __future__ import annotations
 
@@ -15,16 +15,19 @@ from physsim_ros.simulation.parts import wrap_future
 _Result = TypeVar('_Result')
 
 
-async def on_thread(read: Callable[[], _Result]) -> _Result:
-    """Return what a function returns that is called on a thread of its own, or raise its error."""
+async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _Result:
+    """
+    Return what a function returns that is called on a thread of its own, or raise its error.
+
+    :param finishes: whether the end of the process waits for it, as for a file that is written
+    """
     future: Future[_Result] = Future()
 
     def call() -> None:
         try:
-            future.set_result(read())
+            future.set_result(work())
         except BaseException as error:  # noqa: BLE001 - the world's thread raises it
             future.set_exception(error)
 
-    # The end of the process does not wait for it.
-    Thread(target=call, name='reading', daemon=True).start()
+    Thread(target=call, name='file', daemon=not finishes).start()
     return await wrap_future(future)

@@ -88,7 +88,7 @@ _MOST_AT_ONCE = 2**20
 
 def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
     """
-    Return the map of a world: as far as `bounds` and a ring of cells, or as its anchored bodies.
+    Return the map of a world: of `bounds` and a ring of cells around, or of anchored bodies.
 
     :param snapshot: of the world
     :param resolution: side of a cell [m]

@@ -73,7 +73,7 @@ def number(value: object, name: str) -> float:
     :raises BadProperty: it is not a number
     :raises Malformed: it is not finite
     """
-    # Those of NumPy are `Real`, too.
+    # Numbers of NumPy are `Real`, too.
     if isinstance(value, bool) or not isinstance(value, int | float | Real):
         raise BadProperty(f'{name} must be a number, not {shown(value)}', field=name)
     try:

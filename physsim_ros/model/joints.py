@@ -238,7 +238,7 @@ def kind_from(value: object) -> JointKind:
     kinds = ', '.join(JointKind)
     if value is None:
         raise BadProperty(f'a joint needs a kind: {kinds}', field='kind')
-    # Whatever aliases of YAML unfold to.
+    # `shown` bounds the text: aliases of YAML may unfold to millions of words.
     word = shown(value).strip("'")
     meant = name_meant(word, {kind: kind.schema.words for kind in JointKind})
     hint = f"; use '{meant}'" if meant else nearest_name(word.lower(), JointKind)

@@ -39,6 +39,8 @@ class RobotState(NamedTuple):
     :ivar odometry: x, y [m], yaw [rad] by wheels and gyroscope, from the pose in which the robot
         was spawned
     :ivar covariance: of that pose
+    :ivar drawn: charge that its battery has given since it was spawned, less what docks have given
+        [A s]
     """
 
     aim: Twist
@@ -47,9 +49,10 @@ class RobotState(NamedTuple):
     travel: Pose
     odometry: Pose
     covariance: Covariance
+    drawn: float = 0.0
 
     def shifted(self, steps: int) -> Self:
-        """Return the state in a world that counts its steps from so many earlier."""
+        """Return the state with its steps counted from a beginning that is earlier."""
         if self.until == NEVER:
             return self
         return self._replace(until=max(self.until + steps, 0))
@@ -69,7 +72,7 @@ class ComingCommand(NamedTuple):
     until: int
 
     def shifted(self, steps: int) -> Self:
-        """Return the command in a world that counts its steps from so many earlier."""
+        """Return the command with its steps counted from a beginning that is earlier."""
         until = self.until if self.until == NEVER else self.until + steps
         return self._replace(begun=self.begun + steps, until=until)
 
@@ -87,7 +90,7 @@ class ActorState(NamedTuple):
     reached: int
 
     def shifted(self, steps: int) -> Self:
-        """Return the state in a world that counts its steps from so many earlier."""
+        """Return the state with its steps counted from a beginning that is earlier."""
         return self if self.begun == NEVER else self._replace(begun=self.begun + steps)
 
 
@@ -103,10 +106,11 @@ ROBOT_STATE = np.dtype(
         ('travel', np.float64, 3),
         ('odometry', np.float64, 3),
         ('covariance', np.float64, 6),
+        ('drawn', np.float64),
     ]
 )
 ACTOR_STATE = np.dtype([('begun', np.int64), ('reached', np.int64)])
-# Those of a world without robots or actors, in memory once.
+# The states of worlds without robots or actors, in memory once.
 NO_ROBOTS, NO_ACTORS = np.empty(0, ROBOT_STATE), np.empty(0, ACTOR_STATE)
 
 _State = TypeVar('_State', RobotState, ActorState)

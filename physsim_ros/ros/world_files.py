@@ -76,19 +76,19 @@ class WorldFiles:
         beginning, path = await self._build(confined=True)
         return f'{self._simulation.open_world(beginning)} from {path.name}'
 
-    def save(self) -> str:
+    async def save(self) -> str:
         """
-        Write the world to the file, and return a message about it.
+        Write the world to the file, and return a message about it; time goes on.
 
         :raises BadWorldFile: it cannot be written, or lies outside `world_dir`
         """
-        state = self._simulation.save()
-        path = save_world(
-            state,
-            self._values['world_file'],
-            world_dir=self.directory,
-            physics_rate=self._simulation.physics_rate,
-        )
+        saved, name = self._simulation.saver(), self._values['world_file']
+
+        def write() -> tuple[WorldState, Path]:
+            state, rate = saved(), self._simulation.physics_rate
+            return state, save_world(state, name, world_dir=self.directory, physics_rate=rate)
+
+        state, path = await on_thread(write, finishes=True)
         message = f'saved {counted(len(state.bodies), "body")} to {path.name}'
         if hides_shipped(path, world_dir=self.directory):
             message += '; from now on it comes before the shipped world of that name'

@@ -9,6 +9,7 @@ after a rewind. No state, no clock, and of the engine only the core, which casts
 messages of readings are in `ros`. Start with `distance`, then `surroundings` (what rays meet).
 """
 
+from physsim_ros.sensing.battery import BatteryReading, read_battery
 from physsim_ros.sensing.distance import read_landmarks, read_laser, read_range, scan_points
 from physsim_ros.sensing.gps import Fix, fix_of, read_gps
 from physsim_ros.sensing.motion import (
@@ -27,6 +28,7 @@ from physsim_ros.sensing.touch import is_bumped, read_bumper, read_floor
 from physsim_ros.sensing.view import read_sensor, View
 
 __all__ = [
+    'BatteryReading',
     'Fix',
     'InertialReading',
     'OdometryReading',
@@ -37,6 +39,7 @@ __all__ = [
     'is_bumped',
     'is_due',
     'joint_motion',
+    'read_battery',
     'read_bumper',
     'read_floor',
     'read_gps',

@@ -21,7 +21,7 @@ from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.sensing.mounting import noise_of, placed
 from physsim_ros.sensing.surroundings import Surroundings
 
-# An angle as far as the end of a sector lies in it [rad], however it rounds.
+# Tolerance within which an angle at the end of a sector lies in it [rad]: more than rounding.
 _ROUNDING = 1e-9
 
 

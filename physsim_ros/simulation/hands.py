@@ -78,7 +78,7 @@ class Hands:
         match request:
             case Grab(hand=name):
                 self._dragging[name] = _Hand(gesture)
-                # Those without a grip are dropped: their bodies are gone.
+                # Hands without a grip are dropped: their bodies have been deleted.
                 with_grip = {grip.hand for grip in self._past.cursor.world.grips}
                 for other in self._dragging.keys() - with_grip:
                     del self._dragging[other]

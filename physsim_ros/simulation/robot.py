@@ -19,8 +19,10 @@ from physsim_ros.model.robots import Robot as RobotDescription
 from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.sensing import (
+    BatteryReading,
     is_bumped,
     OdometryReading,
+    read_battery,
     read_odometry,
     read_sensor,
     true_motion,
@@ -127,6 +129,11 @@ class Robot:
         """Return where it is, and how it moves."""
         view, row = self._seen
         return true_motion(view.snapshot, row)
+
+    def battery(self) -> BatteryReading | None:
+        """Return the state of its battery; None where it has none."""
+        view, row = self._seen
+        return read_battery(view.snapshot, row)
 
     @property
     def bumped(self) -> bool:

@@ -10,7 +10,7 @@ replaces it comes after the requests that wait; a refusal changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Integral
@@ -219,15 +219,19 @@ class Simulation(FrameMaker):
         to its next impact: the engine solves contacts in the order in which it found them, which
         is not in a state.
         """
-        return self.at_shown_moment().cursor.world.save()
+        return self.saver()()
 
-    def state_of_run(self) -> WorldState:
+    def saver(self) -> Callable[[], WorldState]:
+        """Return a function that returns, on any thread, the state of the world as it is now."""
+        return self.at_shown_moment().cursor.world.saver()
+
+    def saver_of_run(self) -> Callable[[], WorldState]:
         """
-        Return the state with which this run began: that after the last request, to the bit.
+        As `saver`, of the state with which this run began: that after the last request.
 
         A world that begins with it, and is left alone, does the same ever after.
         """
-        return self.at_shown_moment().frames.state_of_run()
+        return self.at_shown_moment().frames.saver_of_run()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """

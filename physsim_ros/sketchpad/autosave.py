@@ -12,12 +12,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 import json
 from pathlib import Path
 import time
 
 import numpy as np
-from physsim_ros.files import make_directory, read_bytes, write_file
+from physsim_ros.files import make_directory, on_thread, read_bytes, write_file
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
@@ -41,14 +42,15 @@ class Autosave:
     The file of unsaved changes.
 
     :param directory: of the user's worlds
-    :param text: returns the world as text; raises WorldFull beyond a length [characters]
+    :param text: returns a function that, on any thread, returns the world of now as text, or
+        raises WorldFull beyond a length [characters]
     :param people: returns the names that people who draw have chosen
     """
 
     def __init__(
         self,
         directory: Path,
-        text: Callable[[int], str],
+        text: Callable[[], Callable[[int], str]],
         people: Callable[[], Sequence[str]] = list,
     ) -> None:
         self._file, self._unsaved = directory / _NOW, directory / _BEFORE
@@ -125,16 +127,22 @@ class Autosave:
         """
         return self._changed and now >= (self._due_still if self._still else self._due)
 
-    def save(self) -> None:
-        """Save the world."""
-        began = time.thread_time()
+    async def save(self) -> None:
+        """Save the world, on a thread."""
         self._changed = False
-        with suppress(OSError, WorldFull):
-            text, names = self._text(LONGEST), self._people()[:MOST_NAMES]
-            if names:
-                text = f'{_BY}{json.dumps(names)}\n{text}'
-            make_directory(self._file.parent)
-            write_file(self._file, text.encode())
-        now, took = time.monotonic(), time.thread_time() - began
+        write = partial(self._write, self._text(), self._people()[:MOST_NAMES])
+        took = await on_thread(write, finishes=True)
+        now = time.monotonic()
         self._due = now + max(PERIOD, SHARE * took)
         self._due_still = now + max(STILL_PERIOD, SHARE * took)
+
+    def _write(self, text: Callable[[int], str], names: Sequence[str]) -> float:
+        """Write a world and the names of people, and return the time that it took [s]."""
+        began = time.thread_time()
+        with suppress(OSError, WorldFull):
+            content = text(LONGEST)
+            if names:
+                content = f'{_BY}{json.dumps(names)}\n{content}'
+            make_directory(self._file.parent)
+            write_file(self._file, content.encode())
+        return time.thread_time() - began

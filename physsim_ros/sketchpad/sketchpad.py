@@ -177,7 +177,7 @@ class Sketchpad:
         self._shared.pasts.send_due(now)
         self._shared.past_contacts.send_due()
         if self._autosave.is_due(now):
-            # Where too many requests wait, the world is saved later.
+            # While too many requests wait, the save is put off.
             with suppress(Busy):
                 self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
         if self._world.recording_address != self._sent_recording:
@@ -218,9 +218,9 @@ class Sketchpad:
             self._sent_class = content
             self._server.send(content)
 
-    def _save_unsaved(self) -> tuple[Answer, ...]:
+    async def _save_unsaved(self) -> tuple[Answer, ...]:
         with self._boundary.output('autosave'):
-            self._autosave.save()
+            await self._autosave.save()
         return ()
 
     def _named_people(self) -> list[str]:
@@ -229,15 +229,10 @@ class Sketchpad:
         drawing = [each for each in present if each.role.draws and not each.watches]
         return sorted({each.person for each in drawing if each.person != each.unnamed})
 
-    def _world_text(self, longest: int) -> str:
-        """
-        Return the world as the text of a world file.
-
-        :param longest: greatest length [characters]
-        :raises WorldFull: it is longer
-        """
-        simulation = self._simulation
-        return text_of(simulation.save(), simulation.physics_rate, longest=longest)
+    def _world_text(self) -> Callable[[int], str]:
+        """Return a function that returns the world as text, of at most a length [characters]."""
+        saved, rate = self._simulation.saver(), self._simulation.physics_rate
+        return lambda longest: text_of(saved(), rate, longest=longest)
 
     def _replace_world(self, upload: Upload) -> None:
         """Replace the world by an uploaded one, and tell the answer to the uploader too."""

@@ -71,7 +71,7 @@ class _Process:
         self._received = b''
         self.pipe, out = os.pipe()
         self.deadline = time.monotonic() + experiment.wall_limit * self._attempts
-        # What waits in buffers is written once.
+        # Buffers are written before the fork, or each process would write them.
         sys.stdout.flush()
         sys.stderr.flush()
         with warnings.catch_warnings():

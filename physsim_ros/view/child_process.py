@@ -19,7 +19,7 @@ import subprocess
 import sys
 
 # Runs in the child, in place of a `preexec_fn`, which may deadlock in a process with threads.
-# Where the parent has ended before the call of prctl, nobody would end the program.
+# A parent that ended before the call of prctl would leave the program running.
 _LAUNCHER = """
 import ctypes, os, signal, sys
 PR_SET_PDEATHSIG = 1

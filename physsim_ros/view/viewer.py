@@ -154,7 +154,7 @@ class Viewer:
         return tuple(self._answers.popleft() for _ in range(len(self._answers)))
 
     def close(self) -> None:
-        """Log the queued frames, as far as the time for closing allows, and end."""
+        """Log the queued frames until the time for closing is over, and end."""
         self._wanted = None
         outputs = [*self._outputs, *self._stuck]
         for output in outputs:

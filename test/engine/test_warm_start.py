@@ -4,6 +4,7 @@
 """A world renewed from its own state goes on as if nothing had been, and always alike."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from physsim_ros.model.requests import Command, Delete, Restore
@@ -11,7 +12,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, G, join, spawn, stack, twist
+from ..building import BOX, G, join, pose, spawn, stack, twist
 
 FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
 
@@ -100,6 +101,23 @@ def test_bodies_of_the_space_before_last_are_as_good_as_new():
         one.renew()
         other.renew()
         assert one.digest() == other.digest()
+
+
+def test_a_call_that_builds_ahead_does_no_more_than_it_is_told():
+    world = settled(8)
+    for number in range(4):
+        ends = f'stack/{2 * number}', f'stack/{2 * number + 1}'
+        points = [tuple(pose(world, each)[:2]) for each in ends]
+        join(world, 'rod', points, name=f'rod/{number}', a=ends[0], b=ends[1])
+    world.step(4)
+    retired = world.space
+    world.renew()
+    left = [(4, 8)]
+    while not world.is_built_ahead:
+        world.build_bodies(1)
+        left.append((len(retired.joints.by_name), len(retired.bodies.by_name)))
+    assert left[-1] == (0, 0)
+    assert all(sum(before) - sum(after) <= 1 for before, after in pairwise(left))
 
 
 def test_what_has_changed_since_is_not_taken_from_before():

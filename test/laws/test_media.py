@@ -286,6 +286,17 @@ def test_a_ball_reaches_its_terminal_speeds(report):
     report.check(71, 'terminal speed by Newton', speed / exact, 1.0, 1e-4, '-')
 
 
+@pytest.mark.parametrize('radius', [0.01, 0.1, 0.5])
+@pytest.mark.parametrize('density', [1.2, 10.0, 100.0])
+def test_bubbles_rise_at_their_terminal_speed(report, density, radius):
+    sim = simulation()
+    pool(sim, Box(width=30.0, height=100.0), (0.0, 0.0, 0.0))
+    row = spawn(sim, 'bubble/0', Disc(radius=radius), (0.0, -40.0, 0.0), density=density)
+    speed = run(sim, 4.0).twists[row, 1]
+    exact = math.sqrt(G * math.pi * radius * (1.0 - density / WATER))
+    report.check(71, 'terminal speed of a bubble', speed / exact, 1.0, 1e-4, '-')
+
+
 @pytest.mark.parametrize('viscosity', [0.0, 0.3])
 def test_a_throw_follows_the_integrated_path(report, viscosity):
     wind = (-3.0, 0.5)

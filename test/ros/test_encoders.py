@@ -27,7 +27,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder
+from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder, MOST_NEW
 from physsim_ros.ros.encoders.streams import (
     ClockEncoder,
     ContactsEncoder,
@@ -404,6 +404,20 @@ def test_the_walls_are_drawn_where_the_bounds_are():
     corners = [(-1, 0), (4, 0), (4, 3), (-1, 3), (-1, 0)]
     assert [(point.x, point.y) for point in walls.points] == corners
     assert drawn(picture(encoder, snapshot_of([PLAIN])), Marker.DELETE) == ['physsim:bounds/0']
+
+
+def test_of_a_scene_of_thousands_some_are_serialised_for_each_frame():
+    count = 2 * MOST_NEW
+    bodies = [replace(PLAIN, name=f'body/{number}') for number in range(count)]
+    encoder = MarkersEncoder('world')
+    assert encoder.encode(frame_of(snapshot_of(bodies))) is None
+    # Those of the scene before hold in another one.
+    assert len(picture(encoder, snapshot_of(bodies))) == count
+    changed = [replace(each, color=(0.0, 0.0, 0.0, 1.0)) for each in bodies[: MOST_NEW + 1]]
+    changed = snapshot_of([*changed, *bodies[MOST_NEW + 1 :]])
+    assert encoder.encode(frame_of(changed)) is None
+    dark = [each for each in picture(encoder, changed) if each.color.b == 0.0]
+    assert len(dark) == MOST_NEW + 1
 
 
 def test_what_has_gone_is_deleted_in_sixty_messages_unless_it_comes_back():

@@ -9,6 +9,8 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
+from physsim_ros.model.requests import DeleteAll
+from physsim_ros.ros.encoders import markers
 from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.streams import (
     ClockEncoder,
@@ -106,6 +108,24 @@ def test_only_what_somebody_listens_to_is_built(
     physsim.step(10)
     assert encoded.count('states') == 10
     assert {*encoded} <= {'states', 'markers', 'clock'}
+
+
+def test_an_unseen_picture_that_takes_several_frames_is_finished_at_once(
+    physsim: PhysSim, encoded: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulation = physsim.node.simulation
+    two = simulation.save()
+    simulation.perform(DeleteAll())
+    physsim.step(1)
+    encoded.clear()
+    monkeypatch.setattr(markers, 'MOST_NEW', 1)
+    simulation.load(two)
+    physsim.step(1)
+    assert encoded.count('markers') == 0
+    assert physsim.node.outputs.is_read
+    physsim.step(1)
+    assert encoded.count('markers') == 1
+    assert not physsim.node.outputs.topics.is_read
 
 
 def test_an_unseen_picture_is_kept_up_with_a_changing_scene(

@@ -4,6 +4,7 @@
 """The same requests give the same bits; a refusal changes none; a saved state has them all."""
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from itertools import pairwise
 import math
@@ -357,6 +358,17 @@ def test_a_saved_state_is_not_changed_by_what_follows():
     world.apply(DeleteAll())
 
     assert repr(state) == text
+
+
+def test_a_moment_is_saved_on_a_thread_while_the_world_goes_on():
+    world = busy_world()
+    saver, state = world.saver(), world.save()
+    world.step(20)
+    world.renew()
+    world.apply(DeleteAll())
+
+    with ThreadPoolExecutor() as pool:
+        assert repr(pool.submit(saver).result()) == repr(state)
 
 
 def test_what_is_loaded_is_saved_as_it_was_though_contacts_end_within_steps():

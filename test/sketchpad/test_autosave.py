@@ -5,17 +5,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 import time
 
 from physsim_ros.files import load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
+from physsim_ros.simulation.parts import at_once
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 import pytest
 
 from ..building import BOX, spawning
+
+
+def empty() -> Callable[[int], str]:
+    """Return what makes an empty text."""
+    return lambda _: ''
+
+
+def names_in(simulation: Simulation) -> Callable[[], Callable[[int], str]]:
+    """Return what makes a text with the names of the bodies of a world."""
+
+    def text() -> Callable[[int], str]:
+        scene = simulation.world.scene
+        return lambda _: ' '.join(scene.names)
+
+    return text
 
 
 def drawn(simulation: Simulation, autosave: Autosave, name: str) -> None:
@@ -26,12 +43,12 @@ def drawn(simulation: Simulation, autosave: Autosave, name: str) -> None:
 
 def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> None:
     simulation = Simulation()
-    autosave = Autosave(tmp_path, lambda _: ' '.join(simulation.world.snapshot().scene.names))
+    autosave = Autosave(tmp_path, names_in(simulation))
     autosave.note_frame(simulation.advance_frame(), drawn=False)
     assert not autosave.is_due(time.monotonic())
     drawn(simulation, autosave, 'a/0')
     assert autosave.is_due(time.monotonic())
-    autosave.save()
+    at_once(autosave.save())
     assert (tmp_path / '.autosave.yaml').read_text() == 'a/0'
     # Within the period nothing is saved, and without a change nothing later.
     assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
@@ -39,19 +56,19 @@ def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> Non
     assert not autosave.is_due(time.monotonic())
     assert autosave.is_due(time.monotonic() + 2 * PERIOD)
 
-    again = Autosave(tmp_path, lambda _: '')
+    again = Autosave(tmp_path, empty)
     assert abs(again.unsaved_at - time.time()) < 3600.0
     assert again.unsaved_content() == b'a/0'
     again.forget_unsaved()
     assert again.unsaved_at == 0.0
-    autosave.save()
+    at_once(autosave.save())
     autosave.note_saved()
     assert not list(tmp_path.iterdir())
 
 
 def test_while_nothing_moves_a_change_is_kept_within_a_second(tmp_path: Path) -> None:
     simulation = Simulation()
-    autosave = Autosave(tmp_path, lambda _: '')
+    autosave = Autosave(tmp_path, empty)
     simulation.speed = 0.0
     for name in ('a/0', 'a/1'):
         simulation.requests.submit(spawning(name, BOX), topic='~/spawn')
@@ -59,12 +76,12 @@ def test_while_nothing_moves_a_change_is_kept_within_a_second(tmp_path: Path) ->
         assert frame is not None
         autosave.note_frame(frame, drawn=True)
         assert autosave.is_due(time.monotonic() + STILL_PERIOD)
-        autosave.save()
+        at_once(autosave.save())
 
 
 def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> None:
     simulation = Simulation()
-    autosave = Autosave(tmp_path, lambda _: '')
+    autosave = Autosave(tmp_path, empty)
     drawn(simulation, autosave, 'a/0')
     simulation.requests.submit(Restore(state=Simulation().save()), topic='~/load_world')
     autosave.note_frame(simulation.advance_frame(), drawn=True)
@@ -77,9 +94,9 @@ def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.Mo
     times = iter((0.0, 2.0))
     monkeypatch.setattr(time, 'thread_time', lambda: next(times))
     simulation = Simulation()
-    autosave = Autosave(tmp_path, lambda _: '')
+    autosave = Autosave(tmp_path, empty)
     drawn(simulation, autosave, 'a/0')
-    autosave.save()
+    at_once(autosave.save())
     drawn(simulation, autosave, 'a/1')
     now = time.monotonic()
     assert not autosave.is_due(now + 0.9 * SHARE * 2.0)
@@ -88,10 +105,10 @@ def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.Mo
 
 def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) -> None:
     names = ['Mia', 'Jürgen "J" Groß']
-    autosave = Autosave(tmp_path, lambda _: 'format: 1', lambda: names)
+    autosave = Autosave(tmp_path, lambda: lambda _: 'format: 1', lambda: names)
     drawn(Simulation(), autosave, 'a/0')
-    autosave.save()
-    again = Autosave(tmp_path, lambda _: '')
+    at_once(autosave.save())
+    again = Autosave(tmp_path, empty)
     assert again.unsaved_by == names
     assert load_mapping(again.unsaved_content().decode(), field='file') == {'format': 1}
     for line in ('# drawn by: [', '# drawn by: {}', '# a comment'):
@@ -107,11 +124,11 @@ def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) 
     def refuse(_: int) -> str:
         raise WorldFull('too large', field='world')
 
-    Autosave(tmp_path, refuse).save()
+    at_once(Autosave(tmp_path, lambda: refuse).save())
     assert not list(tmp_path.iterdir())
     nowhere = tmp_path / 'file'
     nowhere.write_text('')
-    autosave = Autosave(nowhere, lambda _: 'text')
+    autosave = Autosave(nowhere, empty)
     drawn(simulation, autosave, 'a/0')
-    autosave.save()
+    at_once(autosave.save())
     assert autosave.unsaved_at == 0.0

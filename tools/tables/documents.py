@@ -24,7 +24,7 @@ from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
 from physsim_ros.model.media import Medium
 from physsim_ros.model.requests import Request
-from physsim_ros.model.robots import DRIVES, Link, LinkJoint, Odometry, Robot, Towed
+from physsim_ros.model.robots import Battery, DRIVES, Link, LinkJoint, Odometry, Robot, Towed
 from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
@@ -150,6 +150,7 @@ def _robot_keys() -> str:
         _titled('**`robot`**', _COLUMNS, _fields_of(Robot)),
         _titled('**`drive`**', _COLUMNS, drive),
         _titled('**`odometry`**', _COLUMNS, _fields_of(Odometry)),
+        _titled('**`battery`**', _COLUMNS, _fields_of(Battery)),
     ]
     return ''.join(parts) + '\n'
 

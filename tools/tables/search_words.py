@@ -39,11 +39,12 @@ WORDS: dict[tuple[str, str], str] = {
     ),
     ('interface/properties', 'A body from a marker'): (
         'mass, density, friction, elasticity, restitution, bounce, bouncy, bounciness, '
-        'force, wind,'
-        'thruster, collision group, sensor, conveyor, shape'
+        'force, thruster, collision group, sensor, conveyor, belt, one-way, platform, shape, '
+        'rolling resistance, water, fluid, buoyancy, float, drag, wind, medium, charge, attraction'
     ),
     ('interface/properties', 'A joint from a marker'): (
-        'joint, spring, motor, hinge, axle, rod, rope, gear, slider, pin, weld, damper, constraint'
+        'joint, spring, motor, hinge, axle, rod, rope, gear, slider, pin, weld, damper, pulley, '
+        'constraint, winch, block and tackle, rack, pinion, ratchet, torsion spring'
     ),
     ('interface/properties', 'Sensors of a robot'): (
         'laser, lidar, scan, IMU, GPS, bumper, range finder, line sensor, encoder'
@@ -64,8 +65,12 @@ WORDS: dict[tuple[str, str], str] = {
     ('python', ''): 'Python, library, Simulation, without ROS, script',
     ('questions', ''): 'problem, trouble, troubleshooting, help, FAQ, does not move, stuck, slow',
     ('robots', ''): 'robot, differential drive, odometry, Ackermann, car-like, wheel, slip',
+    ('robots', 'Battery and docks'): 'battery, dock, charge of a robot',
+    ('robots', 'Drive, floor and odometry'): 'latency, delay, traction',
+    ('robots', 'Trailers'): 'trailer, hitch, tow',
+    ('robots', 'Arms and grippers'): 'arm, gripper, joint_command, trajectory',
     ('robots', 'Topics'): 'cmd_vel, odom, twist, tf, robot_description, joint_states',
-    ('robots', 'Nav2'): 'Nav2, navigation, AMCL, SLAM, costmap',
+    ('nav2', ''): 'Nav2, navigation, AMCL, SLAM, costmap',
     ('robots', 'A controller in another process'): 'lockstep, synchronous, control loop',
     ('robots', 'Maps'): 'map, walls',
     ('security', ''): 'security, token, password, firewall, attack',
@@ -84,7 +89,8 @@ WORDS: dict[tuple[str, str], str] = {
     ('viewers', 'Bags'): 'bag, rosbag, rosbag2, MCAP, replay',
     ('viewers', 'RViz and Foxglove'): 'RViz, Foxglove, interactive markers',
     ('worlds', ''): (
-        'world, example, pendulum, dominoes, bridge, catapult, Galton, maze, Newton, cradle, demo'
+        'world, example, pendulum, dominoes, bridge, catapult, crane, Galton, harbour, maze, '
+        'Newton, cradle, orbit, planets, demo'
     ),
     ('tutorials/record_and_look', 'Take the numbers out'): 'CSV, export, spreadsheet, log',
 }  # fmt: skip

@@ -62,7 +62,7 @@ class Ellipse:
         return math.sqrt(self.half[0] * self.half[1])
 
     def corners(self, count: int) -> Floats:
-        """Return so many points on it, (count, 2) float64 [m]."""
+        """Return a number of points on it, (count, 2) float64 [m]."""
         circle = np.array([unit_vector(2.0 * math.pi * at / count) for at in range(count)])
         points: Floats = self.center + rotated_each(circle * self.half, self.angle)
         return points

@@ -20,10 +20,10 @@ typedef struct Arena {
     struct Block *extra;     // from the heap
 } Arena;
 
-// Return memory for so many values, all bits 0; it lasts until a release of an earlier mark, or a reset.
+// Return memory for a number of values, all bits 0; it lasts until a release of an earlier mark, or a reset.
 void *arena_take(Arena *arena, size_t count, size_t size);
 
-// Return memory that begins as so many values.
+// Return memory that begins with a copy of values.
 static inline void *arena_copy(Arena *arena, const void *values, size_t count, size_t size) {
     return memcpy(arena_take(arena, count, size), values, count * size);
 }

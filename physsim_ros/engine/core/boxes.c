@@ -3,10 +3,11 @@
 
 // Broad phase of swept boxes: a complete binary tree over boxes in the order of tiles.
 //
-// Law: every box that overlaps is found, whatever the sizes and wherever the boxes are.
+// Problem: the boxes that overlap one, of many that lie anywhere and have any size.
 // Method: boxes are packed by sort-tile-recursive (Leutenegger, Lopez and Edgington, "STR: A Simple and Efficient
 // Algorithm for R-Tree Packing", ICDE 1997): slices by x, each in the order of y. That depends on the order of places
 // alone, so that one body far away spoils nothing. The tree stands in an array, as a heap does.
+// Law: every box that overlaps is found.
 // Cost: 0.1 µs a box to build it, some 0.1 µs a query and 10 ns for each box that is found.
 
 #include "boxes.h"

@@ -147,7 +147,19 @@ typedef struct RobotState {
     Twist travel;         // integral of that
     Pose odometry;        // by wheels and gyroscope, from the pose in which it was spawned
     double covariance[6]; // of the odometry: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw [rad²]
+    double drawn;         // charge that its battery has given since it was spawned, less what docks have given [A s]
 } RobotState;
+
+// The battery of a robot. A dock is a body that charges it.
+enum { DOCKS = 16 };
+typedef struct Battery {
+    double capacity;     // [A s]; 0 is no battery
+    double charge;       // with which it was spawned [A s]
+    double idle, moving; // current that it gives: all the time, and besides while a wheel turns [A]
+    double charging;     // current that a dock gives [A]
+    int32_t dock_count;
+    int32_t docks[DOCKS]; // places of their bodies
+} Battery;
 
 // A robot: its drive, and what its wheels and its odometry have done.
 typedef struct Robot {
@@ -159,6 +171,7 @@ typedef struct Robot {
     double curvature;    // greatest of its way [1/m]
     cpVect center;       // of mass in the frame of the body [m]
     double slip[2];      // deviation of the odometry after 1 m of way: in distance [√m], in heading [rad/√m]
+    Battery battery;
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     RobotState state;
     // These fields are set and used within a step.
@@ -259,7 +272,7 @@ typedef struct Guide {
 typedef struct Row {
     int32_t kind;
     int32_t law;
-    int32_t part, component; // which impulse of which constraint is that of the row
+    int32_t part, component; // the constraint that has the impulse of the row, and which of its two numbers that is
     double lower, upper;     // [m, rad]
     double below, above;     // factors from Chipmunk's impulse to λ, where x is below the lower bound, and elsewhere
     double most;             // greatest absolute value of λ in a step [N s, N m s]

@@ -3,8 +3,8 @@
 
 // Drives: from the last command of each robot to the velocity of the floor under its wheels; and its odometry.
 //
-// Problem: a robot does not have its commanded velocity at once, and not for ever: motors accelerate wheels by so
-// much, and a command counts until its timeout.
+// Problem: a robot does not have its commanded velocity at once, and not for ever: motors have a
+// greatest acceleration, and a command counts until its timeout.
 // Method: the velocity of the wheels goes to the commanded one on a straight line, as fast as the rim of no wheel
 // accelerates more than it can; a robot that starts on an arc stays on it. The wheels turn so whatever the body
 // does: where the floor cannot move it, they slip.
@@ -19,8 +19,13 @@
 // section 3.3): P <- F P Fᵀ + Q, where F tells how far an error of the heading moves the end of the chord, and Q the
 // new errors.
 //
+// Battery.
+// Method: the charge is the integral of the currents (coulomb counting); each is constant. Where none is left, wheels
+// brake as at the end of a command. Where the centre of mass of the robot is on a dock, that charges the battery.
+//
 // Cost: 0.2 µs a robot and step.
 
+#include "outline.h"
 #include "stages.h"
 
 // The chord of an arc by its length, for the turn along it [rad].
@@ -61,12 +66,49 @@ static Twist at_center(Twist velocity, Vec center, double yaw) {
     return (Twist){rotated(velocity_at(velocity, center), rotation(yaw)), velocity.w};
 }
 
+// Whether a robot has a battery, and that is empty.
+static bool is_empty(const Robot *robot) {
+    return robot->battery.capacity > 0.0 && robot->state.drawn >= robot->battery.charge;
+}
+
+static bool is_on(const Body *body, const Body *dock) {
+    Vec away = sub(body->scratch.begin.p, dock->scratch.begin.p);
+    Vec local = rotated_back(away, rotation(dock->scratch.begin.yaw));
+    for (const cpShape *shape = dock == body ? NULL : dock->engine->shapeList; shape != NULL; shape = shape->next) {
+        if (covers(shape, local)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Drain the battery of a robot, and charge it on a dock.
+static void use_battery(const World *world, Robot *robot) {
+    const Battery *battery = &robot->battery;
+    if (battery->capacity == 0.0) {
+        return;
+    }
+    const Body *body = world->bodies + robot->body;
+    Twist wheels = robot->state.wheels;
+    double current = battery->idle;
+    current += wheels.v.x != 0.0 || wheels.v.y != 0.0 || wheels.w != 0.0 ? battery->moving : 0.0;
+    for (int number = 0; number < battery->dock_count; number++) {
+        if (is_on(body, world->bodies + battery->docks[number])) {
+            current -= battery->charging;
+            break;
+        }
+    }
+    double drawn = robot->state.drawn + current * world->dt;
+    robot->state.drawn = clamped(drawn, battery->charge - battery->capacity, battery->charge);
+}
+
 // Accelerate the wheels.
 void roll_wheels(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         double yaw = world->bodies[robot->body].scratch.begin.yaw;
-        Twist aim = world->step < robot->state.until ? robot->state.aim : (Twist){0}, after = robot->state.wheels;
+        bool obeys = world->step < robot->state.until && !is_empty(robot);
+        Twist aim = obeys ? robot->state.aim : (Twist){0}, after = robot->state.wheels;
         if (!is_same(robot->state.wheels, aim) || !is_same(aim, robot->state.aim)) {
             after = accelerated(robot, aim, world->dt);
         }
@@ -119,6 +161,7 @@ void reckon_odometry(World *world) {
             measured = scaled(way, share);
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
+        use_battery(world, robot);
         robot->state.travel = twist_sum(robot->state.travel, robot->mean, world->dt);
         Pose before = robot->state.odometry;
         robot->state.odometry = reckoned(before, measured, turn + drift);

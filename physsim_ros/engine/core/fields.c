@@ -29,14 +29,16 @@ static Twist weight_of(const World *world, const cpBody *engine) {
 
 // Find the force of media on a body for the time between now and a later moment [s], at its middle.
 static void find_pull(World *world, const Media *media, Body *body, double ahead, double lapse) {
-    // A body in free flight goes on with the acceleration that is half in its lead.
-    Twist change = {0}, twist = true_twist(body->engine);
+    const cpBody *engine = body->engine;
+    Twist now = true_twist(engine), change = {0};
     if (body->state.free) {
+        // It goes on with the acceleration that is half in its lead.
         change = body->state.lead;
     }
-    Pose pose = moved(pose_of(body->engine), twist_sum(twist, change, ahead / world->dt), ahead);
-    twist = twist_sum(twist, change, 2.0 * ahead / world->dt);
-    world->own->pulls[body - world->bodies] = pull_of_media(world, media, body, pose, twist, lapse);
+    Pose pose = moved(pose_of(engine), twist_sum(now, change, ahead / world->dt), ahead);
+    Flight flight = {body->state.free, ahead, now, twist_sum(now, change, 2.0 * ahead / world->dt),
+                     weight_of(world, engine)};
+    world->own->pulls[body - world->bodies] = pull_of_media(world, media, body, pose, &flight, lapse);
 }
 
 // Half of what a force changes a velocity by in a sub-step.
@@ -58,7 +60,7 @@ static Twist *attracted(World *world, double ahead) {
     return forces;
 }
 
-// The mean force of all fields on a body in a time that begins with a twist, of which that of attraction is known.
+// The mean force of all fields on a body in a time that begins with a twist; `attraction` is the part of attraction.
 static Twist force_of_fields(const World *world, const Body *body, Twist twist, Twist attraction) {
     const Pull *pull = world->own->pulls + (body - world->bodies);
     Twist others = twist_sum(weight_of(world, body->engine), attraction, 1.0);

@@ -6,10 +6,10 @@
 // Problem: bodies on a floor slide to a stop, robots drive, stall and push, conveyors carry.
 // Method: one mechanism. Under a body the floor has a velocity: 0, that of a conveyor, and of a robot besides that of
 // its wheels against the floor. Friction brings the body to that velocity within its limit surface. It is solved before
-// Chipmunk's step, implicitly, with the push of contacts and joints that the last step has had (warm start): so it
-// bears what presses on a body, and a robot pushes at its full speed. A body that the floor carries moves exactly as
-// the floor; one that slips has the mean of its velocities before and after as it is moved (velocity Verlet), the rest
-// of friction as a force.
+// Chipmunk's step, implicitly, with the push of contacts and joints that the last step has had (warm start): so
+// friction resists what pushes a body, and a robot pushes at its full speed. A body that the floor carries moves
+// exactly as the floor; one that slips has the mean of its velocities before and after as it is moved (velocity
+// Verlet), the rest of friction as a force.
 //
 // Towed.
 // Problem: the axle of a trailer rolls where it is drawn, and does not slide sideways.

@@ -1,6 +1,18 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
+// Immersion: which part of a body lies in a region, its exact area and centroid, and what of its outline is wet.
+//
+// Problem: buoyancy acts at the centroid of what is wet, and drag on the wet outline; a body at the surface has a part
+// of each.
+// Method: area and first moment are those of the pieces of the body: polygons are clipped at the edges of the region
+// (Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 1974); of discs, triangles and sectors are summed along
+// the edges of the region. The outline is that of the convex hull, which no other part of the body shields from the
+// flow.
+// Scope: where pieces overlap, both count, as they do for the mass. Round pieces among several are polygons in the
+// outline, and a round region is a polygon of 96 corners and the same area.
+// Cost: in `media.c`.
+
 #include "immersion.h"
 
 // Corners of the polygon that counts for a round region.
@@ -201,7 +213,7 @@ static void add_disc(Wet *wet, Vec center, double radius, const Outline *basin) 
 }
 
 // All edges of a basin, as seen from the centre of mass of a body.
-static Outline edges_of(const Around *around, Arena *arena) {
+static Outline basin_edges(const Around *around, Arena *arena) {
     Outline edges = outline_of(around->basin->count, arena);
     for (int number = 0; number < around->basin->count; number++) {
         add_vertex(&edges, sub(around->basin->corners[number], around->origin), false);
@@ -214,7 +226,7 @@ static void add_disc_in_basin(Wet *wet, Vec center, double radius, const Around 
         Line line = around->lines[0];
         add_disc_segment(wet, center, radius, line.normal, dot(line.normal, sub(center, line.corner)));
     } else {
-        Outline edges = edges_of(around, arena);
+        Outline edges = basin_edges(around, arena);
         add_disc(wet, center, radius, &edges);
     }
 }
@@ -268,7 +280,7 @@ static void add_segment(Wet *wet, Vec a, Vec b, double radius, const Around *aro
         if (around == NULL) {
             add_whole_arc(wet, ends[end], radius, atan2(away.y, away.x) - pi / 2.0, pi);
         } else {
-            Outline beyond = clipped(edges_of(around, arena), (Line){ends[end], negated(away)}, arena);
+            Outline beyond = clipped(basin_edges(around, arena), (Line){ends[end], negated(away)}, arena);
             add_disc(wet, ends[end], radius, &beyond);
         }
     }

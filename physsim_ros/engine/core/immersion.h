@@ -1,13 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Which part of a body lies in a region: its exact area and centroid, and what of its outline is wet.
-//
-// Area and first moment are those of the pieces of the body: polygons are clipped at the edges of the region
-// (Sutherland and Hodgman, "Reentrant Polygon Clipping", CACM 1974); of discs, triangles and sectors are summed along
-// the edges of the region. Where pieces overlap, both count, as they do for the mass. The outline is that of the convex
-// hull, which no other part of the body shields from the flow; round pieces among several are polygons in it. A round
-// region is a polygon of 96 corners and the same area.
+// Which part of a body lies in a region, and what of its outline is wet (`immersion.c`).
 
 #ifndef PHYSSIM_IMMERSION_H
 #define PHYSSIM_IMMERSION_H

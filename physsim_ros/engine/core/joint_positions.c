@@ -47,7 +47,7 @@ typedef struct Displacement {
     double *apart;        // (touch_count): distance by which contacts may approach at the start [m]
     double *distances;    // (touch_count): the same now, < 0 where they overlap
     double *impulses;     // (row_count): λ [kg m, kg m²]
-    double *guess;        // (row_count): numbers of the signs of λ; first the impulses of velocities
+    double *guess;        // (row_count): numbers of the signs of λ; of contacts first their overlaps
     double sum, widest;   // of gaps and overlaps: sum, and the greatest [m, rad]
 } Displacement;
 
@@ -127,7 +127,7 @@ static Displacement begin_displacement(Solve *solve) {
         Vec a = add(move.start[ends.a].p, touch->arm_a), b = add(move.start[ends.b].p, touch->arm_b);
         double apart = dot(sub(b, a), touch->normal) + touch->slop;
         move.apart[number] = apart - least(apart, 0.0) * stays;
-        move.guess[island->joint_row_count + number] = touch->point->jnAcc;
+        move.guess[island->joint_row_count + number] = -move.apart[number];
     }
     return move;
 }

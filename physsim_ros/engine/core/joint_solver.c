@@ -7,10 +7,10 @@
 // carries by tension alone, which no row of velocities asks for. A gap that is closed by a velocity becomes energy
 // where joints and contacts contradict each other.
 // Method: all rows of an island are solved together (`mixed_lcp`), in velocities (`joint_velocities`) and then in
-// positions (`joint_positions`).
+// positions (`joint_positions`). Chipmunk's impulses are the first guess.
+// Scope: impulses of springs without dampers, and contacts between bodies without joints, stay Chipmunk's.
 // Cost: 5 µs a step for a pendulum, 150 µs for a chain of fifty axles.
-// Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail. Chipmunk's impulses are the first guess. Impulses of
-// springs without dampers, and contacts between bodies without joints, stay Chipmunk's.
+// Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail.
 
 #include "joint_positions.h"
 #include "joint_velocities.h"

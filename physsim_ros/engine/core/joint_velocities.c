@@ -23,6 +23,7 @@
 // the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
 // pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that holds, as a taut
 // rope does, also gets the curvature term if that loads it more.
+// Cost: that of `joint_solver.c`.
 
 #include "joint_velocities.h"
 #include "mixed_lcp.h"
@@ -239,12 +240,27 @@ static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution 
     return changed;
 }
 
+// Guess the sides of rows: of joints by λ of the step before, of contacts by the impulses that Chipmunk found, since
+// a body that rattles on a machine touches it in every other step.
+static void guess_sides(const Solve *solve, const VelocityRows *rows, int8_t *sides) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    for (int row = 0; row < normal; row++) {
+        sides[row] = side_by_guess(rows->last[row], rows->lower[row], rows->upper[row]);
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        const Bearing *touch = island->touches + number;
+        int left = normal + number, right = tangent + number;
+        Edges edges = edges_of(touch->friction, touch->point->jnAcc, touch->point->jtAcc);
+        sides[left] = side_by_guess(edges.left, rows->lower[left], rows->upper[left]);
+        sides[right] = side_by_guess(edges.right, rows->lower[right], rows->upper[right]);
+    }
+}
+
 // Return the solution with some least velocities along the normals of contacts [m/s].
 static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double *bounce) {
     Solution solution = solution_for(&solve->system, solve->arena);
-    for (int row = 0; row < solve->island->row_count; row++) {
-        solution.sides[row] = side_by_guess(rows->last[row], rows->lower[row], rows->upper[row]);
-    }
+    guess_sides(solve, rows, solution.sides);
     set_targets(solve, rows, bounce);
     solve_problem(&solve->system, &rows->problem, &solution, solve->arena);
     for (int pass = 1; pass < PASSES && update_slips(solve, rows, &solution); pass++) {

@@ -3,10 +3,11 @@
 
 // Linear complementarity problems of a few rows: λ >= 0, A λ + b >= 0, one of the two 0 in each row.
 //
-// A is symmetric and positive semidefinite, with a positive diagonal; λ are impulses of contacts, A is what they change
-// the velocities of all contacts by.
+// Problem: A is symmetric and positive semidefinite, with a positive diagonal; λ are impulses of contacts, A is what
+// they change the velocities of all contacts by.
 // Method: block principal pivoting (J. J. Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale
 // strictly monotone linear complementarity problems", 1994): all rows that are on the wrong side change it at once.
+// Scope: at most `LCP_ROWS` rows; `mixed_lcp.c` solves those of a machine.
 
 #include "lcp.h"
 #include <assert.h>

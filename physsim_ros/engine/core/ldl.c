@@ -10,7 +10,8 @@
 // the order of each sum is that of the pattern: the same on every processor. Where some columns of the matrix change,
 // only rows of L on their paths to the root of the elimination tree do (Davis and Hager, "Row modifications of a sparse
 // Cholesky factorization", SIAM Journal on Matrix Analysis and Applications 26, 2005): these are made anew, to the same
-// bits. Cost: 12 µs for a chain of fifty axles, 250 unknowns.
+// bits.
+// Cost: 12 µs for a chain of fifty axles, 250 unknowns.
 
 #include "ldl.h"
 #include <string.h>

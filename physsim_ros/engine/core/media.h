@@ -33,8 +33,17 @@ typedef struct Pull {
 // The media a time after now [s].
 Media media_of(World *world, double ahead);
 
-// The force of the media on a body at a pose, of twists near one, in times of a length [s].
-Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, Twist twist, double lapse);
+// The motion of a body up to the moment that the force of the media is of.
+typedef struct Flight {
+    bool free;    // nothing but `others` and the media acts on it
+    double ahead; // until that moment [s]
+    Twist now;
+    Twist guess;  // of its twist at that moment
+    Twist others; // other forces [N, N m]
+} Flight;
+
+// The force of the media on a body at a pose, in times of a length [s].
+Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse);
 
 // Whether a region that moves has come to a body.
 bool reaches(const Media *media, const Body *body);

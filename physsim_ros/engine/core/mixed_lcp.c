@@ -3,10 +3,11 @@
 
 // Constraint rows with bounds (mixed linear complementarity problem).
 //
-// Where λ of a row of a `saddle_point` has bounds, J v reaches the target of the row, or λ is at a bound and J v is on
-// the other side of the target. Block principal pivoting (J. J. Júdice and F. M. Pires, "A block principal pivoting
-// algorithm for large-scale strictly monotone linear complementarity problems", Computers & Operations Research 1994):
-// all rows on the wrong side change it at once, as long as their count falls; else the one that is furthest on it does.
+// Problem: where λ of a row of a `saddle_point` has bounds, J v reaches the target of the row, or λ is at a bound and
+// J v is on the other side of the target.
+// Method: block principal pivoting (J. J. Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale
+// strictly monotone linear complementarity problems", Computers & Operations Research 1994): all rows on the wrong side
+// change it at once, as long as their count falls; else the one that is furthest on it does.
 
 #include "mixed_lcp.h"
 

@@ -12,7 +12,8 @@
 // checkpoints have. Continuous collision stops a fast body by the same rule, at the normal of its impact
 // (`time_of_impact.c`).
 // Limit: a corner that goes further in a sub-step than a segment is thick has entered it by the side of the least
-// depth. Cost: 1 ns a contact, 20 ns one of a one-way body.
+// depth.
+// Cost: 1 ns a contact, 20 ns one of a one-way body.
 
 #include "one_way.h"
 #include "stages.h"

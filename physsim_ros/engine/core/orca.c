@@ -3,7 +3,7 @@
 
 // Optimal reciprocal collision avoidance (ORCA).
 //
-// Problem: many who move at will shall not collide, and each sees only where the others are and how they move.
+// Problem: pedestrians must not collide, though each knows only the positions and velocities of the others.
 // Method: J. van den Berg, S. J. Guy, M. Lin and D. Manocha, "Reciprocal n-body collision avoidance" (Robotics
 // Research, 2011). For each other disc there is a half-plane of velocities that avoids a collision within τ if both
 // move half of the way out of the velocity obstacle; who does not avoid others leaves the whole way to the pedestrian.

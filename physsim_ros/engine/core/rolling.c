@@ -10,9 +10,11 @@
 // loads of the moment; the contacts of jointed bodies have theirs in the joint solver (`joint_islands.c`). Before the
 // first iteration it is solved once with the loads of the step before: a disc at rest on a slope is then in balance
 // from the start. Munk2D has no hook in its iterations but that of constraints: the class of the hook constraint is
-// replaced within a step. Law: a disc of radius of gyration k rolls on for v² (1 + k²/r²) / (2 c g), a cart of light
-// wheels for v² / (2 c g), and both stand on slopes below c. Cost: 5 ns a contact, where no body has it 1 ns. Without
-// it law 75 (rolling resistance) fails.
+// replaced within a step.
+// Law: a disc of radius of gyration k rolls on for v² (1 + k²/r²) / (2 c g), a cart of light wheels for v² / (2 c g),
+// and both stand on slopes below c.
+// Cost: 5 ns a contact, where no body has it 1 ns.
+// Without it law 75 (rolling resistance) fails.
 
 #include "outline.h"
 #include "stages.h"

@@ -3,7 +3,8 @@
 
 // Constraint rows of many bodies, solved directly and together.
 //
-// Impulses λ change velocities v by M⁻¹ Jᵀ λ. Those with which the rows J v reach their targets,
+// Problem: impulses λ change velocities v by M⁻¹ Jᵀ λ; the rows J v are to reach their targets.
+// Method: those impulses,
 //
 //     [ M   Jᵀ ] [ dv ]   [ 0            ]
 //     [ J  -E  ] [ -λ ] = [ target - J v ],
@@ -12,7 +13,6 @@
 // may say the same twice, as the joints of a parallelogram do.
 //
 // An island whose bodies and rows are those of the sub-step before keeps its pattern and its order of elimination.
-//
 // Cost: of a chain of fifty axles 30 µs for a new pattern and 12 µs a factorisation.
 
 #include "saddle_point.h"

@@ -20,8 +20,9 @@ static const double rest_acceleration = 2.5e-5;
 // One that sinks on a damper by no more than this is at rest [m/s, rad/s]: 1 mm in 100 s.
 static const double rest_speed = 1e-5;
 
-// One sub-step in which a body is too fast for rest cancels as many of its idle time, not all. In a pile a contact that
-// bears next to nothing is lost now and then, and its body falls for one sub-step, which would reset Chipmunk's timer.
+// Count of sub-steps of idle time that one in which a body is too fast for rest takes back, not all. In a pile a
+// contact that bears next to nothing is lost now and then, and its body falls for one sub-step, which would reset the
+// timer.
 static const double taken_back = 8.0;
 
 static double most_of(Twist twist) {

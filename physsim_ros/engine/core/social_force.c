@@ -38,7 +38,7 @@ static Vec wall_repulsion(const SocialForce *model, double distance, Vec outward
     return scaled(outwards, size);
 }
 
-// A force that pushes away from something, turned to the right as far as that is ahead.
+// A force that pushes away from something, turned to the right the more that is ahead.
 static Vec swerved(Vec force, Vec desired) {
     double size = length(force) * length(desired);
     double ahead = size > 0.0 ? greatest(-dot(force, desired) / size, 0.0) : 0.0;

@@ -5,7 +5,7 @@
 //
 // Problem: boxes of fast bodies span the world, so that n bodies make n² pairs in a step that no signal ends.
 // Method: an island has a budget of pairs, shared by its fast bodies. A body whose swept box meets more than its
-// share is followed not to the end of the step, but to a *horizon* at which the box meets so many; Chipmunk's own
+// share is followed not to the end of the step, but to a *horizon*, at which the box meets its share; Chipmunk's own
 // result holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in
 // Box2D, 2 m a step; Jolt's `mMaxLinearVelocity`), but here every finite velocity is a velocity.
 // Laws: a horizon follows from what a body itself could meet, and a body that meets little is followed to the end,
@@ -100,7 +100,7 @@ static void add_amount(Amount *amount, const Mover *mover) {
     amount->corners += mover->corners;
 }
 
-// The corners of all pairs of shapes of which one is of the first, one of the second amount.
+// The corners of all pairs of a shape of the first and a shape of the second amount.
 static double corners_of_pairs(Amount one, Amount other) {
     return one.shapes * other.corners + other.shapes * one.corners;
 }

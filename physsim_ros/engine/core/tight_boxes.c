@@ -7,12 +7,12 @@
 // tree need not change in each step. Fast bodies overlap in the tree then wherever they are (Munk2D as in Pymunk
 // 7.3.1): 12,000 discs of 20 km/s that touch nothing make pairs of 930 MB and steps of 1.6 s, 40 lists of 900
 // spheres of 1 km/s steps of 40 to 60 s. That is so in a free fall of some minutes, too.
-// Method: a body whose extended boxes overlap so many others that it costs less to index it in each step is indexed
+// Method: a body whose extended boxes overlap more others than indexing it in each step would cost is indexed
 // where the coming step ends, at rest: the tree's box is extended by a tenth of its size only (`GetBB`), and
 // Chipmunk finds it valid. Position, angle and velocity are as they were to the bit.
 // Scope: it depends on what is near a body: a crowd that falls, a single fast body, and one that slides over tiles
 // are left to Chipmunk.
-// Cost: some 0.5 µs for the count of each body that is fast enough for so many pairs (10 m/s with a half width of 5
+// Cost: some 0.5 µs for the count of each body that is fast enough for that many pairs (10 m/s with a half width of 5
 // cm), and as much for each that is indexed, in each step.
 // Without it `test/engine/stages/test_tight_boxes.py` fails.
 // It can go once Pymunk has `cpBBTreeSetVelocityFunc`.

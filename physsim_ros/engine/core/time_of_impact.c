@@ -1,24 +1,23 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Time of impact of pairs of convex shapes in rigid motion, by conservative advancement.
+// Time of impact of pairs of convex shapes in rigid motion.
 //
+// Problem: when two bodies that move and turn first meet, within a step.
+// Method: conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, 2.3).
 // The separation of two shapes, found by separating axes, divided by the greatest speed at which it can shrink, is a
-// time in which they cannot meet. Both advance by it, again and again, until they overlap by the skin or the step ends
-// (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, 2.3).
-//
+// time in which they cannot meet. Both advance by it, again and again, until they overlap by the skin or the step ends.
+// Scope: an impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the
+// start meets where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not
+// at all where it overlaps by more than the lesser inner radius, since either side may be the nearer one then. What is
+// within a one-way body, or meets an open side of it, passes it.
 // Cost: an advance goes through the corners of both shapes once, 10 ns each.
-//
-// An impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the start
-// meets where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not at all
-// where it overlaps by more than the lesser inner radius, since either side may be the nearer one then. What is within
-// a one-way body, or meets an open side of it, passes it.
 
 #include "time_of_impact.h"
 #include "one_way.h"
 
 // Advances of a pair in a step, at most: straight motion takes two or three, a fast turning stick that grazes a disc
-// about twenty. A pair that takes more ends its step as far as it has come.
+// about twenty. A pair that takes more ends its step where the last one has brought it.
 enum { ADVANCES = 24 };
 // Shapes have met when they overlap to within this share of the skin.
 static const double tolerance = 0.1;
@@ -191,7 +190,7 @@ static double advance(MovingShape *a, MovingShape *b, double radii, double skin,
             return INFINITY;
         }
     }
-    // It may meet later; it goes as far as is known to be clear.
+    // It may meet later; its step ends where the way is known to be clear.
     return share;
 }
 

@@ -1,8 +1,12 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Internal edges: a contact at a corner, while a face is entered by no more than the slop and under no more than 10
-// degrees, gets the normal of that face (`btInternalEdgeUtility` in Bullet).
+// Internal edges: what slides over the seam of two shapes does not hit the side of the next one.
+//
+// Problem: at a seam a corner is in contact, whose normal stops what slides ("ghost collision").
+// Method: a contact at a corner, while a face is entered by no more than the slop and under no more than 10 degrees,
+// gets the normal of that face (`btInternalEdgeUtility` in Bullet).
+// Cost, and what fails without it: `first_touch.c`.
 
 #include "touch_stages.h"
 

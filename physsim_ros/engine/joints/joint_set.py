@@ -120,23 +120,14 @@ class JointSet:
         self._bounds.pop(name, None)
         del self.by_name[name], self._serials[name]
 
-    def clear(self) -> None:
-        """Remove all joints from the engine, before its bodies are used in another space."""
-        self._take_out()
+    def take_out(self, count: int) -> None:
+        """Remove up to a number of the last joints, before the bodies are used elsewhere."""
         self._drop_table()
-        self._totals.clear()
-        self.commands.clear()
-        self.coming = ComingCommands()
-        self._bounds.clear()
-        self.by_name.clear()
-        self._on.clear()
-        self._serials.clear()
+        for name in list(reversed(self.by_name))[:count]:
+            self._pm_space.remove(*reversed(self.by_name.pop(name).constraints))
 
     def __del__(self) -> None:
         """Remove all joints before Pymunk frees the space: it takes the square of their number."""
-        self._take_out()
-
-    def _take_out(self) -> None:
         # The last one first, which is the first in Chipmunk's list of those of the background.
         self._pm_space.remove(*reversed(self._constraints()))
 

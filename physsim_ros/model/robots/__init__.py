@@ -10,16 +10,26 @@ stage of the engine. Start with `robot`, then `parts`; a new drive is a class in
 sensor one in `sensors`.
 """
 
+from physsim_ros.model.robots.battery import Battery, MOST_DOCKS
 from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
 from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import Link, LinkJoint, Towed, TREE_KINDS
-from physsim_ros.model.robots.robot import check_namespace, Odometry, Robot, whole_of
+from physsim_ros.model.robots.robot import (
+    BATTERY_TOPIC,
+    check_namespace,
+    Odometry,
+    Robot,
+    whole_of,
+)
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 __all__ = [
     'BASE',
+    'BATTERY_TOPIC',
     'DRIVES',
+    'MOST_DOCKS',
     'TREE_KINDS',
+    'Battery',
     'Car',
     'Differential',
     'Drive',

@@ -16,6 +16,7 @@ from physsim_ros.model.checks import ListOf, Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.latency import delays
+from physsim_ros.model.robots.battery import Battery
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import check_tree, Link, LinkJoint, TREE_KINDS
@@ -52,7 +53,9 @@ class Odometry(Checked):
 
 # Names of topics that every robot has beside that of its commands.
 OWN_TOPICS = ('odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
-# Those of a robot whose joints have motors.
+# Name of the further topic of a robot with a battery.
+BATTERY_TOPIC = 'battery_state'
+# Names of the further topics of a robot whose joints have motors.
 JOINT_TOPICS = (
     'joint_command',
     'joint_trajectory_controller/joint_trajectory',
@@ -104,6 +107,12 @@ class Robot(Checked):
     odometry: Annotated[
         Odometry, Odometry.from_value, 'rate and errors of `odom`: a mapping, see below'
     ] = field(default_factory=Odometry)
+    # Not part of the text, so that digests of worlds are those of ever: they have its charge.
+    battery: Annotated[
+        Battery | None,
+        Battery.from_value,
+        'of its drive: a mapping, see below; by default it never ends',
+    ] = field(default=None, repr=False)
     sensors: Annotated[
         tuple[Sensor, ...],
         ListOf(sensor_from, 'mappings', MOST_SENSORS),
@@ -134,6 +143,8 @@ class Robot(Checked):
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
+        if self.battery is not None and self.drive is None:
+            raise BadProperty('a battery is that of a drive, and there is none', field='battery')
         check_tree(self.links, self.joints)
         links = [BASE, *(link.name for link in self.links)]
         topics = [*self._topics]
@@ -174,6 +185,7 @@ class Robot(Checked):
             self.command_topic,
             *OWN_TOPICS,
             *commands,
+            *(() if self.battery is None else (BATTERY_TOPIC,)),
             *(sensor.name for sensor in self.sensors),
         )
 

@@ -42,7 +42,7 @@ from physsim_ros.model.transform import cross, Point
 
 
 def _points(value: Any, name: str) -> tuple[Point, ...]:
-    # Those of a file are told from numbers in texts.
+    # A point of a file that is no pair of numbers is refused by its number in the list.
     points = point_list(value, name) if isinstance(value, list) else value
     return as_tuples(checked_points(points, name))
 

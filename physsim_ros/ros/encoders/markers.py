@@ -5,7 +5,8 @@
 `~/markers`: visualization_msgs/MarkerArray, all bodies, joints, walls and hands.
 
 A body is drawn with the marker that would spawn it, its material in `text`. A marker that is no
-longer drawn is deleted in each of the next `DELETE_REPEATS` messages.
+longer drawn is deleted in each of the next `DELETE_REPEATS` messages. Of a scene with thousands of
+new bodies, `MOST_NEW` are serialised for each frame, and the first message comes after the last.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import struct
 import numpy as np
 from physsim_ros.appearance import JointGlyphs, segment_corners
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.transform import rotated_each
@@ -47,6 +49,8 @@ _PADDING = -len(_UNMESHED) % 4
 # Number of messages in which a marker is deleted. The depth of the stream is 1, so that a slow
 # subscriber misses some; of those of one second it gets at least one.
 DELETE_REPEATS = 60
+# Greatest number of bodies and joints that are serialised for a frame, 50 µs each.
+MOST_NEW = 500
 
 
 class MarkersEncoder:
@@ -68,17 +72,20 @@ class MarkersEncoder:
         self._gone: dict[Key, tuple[_MarkerBytes, int]] = {}
         self._until = -1
         self._count = 0
+        self._glyphs: JointGlyphs | None = None
         self._joint_columns: _JointColumns | None = None
         self._joints: dict[
             str, tuple[tuple[Joint, float, int], tuple[_MarkerBytes, _MarkerBytes]]
         ] = {}
 
-    def encode(self, frame: Frame) -> bytes:
-        """Return the serialised message of a frame."""
+    def encode(self, frame: Frame) -> bytes | None:
+        """Return the serialised message of a frame; None if markers are left to be serialised."""
         snapshot = frame.snapshot
         hands = len(snapshot.grips)
         same = snapshot.scene is self._scene and hands == self._hands
         if not same or self._count == self._until:
+            if not self._serialise_new(snapshot.scene):
+                return None
             self._build_template(snapshot.scene, hands)
         self._count += 1
         if self._joint_columns is not None:
@@ -96,9 +103,9 @@ class MarkersEncoder:
         if hands:
             markers.append((-1, self._serialise(hands_symbol(hands))))
         before = len(markers)
-        glyphs = JointGlyphs(scene) if scene.joints else None
-        pairs = () if glyphs is None else self._joint_markers(glyphs)
-        joints = [(-1, marker) for pair in pairs for marker in pair]
+        glyphs = self._glyphs
+        self._joints = {joint.name: self._joints[joint.name] for joint in scene.joints}
+        joints = [(-1, marker) for _, pair in self._joints.values() for marker in pair]
         markers += joints
         shown = dict.fromkeys(marker.key for _, marker in markers)
         until = self._count + DELETE_REPEATS
@@ -145,31 +152,41 @@ class MarkersEncoder:
 
     def _body_markers(self, scene: Scene) -> list[tuple[int, _MarkerBytes]]:
         """Return the markers of bodies and walls, each with the row of its body, or -1."""
-        bodies = {}
-        markers = []
-        for row, body in enumerate(scene.bodies):
-            known = self._bodies.get(body.name)
-            if known is None or (known[0] is not body and known[0] != body):
-                known = body, tuple(self._serialise(symbol) for symbol in body_symbols(body))
-            bodies[body.name] = known
-            markers += [(row, marker) for marker in known[1]]
-        self._bodies = bodies
+        self._bodies = {body.name: self._bodies[body.name] for body in scene.bodies}
+        each = enumerate(self._bodies.values())
+        markers = [(row, marker) for row, (_, serialised) in each for marker in serialised]
         if scene.settings.bounds is not None:
             markers.append((-1, self._serialise(wall_symbol(scene.settings.bounds))))
         return markers
 
-    def _joint_markers(self, glyphs: JointGlyphs) -> list[_JointMarkers]:
-        """Return the markers of each joint: its points, and its lines."""
-        joints = {}
-        counts = glyphs.segment_ends.tolist()
-        for joint, *look in zip(glyphs.scene.joints, glyphs.sizes, counts, strict=True):
-            known = self._joints.get(joint.name)
-            if known is None or known[0] != (joint, *look):
+    @suspended_collection()
+    def _serialise_new(self, scene: Scene) -> bool:
+        """Serialise some markers of new bodies and joints; return whether none is left."""
+        left = MOST_NEW
+        for body in scene.bodies:
+            known = self._bodies.get(body.name)
+            if known is None or (known[0] is not body and known[0] != body):
+                if not left:
+                    return False
+                left -= 1
+                symbols = tuple(self._serialise(symbol) for symbol in body_symbols(body))
+                self._bodies[body.name] = body, symbols
+        if not scene.joints:
+            self._glyphs = None
+            return True
+        if self._glyphs is None or self._glyphs.scene is not scene:
+            self._glyphs = JointGlyphs(scene)
+        counts = self._glyphs.segment_ends.tolist()
+        for joint, *look in zip(scene.joints, self._glyphs.sizes, counts, strict=True):
+            drawn = self._joints.get(joint.name)
+            if drawn is None or drawn[0] != (joint, *look):
+                if not left:
+                    return False
+                left -= 1
                 points, lines = joint_symbols(joint, *look)
-                known = (joint, *look), (self._serialise(points), self._serialise(lines))
-            joints[joint.name] = known
-        self._joints = joints
-        return [markers for _, markers in joints.values()]
+                pair = self._serialise(points), self._serialise(lines)
+                self._joints[joint.name] = (joint, *look), pair
+        return True
 
     def _serialise(self, symbol: Symbol) -> _MarkerBytes:
         head = CdrWriter()
@@ -209,10 +226,6 @@ class _MarkerBytes:
     at_8: bytes
     at_4: bytes
     size_of_rest: int
-
-
-# Of the points of a joint, and of its lines.
-_JointMarkers = tuple[_MarkerBytes, _MarkerBytes]
 
 
 class _JointColumns:

@@ -133,7 +133,7 @@ class Publishers:
         """Whether a topic of frames has subscribers."""
         streams = (*self.streams, self.contacts)
         others = self._markers.is_read or self.timeline.is_read
-        return others or any(each.subscriptions for each in streams)
+        return others or any(each.is_read for each in streams)
 
 
 class Encoder(Protocol):
@@ -165,6 +165,11 @@ class Stream:
         """Return the number of subscriptions."""
         return self._publisher.get_subscription_count()
 
+    @property
+    def is_read(self) -> bool:
+        """Whether each frame is to be shown."""
+        return self.subscriptions > 0
+
     def show(self, frame: Frame) -> None:
         """Publish a new frame."""
         self._served = self.subscriptions
@@ -177,10 +182,13 @@ class Stream:
         if self._served > served:
             self._send(frame)
 
-    def _send(self, frame: Frame) -> None:
+    def _send(self, frame: Frame) -> bool:
+        """Publish the message of a frame, and return whether it has one."""
         message = self._encoder.encode(frame)
-        if message is not None:
-            self._publisher.publish(message)
+        if message is None:
+            return False
+        self._publisher.publish(message)
+        return True
 
 
 class ClockStream(Stream):
@@ -214,11 +222,18 @@ class LatchedStream(Stream):
     def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
         super().__init__(publisher, encoder)
         self._latched: Frame | None = None
+        # Whether the message of the last frame is still being encoded.
+        self._is_late = False
+
+    @property
+    def is_read(self) -> bool:
+        """Whether each frame is to be shown, for a subscription or to finish a message."""
+        return self._is_late or super().is_read
 
     def show(self, frame: Frame) -> None:
         """Publish a new frame; without subscribers only if the latched one is outdated."""
         super().show(frame)
-        if self._is_outdated(frame):
+        if not self._served and self._is_outdated(frame):
             self._send(frame)
 
     def _is_outdated(self, frame: Frame) -> bool:
@@ -235,6 +250,8 @@ class LatchedStream(Stream):
         if self._latched is not frame:
             self._send(frame)
 
-    def _send(self, frame: Frame) -> None:
-        super()._send(frame)
-        self._latched = frame
+    def _send(self, frame: Frame) -> bool:
+        self._is_late = not super()._send(frame)
+        if not self._is_late:
+            self._latched = frame
+        return not self._is_late

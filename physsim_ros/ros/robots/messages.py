@@ -19,6 +19,7 @@ from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import Point, PoseArray, Vector3
 from geometry_msgs.msg import Pose as PoseMessage
 from nav_msgs.msg import Odometry
+from physsim_ros.model.robots import Battery
 from physsim_ros.model.robots.sensors import (
     Bumper,
     FloorEye,
@@ -33,11 +34,19 @@ from physsim_ros.model.robots.sensors import (
 from physsim_ros.model.states import Covariance
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.planar import pose_message, rotation_of
-from physsim_ros.sensing import read_sensor, View
+from physsim_ros.sensing import read_battery, read_sensor, View
 from rclpy.time import Time
-from sensor_msgs.msg import Image, JointState, LaserScan, NavSatFix, NavSatStatus, Range
+from sensor_msgs.msg import (
+    BatteryState,
+    Image,
+    JointState,
+    LaserScan,
+    NavSatFix,
+    NavSatStatus,
+    Range,
+)
 from sensor_msgs.msg import Imu as ImuMessage
-from std_msgs.msg import Bool
+from std_msgs.msg import Bool, Header
 
 # Least variance that is told of a pose [m², rad²] or a twist [m²/s², rad²/s²]: localisers take 0
 # for unknown.
@@ -207,6 +216,31 @@ def fix_message(view: StampedView, row: int, gps: Gps) -> NavSatFix:
     message.position_covariance[0] = message.position_covariance[4] = variance
     message.position_covariance[8] = LEAST_VARIANCE
     return message
+
+
+def battery_message(view: StampedView, row: int, battery: Battery) -> BatteryState:
+    """Return the state of a battery."""
+    reading = read_battery(view.snapshot, row)
+    assert reading is not None  # noqa: S101 - it has one
+    if reading.is_docked:
+        is_full = reading.level >= 1.0
+        status = BatteryState.POWER_SUPPLY_STATUS_FULL
+        status = status if is_full else BatteryState.POWER_SUPPLY_STATUS_CHARGING
+    else:
+        status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
+    return BatteryState(
+        header=Header(stamp=view.stamp),
+        voltage=battery.voltage,
+        temperature=math.nan,
+        current=reading.current,
+        charge=reading.level * battery.capacity,
+        capacity=battery.capacity,
+        design_capacity=battery.capacity,
+        percentage=reading.level,
+        power_supply_status=status,
+        power_supply_health=BatteryState.POWER_SUPPLY_HEALTH_GOOD,
+        present=True,
+    )
 
 
 class Reading(NamedTuple):

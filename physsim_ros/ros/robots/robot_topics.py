@@ -22,7 +22,7 @@ from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.latency import delay
-from physsim_ros.model.robots import part_name, Robot, Sensor
+from physsim_ros.model.robots import Battery, BATTERY_TOPIC, part_name, Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.states import SPAWNED
@@ -39,13 +39,19 @@ from physsim_ros.ros.robots.frames import (
     tf_message_type,
     urdf_of,
 )
-from physsim_ros.ros.robots.messages import odometry_message, READINGS, StampedView
+from physsim_ros.ros.robots.messages import (
+    battery_message,
+    odometry_message,
+    READINGS,
+    StampedView,
+)
 from physsim_ros.ros.robots.motor_topics import motor_topics
 from physsim_ros.sensing import is_due, true_motion
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import BatteryState
 from std_msgs.msg import String
 
 
@@ -151,6 +157,9 @@ class RobotTopics:
         if robot.drive is not None:
             rate, latency = robot.odometry.rate, robot.odometry.latency
             self._add(Odometry, 'odom', self.odometry, rate=rate, latency=latency)
+        if (battery := robot.battery) is not None:
+            state = partial(self._battery, battery)
+            self._add(BatteryState, BATTERY_TOPIC, state, rate=battery.rate)
         # Lasers as they are published, by the name of their topic.
         self._lasers: dict[str, Laser] = {}
         for sensor in robot.sensors:
@@ -353,6 +362,12 @@ class RobotTopics:
             child=self._frames.name(BASE),
             covariances=(SPAWNED.covariance, SPAWNED.covariance),
         )
+
+    def _battery(self, battery: Battery, view: StampedView, row: int, _: int) -> BatteryState:
+        """Return the state of the battery."""
+        message = battery_message(view, row, battery)
+        message.header.frame_id = self._frames.name(BASE)
+        return message
 
     def reading(self, sensor: Sensor, view: StampedView, row: int, _: int = 0) -> Any:
         """Return the message of a sensor of it."""

@@ -387,7 +387,7 @@ class Cursor(Replay):
         )
         self.serial += 1
         if tree.is_log_long:
-            # So that a paused world can drop its oldest requests.
+            # A paused world can then drop its oldest requests.
             self.add_keyframe()
 
     def advance(self, steps: int) -> None:
@@ -440,7 +440,8 @@ class Cursor(Replay):
         """Build the share of the bodies for the next checkpoint that is due in some steps."""
         world, spacing = self._world, self._tree.spacing
         if not world.is_built_ahead:
-            world.build_bodies(-(-len(world) * steps // max(1, int(spacing * _AHEAD))))
+            count = len(world) + len(world.scene.joints)
+            world.build_bodies(-(-count * steps // max(1, int(spacing * _AHEAD))))
 
 
 def _finish(parts: Iterator[None]) -> None:

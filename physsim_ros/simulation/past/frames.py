@@ -15,7 +15,7 @@ between two checkpoints, is replayed forward while the segment after it is shown
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import islice
 from typing import NamedTuple
 
@@ -92,15 +92,19 @@ class FrameCache:
         first, last = bisect_right(self._steps, step), bisect_right(self._steps, end)
         return [self._frames[each].copy() for each in self._steps[first:last]]
 
-    def state_of_run(self) -> WorldState:
-        """Return the state after the last request of the line, as far as that is kept."""
+    def saver_of_run(self) -> Callable[[], WorldState]:
+        """
+        Return a function that returns, on any thread, the state with which the run began.
+
+        That is the state after the last request of the line, or at the first that is kept.
+        """
         tree = self._tree
         moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
         # The replay that is under way begins anew.
         self._segment = None
         self._replay.resume(tree.keyframe_before(*moment))
         self._replay.replay_to(moment)
-        return self._world.save()
+        return self._world.saver()
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown; to a past without length none is added."""

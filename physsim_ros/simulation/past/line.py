@@ -38,7 +38,7 @@ class Moment(NamedTuple):
 
 class Keyframe(NamedTuple):
     """
-    A checkpoint and its moment.
+    A checkpoint on a line: with its moment, and the digest that each replay must have there.
 
     :ivar step: of the checkpoint
     :ivar serial: number of requests up to it

@@ -326,7 +326,7 @@ def _seat(
     if kind.schema.has_axis:
         at_b = points[0]
     if kind.schema.rolls:
-        # What rolls to the right on what lies below it turns clockwise.
+        # A wheel that rolls to the right on a surface below it turns clockwise.
         ux, uy = -uy, ux
     length = math.dist(points[0], at_b)
     on_a, on_b = world_to_local(points[0], pose_a), world_to_local(at_b, pose_b)

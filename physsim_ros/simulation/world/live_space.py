@@ -12,14 +12,15 @@ into a space that is built from it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
+from functools import partial
 import math
 from typing import NamedTuple
 
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.checkpoint import BodyPool, restore_checkpoint, take_checkpoint
 from physsim_ros.engine.core import sub_step_of
-from physsim_ros.engine.saved_state import begin_at, checkpoint_of
+from physsim_ros.engine.saved_state import begin_at, checkpoint_of, saved_state
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import check_pose
@@ -84,6 +85,12 @@ class LiveSpace:
         if seconds <= 0.0:
             return None
         return self.step_count + steps_in(seconds, self.physics_rate)
+
+    def saver(self) -> Callable[[], WorldState]:
+        """Return a function that returns, on any thread, the saved state of this moment."""
+        return partial(
+            saved_state, take_checkpoint(self.space, self.step_count), dt=self._sub_step
+        )
 
     def renew(self) -> Checkpoint:
         """
@@ -185,6 +192,8 @@ def beginning_of(state: WorldState, physics_rate: float) -> Beginning:
 
 def _beginning_of(state: WorldState, step: int, sub_step: float) -> Beginning:
     checkpoint = checkpoint_of(state, step, sub_step)
+    # The digest of the first keyframe has it.
+    _ = checkpoint.scene.key
     space = restore_checkpoint(checkpoint, sub_step)
     return Beginning(state, checkpoint, space, space.changes)
 

@@ -18,7 +18,6 @@ from operator import gt
 from typing import Any
 
 from physsim_ros.engine.contacts import take_contacts
-from physsim_ros.engine.saved_state import saved_state
 from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import StepFailed
@@ -73,8 +72,8 @@ def loaded(state: WorldState) -> str:
     return f'loaded {counted(len(state.bodies), "body")}{joints}'
 
 
-# The handler of each type of request. It checks everything, then changes the space; one that makes
-# several requests may end half done, which `apply` tells.
+# The handler of each type of request. It checks everything, then changes the space; a request that
+# consists of several, such as a cut, may fail half way: `World.changed` is then true.
 HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.Spawn: body_requests.spawn,
     requests.ChangeBody: body_requests.change_body,
@@ -112,7 +111,7 @@ class World(LiveSpace):
     :param settings: at the start; None is the default ones
 
     :ivar reports_contacts: whether contacts are reported, which costs a tenth of a step
-    :ivar changed: whether the last request changed anything; also one that was refused half done
+    :ivar changed: whether the last request changed anything; also one that failed half way
     :ivar has_grown: whether it left more bodies, or more joints, than there were before
     """
 
@@ -195,7 +194,9 @@ class World(LiveSpace):
             digest.update(repr(grip).encode())
         for states in (self.space.table.robot_states, self.space.table.actor_states):
             for name in states.dtype.names or ():
-                digest.update(states[name].tobytes())
+                # Worlds without batteries have the digests of ever.
+                if name != 'drawn' or states[name].any():
+                    digest.update(states[name].tobytes())
         return digest.hexdigest()
 
     @property
@@ -205,7 +206,7 @@ class World(LiveSpace):
 
     def save(self) -> WorldState:
         """Return the saved state of the world."""
-        return saved_state(self.space, self.step_count)
+        return self.saver()()
 
     # Changing
 
@@ -213,7 +214,7 @@ class World(LiveSpace):
         """
         Carry out a request.
 
-        :raises Refusal: nothing is changed, or `changed` tells that it is half done
+        :raises Refusal: nothing is changed, or `changed` is true, as the request failed half way
         """
         before, counts = (self.space, self.space.changes), self._counts
         try:

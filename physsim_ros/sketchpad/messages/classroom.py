@@ -112,7 +112,7 @@ def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
 
 @message('clear_of', '~/command', Right.TEACH, person=fields.person)
 def clear_of(page: PageSession, origin: Origin, person: str) -> None:
-    """Delete the bodies and joints that a person has added, as far as the history reaches."""
+    """Delete the bodies and joints that a person has added since the beginning of the history."""
 
     def deletion() -> DeleteBodies:
         past = page.world.simulation.past

@@ -203,24 +203,24 @@ def share(page: PageSession, origin: Origin, *, run: bool = False) -> None:
         boundary, simulation = page.world.boundary, page.world.simulation
         try:
             with boundary.message(origin.topic):
-                state = simulation.state_of_run() if run else simulation.save()
+                saved = simulation.saver_of_run() if run else simulation.saver()
         except Failed as failed:
             page.refuse(origin, failed)
         else:
             # The server's thread writes the text.
-            page.send(partial(_text_content, origin, state, simulation.physics_rate, boundary))
+            page.send(partial(_text_content, origin, saved, simulation.physics_rate, boundary))
         return []
 
     page.call(origin, send_text, Wait.FOR_SEEK)
 
 
 def _text_content(
-    origin: Origin, state: WorldState, physics_rate: float, boundary: ErrorBoundary
+    origin: Origin, saved: Callable[[], WorldState], physics_rate: float, boundary: ErrorBoundary
 ) -> dict[str, Any]:
     """Return the answer with the text of a world, or with its refusal."""
     try:
         with boundary.reading(origin.topic):
-            text = text_of(state, physics_rate, longest=MOST_SHARED)
+            text = text_of(saved(), physics_rate, longest=MOST_SHARED)
     except Refusal as refusal:
         answer = Answer.refused(refusal, topic='page')
     else:

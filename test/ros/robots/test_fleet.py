@@ -13,7 +13,7 @@ from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.testing import box, delete, PhysSim
 import pytest
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Image, Imu, JointState, LaserScan, NavSatFix, Range
+from sensor_msgs.msg import BatteryState, Image, Imu, JointState, LaserScan, NavSatFix, Range
 from std_msgs.msg import Bool
 
 from .driver import driver_of
@@ -231,3 +231,22 @@ def test_a_robot_obeys_the_topic_of_its_key_and_no_other(flat: PhysSim) -> None:
         publisher.publish(command)
         flat.run(0.4)
         assert robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6)
+
+
+def test_a_battery_is_told_and_charged_on_a_dock(flat: PhysSim, client: Client) -> None:
+    battery = {'capacity': 0.01, 'level': 0.5, 'docks': ['dock/0'], 'charging': 9.0, 'rate': 10}
+    flat.robot({'from': 'turtlebot3_burger', 'battery': battery})
+    states = client.listen(BatteryState, '/robot_0/battery_state')
+    flat.run(1.0)
+    state = states[-1]
+    assert state.percentage == pytest.approx(0.5 - 0.2 / 36.0, abs=0.01)
+    assert (state.voltage, state.present) == (12.0, True)
+    assert state.current == pytest.approx(-0.2)
+    assert state.power_supply_status == BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
+    assert state.header.frame_id == 'robot_0/base_link'
+    flat.spawn(box('dock/0', at=(0.0, 0.0), size=(1.0, 1.0), anchored=True, sensor=True))
+    flat.run(1.0)
+    assert states[-1].power_supply_status == BatteryState.POWER_SUPPLY_STATUS_CHARGING
+    flat.run(3.0)
+    assert states[-1].power_supply_status == BatteryState.POWER_SUPPLY_STATUS_FULL
+    assert states[-1].charge == pytest.approx(0.01)
