@@ -70,8 +70,8 @@ class Endpoint(ABC):
 
     @property
     def address(self) -> str:
-        """Return the kind and the address of the receiver, as a sentence."""
-        return f'Rerun {self.kind}: {self.where}'
+        """Return the kind of the receiver, and its address once that is known."""
+        return f'Rerun {self.kind}: {self.where}' if self.where else f'Rerun {self.kind}'
 
     @property
     def page_address(self) -> str:

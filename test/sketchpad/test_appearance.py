@@ -47,6 +47,14 @@ LABELS = """async () => {
     return [drawn, measured];
 }"""
 
+# What is framed of a world in which a rod hangs just below the upper bound [m].
+HUNG = """async () => {
+    const {WorldState} = await import('/page/world_state.js'), world = new WorldState({on() {}});
+    Object.assign(world.scene, {bounds: [-1, 0, 1, 5.1],
+        joints: [{kind: 'rod', a: 0, b: -1, points: [[0, 0], [0, 5]]}]});
+    return world.extent();
+}"""
+
 # Note the lowest place of each text that is drawn, and where the last one ends at its right [px].
 PLACES = """() => {
     const {prototype} = CanvasRenderingContext2D, original = prototype.fillText;
@@ -67,6 +75,15 @@ def test_a_label_that_is_larger_than_its_body_is_on_no_other_and_is_measured_onc
     drawn, measured = sheet.page.evaluate(LABELS)
     assert drawn == ['first', 'third'] * 2
     assert measured == 3
+    sheet.close()
+
+
+def test_the_hinge_of_a_rod_is_framed_with_its_world(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    left, low, right, high = sheet.page.evaluate(HUNG)
+    assert (left, low, right) == (-1.0, 0.0, 1.0)
+    # Triangle and ground are three times as high as half of a symbol, 0.12 m.
+    assert high >= 5.0 + 2.9 * 0.12
     sheet.close()
 
 

@@ -181,7 +181,7 @@ form.addEventListener('submit', async (event) => {
 
 async function showSeats() {
   /** @type {?{teacher?: boolean, seats?: {name: string, address: string}[], pupils?: string}} null where there is no answer */
-  const told = await fetch('/seats', {signal: AbortSignal.timeout(PERIOD)}).then((response) => response.ok ? response.json() : {}, () => null);
+  const told = await fetch('/seats', {signal: AbortSignal.timeout(PERIOD)}).then((response) => response.ok ? response.json() : {}).catch(() => null);
   gone.hidden = told !== null || teacher.hidden;
   gone.textContent = t('The class is not reachable. This page comes back with it.');
   if (told?.teacher) showClass(told.seats ?? [], told.pupils ?? '');

@@ -11,7 +11,6 @@
 import {createElement, elementOf, foldButton, showText, textButton, toggling} from '../dom.js';
 import {appliedTo, bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {digits, roundUp, threeDigits} from '../rounding.js';
-import {isRoomy} from './room.js';
 import {t} from '../strings.js';
 
 /** @import {Force, Palette, Parts, Point, SceneView} from '../types.js' */
@@ -118,11 +117,9 @@ export class Arrows {
     };
     const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) =>
       toggling(textButton(name, () => {}, kind), isOn, change);
-    const {legend, off} = this, folded = !isRoomy() && !this.unfolded;
+    const {legend, off} = this;
     legend.hidden = !this.velocities && !this.forces;
-    legend.classList.toggle('folded', folded);
-    this.more.hidden = isRoomy();
-    this.more.setAttribute('aria-expanded', String(!folded));
+    this.more.setAttribute('aria-expanded', String(legend.classList.toggle('unfolded', this.unfolded)));
     legend.replaceChildren(
       ...this.velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
         this.momenta = !this.momenta;

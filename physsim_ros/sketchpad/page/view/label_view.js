@@ -101,6 +101,7 @@ function overlap(a, b) {
 const FONT = '13px system-ui, sans-serif';
 const HALF = 9, BETWEEN = 6, TIP = 7, CLEAR = 4; // px: half of the height of a number, from a tip to it, half of what a tip takes, beside a line
 const ALONG = ['spring', 'rod', 'rope'], HINGES = ['axle', 'motor', 'pin']; // kinds of joints that are lines, and points
+const RULER = 18; // px: of the ruler at the lower edge
 const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; // rad and px of the places that are tried
 
 /**
@@ -109,7 +110,7 @@ const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; 
  * @param {SceneView} view
  */
 export function drawNumbers(view) {
-  const {ctx, insets, camera, numbers} = view, sides = [insets.left + 4, insets.top + 4, camera.width - insets.right - 4, camera.height - insets.bottom - 4];
+  const {ctx, insets, camera, numbers} = view, sides = [insets.left + 4, insets.top + 4, camera.width - insets.right - 4, camera.height - insets.bottom - RULER];
   /** @type {Box[]} */
   const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [];
   ctx.font = FONT;

@@ -12,14 +12,11 @@ import {unionOf} from './body_path.js';
 
 /** @import {Bounds, Parts} from '../types.js' */
 
-const GAP = 20, SMALL_GAP = 2; // px between the edges of the room and the world, and on a small page
-const LOW = 500, WIDE = 1000; // px: a page that is lower or less wide has no room for panels in full
-const LABELS = 10; // px more, for the heights at the left
 const FLAT = 1.6; // width of what is framed to its height, from which on the plot lies below it
 
-/** @returns {boolean} whether a panel in full leaves room for the world */
+/** @returns {boolean} whether a panel in full leaves room for the world, as style.css has it */
 export function isRoomy() {
-  return innerWidth >= WIDE && innerHeight > LOW;
+  return Number(getComputedStyle(document.documentElement).getPropertyValue('--roomy')) === 1;
 }
 
 export class Room {
@@ -103,7 +100,8 @@ export class Room {
     view.dirty = true;
     this.late = camera.fitted && this.parts.gestures.isBusy;
     if (!camera.fitted || this.late) return;
-    const {left, top, right, bottom} = view.insets, gap = isRoomy() ? GAP : SMALL_GAP;
-    camera.fit(this.extent, {left: left + gap + (isRoomy() ? LABELS : 0), top: top + gap, right: right + gap, bottom: bottom + gap});
+    const {left, top, right, bottom} = view.insets, gaps = getComputedStyle(this.element);
+    camera.fit(this.extent, {left: left + parseFloat(gaps.paddingLeft), top: top + parseFloat(gaps.paddingTop),
+      right: right + parseFloat(gaps.paddingRight), bottom: bottom + parseFloat(gaps.paddingBottom)});
   }
 }
