@@ -11,15 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Command, Configure, Join, Spawn
+from physsim_ros.model.requests import Command, Configure, Join, Restore, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
 from physsim_ros.model.transform import Point, Pose
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import beginning_of, World
 import pytest
 
 G = 9.81
@@ -210,3 +211,17 @@ def sleepers(world: World) -> list[str]:
     """Return the names of the bodies that sleep in the engine."""
     bodies = world.space.bodies.by_name
     return [name for name, rigid in bodies.items() if rigid.pm_body.is_sleeping]
+
+
+def check_begins_alike(state: WorldState, physics_rate: float) -> None:
+    """Compare a world that begins with a state at any step and one that was built ahead."""
+    now, ahead = World(physics_rate=physics_rate), World(physics_rate=physics_rate)
+    ahead.put_ahead(beginning_of(state, physics_rate))
+    for world in (now, ahead):
+        world.step(7)
+        world.apply(Restore(state=state))
+
+    assert repr(now.renew()) == repr(ahead.renew())
+    for world in (now, ahead):
+        world.step(120)
+    assert now.digest() == ahead.digest()

@@ -230,12 +230,14 @@ class Joint:
 
         :param poses: of its bodies, by name
         """
-        pose_a, pose_b = poses[self.a], ORIGIN if self.b == WORLD else poses[self.b]
-        seat = self.seat
+        pose_a, pose_b, seat = poses[self.a], self._pose_of_b(poses), self.seat
         if not self.kind.schema.has_axis:
             return pose_a[2] - pose_b[2] + seat.phase
         x, y = world_to_local(local_to_world((seat.ax, seat.ay), pose_a), pose_b)
         return seat.ux * (x - seat.bx) + seat.uy * (y - seat.by)
+
+    def _pose_of_b(self, poses: Mapping[str, Pose]) -> Pose:
+        return ORIGIN if self.b == WORLD else poses[self.b]
 
     def drawn_points(self, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
         """
@@ -247,7 +249,7 @@ class Joint:
         x, y = local_to_world((seat.ax, seat.ay), poses[self.a])
         if self.kind.points == 1:
             return ((x, y),)
-        pose_b = ORIGIN if self.b == WORLD else poses[self.b]
+        pose_b = self._pose_of_b(poses)
         if self.kind.schema.has_axis:
             ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
             return (x, y), (x + ux, y + uy)

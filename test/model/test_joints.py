@@ -5,6 +5,9 @@
 
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.joints import DEFAULTS, JOINT_KEYS, JointKind, JointProperties, kind_from
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.scene import Joint, Seat
+from physsim_ros.model.transform import ORIGIN
 import pytest
 
 from ..building import refusal
@@ -53,3 +56,14 @@ def test_a_word_that_is_no_kind_is_bad(word):
 def test_a_force_along_a_line_needs_two_points_and_no_axis(kind):
     assert kind.points == 2
     assert not kind.schema.has_axis
+
+
+@pytest.mark.parametrize('kind', JointKind)
+def test_a_body_at_the_origin_is_as_good_an_end_as_the_world(kind):
+    seat = Seat(0.1, 0.2, 1.0, 2.0, 0.6, 0.8, 0.3, 1.5)
+    rest = {'name': 'joint/0', 'kind': kind, 'seat': seat, 'properties': JointProperties()}
+    to_body, to_world = (Joint(a='a/0', b=b, **rest) for b in ('b/0', WORLD))
+    poses = {'a/0': (3.0, 4.0, 0.5), 'b/0': ORIGIN}
+
+    assert to_world.position(poses) == to_body.position(poses) != 0.0
+    assert to_world.drawn_points(poses) == to_body.drawn_points(poses)

@@ -46,6 +46,7 @@ import pytest
 from ..building import (
     body_at,
     BOX,
+    check_begins_alike,
     DISC,
     ELL,
     join,
@@ -308,17 +309,7 @@ def test_a_restored_world_goes_on_alike_with_the_requests_that_follow():
 def test_lifetimes_and_wrenches_of_a_world_that_was_built_ahead_count_from_its_restoring():
     world = busy_world()
     world.apply(Command(names=('mix/1',), wrenches=((1.0, 0.0, 0.0),)))
-    state = world.save()
-    now, ahead = World(), World()
-    ahead.put_ahead(beginning_of(state, ahead.physics_rate))
-    for each in (now, ahead):
-        each.step(50)
-        each.apply(Restore(state=state))
-
-    assert repr(now.renew()) == repr(ahead.renew())
-    now.step(120)
-    ahead.step(120)
-    assert now.digest() == ahead.digest()
+    check_begins_alike(world.save(), world.physics_rate)
 
 
 def test_a_world_that_was_built_ahead_of_another_one_is_not_begun_with():

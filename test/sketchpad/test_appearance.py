@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -47,6 +48,14 @@ LABELS = """async () => {
     return [drawn, measured];
 }"""
 
+# The room about the centroid of an L, which the line of an edge passes at 1 cm, but no edge [m].
+ROOM = """async () => {
+    const {BodyView} = await import('/page/view/body_view.js');
+    const outline = [[-1, -1], [1, -1], [1, -0.5], [3, -0.5], [3, 0.5], [1, 0.5], [1, 1], [-1, 1]];
+    return new BodyView({}).appearance(
+        {shape: {kind: 'polygon', outline}, color: [1, 0, 0, 1], centroid: [0.99, 0]}).inner;
+}"""
+
 # What is framed of a world in which a rod hangs just below the upper bound [m].
 HUNG = """async () => {
     const {WorldState} = await import('/page/world_state.js'), world = new WorldState({on() {}});
@@ -75,6 +84,12 @@ def test_a_label_that_is_larger_than_its_body_is_on_no_other_and_is_measured_onc
     drawn, measured = sheet.page.evaluate(LABELS)
     assert drawn == ['first', 'third'] * 2
     assert measured == 3
+    sheet.close()
+
+
+def test_the_mark_of_a_body_has_the_room_within_its_outline(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    assert sheet.page.evaluate(ROOM) == pytest.approx(0.9 * math.hypot(0.01, 0.5))
     sheet.close()
 
 

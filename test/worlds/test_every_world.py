@@ -9,10 +9,11 @@ from pathlib import Path
 from physsim_ros.files import load_world, save_world, shipped_worlds
 from physsim_ros.model.requests import Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.simulation.world import beginning_of, World
+from physsim_ros.simulation.world import World
 import pytest
 
 from .film import RATE, simulation, state_of
+from ..building import check_begins_alike
 
 ROOT = Path(__file__).resolve().parents[2]
 FAMOUS = (
@@ -52,17 +53,7 @@ def test_it_is_saved_and_loaded_to_the_bit(name, tmp_path):
 def test_it_begins_alike_at_any_step_whether_it_was_built_ahead_or_is_built_then(name):
     saved = simulation(name)
     saved.run(0.1)
-    state = saved.save()
-    now, ahead = World(physics_rate=RATE), World(physics_rate=RATE)
-    ahead.put_ahead(beginning_of(state, RATE))
-    for world in (now, ahead):
-        world.step(7)
-        world.apply(Restore(state=state))
-
-    assert repr(now.renew()) == repr(ahead.renew())
-    now.step(30)
-    ahead.step(30)
-    assert now.digest() == ahead.digest()
+    check_begins_alike(saved.save(), RATE)
 
 
 @pytest.mark.parametrize('name', WORLDS)

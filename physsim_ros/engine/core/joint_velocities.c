@@ -34,12 +34,14 @@
 // any size. Of contacts it draws λ to that of the step before; a belt of 75 links is solved with a third of the
 // factorisations that 1e-4 needs.
 static const double joint_softness = 1e-6, contact_softness = 1e-2;
-// Refinements of a solution against E: one for joints, further ones where contacts are soft.
-enum { REFINEMENTS = 3 };
+// Refinements of a solution against E where contacts are soft. The curvature brings one more.
+enum { REFINEMENTS = 2 };
 // Solutions whose targets follow the slips, at most.
 enum { PASSES = 8 };
 // Share of the normal impulse below which an impulse along an edge is rounding.
 static const double rounding_of_edges = 1e-9;
+// Rounding of velocities at which bodies part, as a share.
+static const double rounding_of_parting = 1e-6;
 // Slips that are solved as rest: contacts lift by less than μ times that [m/s]. Light links of a loaded rope tremble
 // by some 0.1 mm/s.
 static const double least_slip = 1e-3;
@@ -65,13 +67,6 @@ typedef struct VelocityRows {
     double *free_slips;             // (touch_count): velocity across the normal without impulses [m/s]
     double *slips;                  // (touch_count): greatness of the same after the step
 } VelocityRows;
-
-// Impulses, and what they change.
-typedef struct Change {
-    double *impulses; // (row_count): λ
-    Twist *twists;    // (body_count)
-    double energy;    // of the change of velocities, twice [J]
-} Change;
 
 // J M⁻¹ Jᵀ of a spring, where nothing else holds its bodies.
 static double spring_unit(const Solve *solve, int row) {
@@ -157,6 +152,15 @@ static void begin_joints(const Solve *solve, VelocityRows *rows, double *soft) {
     }
 }
 
+// The least velocity along the normal of a contact, whose bodies part by some velocity before the step [m/s].
+//
+// Restitution is of approaches. Chipmunk permits bodies that part to approach by e times that velocity, so that an
+// elastic contact under a load trembles. It permits more where a contact is deferred (`impact_propagation.c`).
+static double bounce_of(const cpContact *point, double parting) {
+    bool deferred = point->bounce > greatest(parting, 0.0) * (1.0 + rounding_of_parting);
+    return deferred ? -point->bounce : greatest(-point->bounce, 0.0);
+}
+
 // The rows of contacts. A slip begins as that of the step before, less what friction can stop: where rest is possible,
 // it is found.
 static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft, double *prior, const Twist *without) {
@@ -174,10 +178,10 @@ static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft,
         soft[left] = soft[right] = contact_softness;
         prior[left] = rows->last[left];
         prior[right] = rows->last[right];
-        rows->bounce[number] = -touch->point->bounce;
         rows->free_slips[number] = rate(across, ends, without) + touch->slide;
         Twist begun[] = {body_of(island->engine[ends.a])->scratch.twist,
                          body_of(island->engine[ends.b])->scratch.twist};
+        rows->bounce[number] = bounce_of(touch->point, rate(along, (Ends){0, 1}, begun));
         double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
         double stopped = unit * touch->friction * (prior[left] + prior[right]);
         rows->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
@@ -267,7 +271,7 @@ static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double
         set_targets(solve, rows, bounce);
         solve_again(&solve->system, &rows->problem, &solution, solve->arena);
     }
-    for (int number = 0; number < (solve->island->touch_count > 0 ? REFINEMENTS : 1); number++) {
+    for (int number = 0; number < (solve->island->touch_count > 0 ? REFINEMENTS : 0); number++) {
         refine(&solve->system, &rows->problem, &solution, solve->arena);
     }
     return solution;
@@ -304,8 +308,9 @@ static double work_of(const Solve *solve, const VelocityRows *rows, const Soluti
 }
 
 // Mix two solutions, with and without bounces, so that the impulses do no work; it meets the bounds of both, which are
-// convex. Work is a quadratic function of the share: bend share² + slope share + lost.
-static void mix(const Solve *solve, Solution *elastic, const Solution *plastic, double gained, double lost) {
+// convex. Work is a quadratic function of the share: bend share² + slope share + lost. Targets become what it reaches.
+static void mix(const Solve *solve, VelocityRows *rows, Solution *elastic, const Solution *plastic, double gained,
+                double lost) {
     const Island *island = solve->island;
     for (int body = 0; body < island->body_count; body++) {
         elastic->changes[body].v = sub(elastic->changes[body].v, plastic->changes[body].v);
@@ -323,6 +328,10 @@ static void mix(const Solve *solve, Solution *elastic, const Solution *plastic, 
         double difference = elastic->impulses[row] - plastic->impulses[row];
         elastic->impulses[row] = plastic->impulses[row] + difference * share;
         elastic->sides[row] = plastic->sides[row];
+    }
+    for (int row = island->joint_row_count; row < island->row_count; row++) {
+        double reached = row_rate(&solve->system, rows->jacobians, row, elastic->changes);
+        rows->wanted[row] = elastic->impulses[row] > 0.0 ? reached : rows->wanted[row];
     }
 }
 
@@ -413,51 +422,57 @@ static Solution solve_bounces(Solve *solve, VelocityRows *rows) {
     double gained = bounces ? work_of(solve, rows, &solution) : 0.0;
     if (gained > 0.0) {
         Solution plastic = solve_with_bounce(solve, rows, none);
-        mix(solve, &solution, &plastic, gained, work_of(solve, rows, &plastic));
+        mix(solve, rows, &solution, &plastic, gained, work_of(solve, rows, &plastic));
     }
     return solution;
 }
 
-// Change the rates of the rows that hold in a solution, whose factors the system has.
-static Change changed_by(Solve *solve, const Solution *solution, const double *rates) {
-    Change change = {TAKE(solve->arena, double, solve->island->row_count),
-                     TAKE(solve->arena, Twist, solve->island->body_count), 0.0};
-    solve_active(&solve->system, solution->sides, rates, change.impulses, change.twists);
-    change.energy = mass_product(&solve->system, change.twists, change.twists);
-    return change;
+// Return the velocities by which the rates of the rows that hold in a solution change, whose factors the system has.
+static Twist *changed_by(Solve *solve, const Solution *solution, const double *rates) {
+    Twist *changes = TAKE(solve->arena, Twist, solve->island->body_count);
+    double *impulses = TAKE(solve->arena, double, solve->island->row_count);
+    solve_active(&solve->system, solution->sides, rates, impulses, changes);
+    return changes;
 }
 
-// Add the impulses of the curvature to a solution.
-static void bend(Solve *solve, Solution *solution, Twist *velocities) {
+// Twice the energy of that [J].
+static double energy_of(Solve *solve, const Solution *solution, const double *rates) {
+    Twist *changes = changed_by(solve, solution, rates);
+    return mass_product(&solve->system, changes, changes);
+}
+
+// Add the impulses of the curvature to a solution; λ stay within their bounds.
+static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *velocities) {
     const Island *island = solve->island;
     Arena *arena = solve->arena;
-    Twist *begun = TAKE(arena, Twist, island->body_count);
+    Twist *begun = TAKE(arena, Twist, island->body_count), *straight = TAKE(arena, Twist, island->body_count);
     Pose *halfway = TAKE(arena, Pose, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
-        velocities[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
-        halfway[body] = moved(solve->poses[body], velocities[body], solve->dt / 2.0);
+        straight[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
+        halfway[body] = moved(solve->poses[body], straight[body], solve->dt / 2.0);
         begun[body] = body_of(island->engine[body])->scratch.twist;
     }
     double *excess = TAKE(arena, double, island->joint_row_count);
     Jacobian *jacobians = TAKE(arena, Jacobian, solve->system.link_count);
     read_rows(island, halfway, excess, jacobians);
-    double *before = TAKE(arena, double, island->row_count), *wanted = TAKE(arena, double, island->row_count);
+    double *before = TAKE(arena, double, island->row_count), *bent = TAKE(arena, double, island->row_count);
     for (int row = 0; row < island->joint_row_count; row++) {
-        double bent = row_rate(&solve->system, solve->jacobians, row, velocities) -
-                      row_rate(&solve->system, jacobians, row, velocities);
-        bool pressed_on = !is_of_rate(island->rows[row]) && solve->excess[row] * bent < 0.0;
+        double more = row_rate(&solve->system, solve->jacobians, row, straight) -
+                      row_rate(&solve->system, jacobians, row, straight);
+        bool pressed_on = !is_of_rate(island->rows[row]) && solve->excess[row] * more < 0.0;
         if (solution->sides[row] == 0 && (is_equality(island->rows[row]) || pressed_on)) {
             before[row] = bound_rate(island->rows[row]) - row_rate(&solve->system, solve->jacobians, row, begun);
-            wanted[row] = bent;
+            bent[row] = more;
         }
     }
-    Change taken = changed_by(solve, solution, before), given = changed_by(solve, solution, wanted);
-    double share = sqrt(paid_share(taken.energy, given.energy));
-    for (int row = 0; row < island->row_count; row++) {
-        solution->impulses[row] += given.impulses[row] * share;
+    double taken = energy_of(solve, solution, before), given = energy_of(solve, solution, bent);
+    double share = sqrt(paid_share(taken, given));
+    for (int row = 0; row < island->joint_row_count; row++) {
+        rows->wanted[row] += bent[row] * share;
     }
+    refine(&solve->system, &rows->problem, solution, arena);
     for (int body = 0; body < island->body_count; body++) {
-        velocities[body] = twist_sum(velocities[body], given.twists[body], share);
+        velocities[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
     }
 }
 
@@ -479,9 +494,9 @@ static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solu
         late = late || left > 0.0;
     }
     if (late) {
-        Change gained = changed_by(solve, solution, wanted);
+        Twist *gained = changed_by(solve, solution, wanted);
         for (int number = 0; number < island->body_count; number++) {
-            add_rest(body_of(island->engine[number]), gained.twists[number]);
+            add_rest(body_of(island->engine[number]), gained[number]);
         }
     }
 }
@@ -521,7 +536,7 @@ void solve_velocities(Solve *solve) {
     take_back(solve, velocities);
     VelocityRows rows = velocity_rows(solve, velocities);
     Solution solution = solve_bounces(solve, &rows);
-    bend(solve, &solution, velocities);
+    bend(solve, &rows, &solution, velocities);
     find_rest_of_step(solve, &rows, &solution, velocities);
     for (int body = 0; body < island->body_count; body++) {
         velocities[body].v = sub(velocities[body].v, solve->velocities[body].v);

@@ -24,6 +24,11 @@ static double unit_of(const System *system, const Problem *problem, int row) {
     return row_softness_unit(system, problem->jacobians, row);
 }
 
+// Whether the softness of a row is meant, and not to vanish.
+static bool is_spring(const Problem *problem, int row) {
+    return problem->springs != NULL && problem->springs[row];
+}
+
 // Put a row into the matrix where it has to reach its target, else take it out.
 static void use_row(System *system, const Problem *problem, int row, bool active) {
     double unit = active ? unit_of(system, problem, row) : 0.0;
@@ -128,23 +133,53 @@ void solve_problem(System *system, const Problem *problem, Solution *solution, A
     solve_again(system, problem, solution, arena);
 }
 
+// Whether all λ are within their bounds after a change, up to rounding.
+static bool keeps_bounds(const System *system, const Problem *problem, const double *impulses, const double *changes) {
+    double most = 0.0;
+    for (int row = 0; row < system->row_count; row++) {
+        most = greatest(most, fabs(impulses[row]));
+    }
+    for (int row = 0; row < system->row_count; row++) {
+        double impulse = impulses[row] + changes[row];
+        double outside = greatest(problem->lower[row] - impulse, impulse - problem->upper[row]);
+        if (changes[row] != 0.0 && outside > share_of_rounding * most) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Solve rows again, λ drawn to that of a solution: a step of the proximal point method.
+static void solve_drawn(System *system, const Problem *problem, Solution *solution, Arena *arena) {
+    double *prior = TAKE(arena, double, system->row_count);
+    for (int row = 0; row < system->row_count; row++) {
+        prior[row] = is_spring(problem, row) ? 0.0 : solution->impulses[row];
+    }
+    Problem drawn = *problem;
+    drawn.prior = prior;
+    solve_again(system, &drawn, solution, arena);
+}
+
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena) {
     size_t mark = arena_mark(arena);
     double *left = TAKE(arena, double, system->row_count), *impulses = TAKE(arena, double, system->row_count);
     Twist *changes = TAKE(arena, Twist, system->body_count);
     for (int row = 0; row < system->row_count; row++) {
         left[row] = problem->wanted[row] - row_rate(system, problem->jacobians, row, solution->changes);
-        if (problem->springs != NULL && problem->springs[row]) {
+        if (is_spring(problem, row)) {
             left[row] -= problem->softness[row] * unit_of(system, problem, row) * solution->impulses[row];
         }
     }
     solve_active(system, solution->sides, left, impulses, changes);
-    for (int row = 0; row < system->row_count; row++) {
-        solution->impulses[row] += impulses[row];
-    }
-    for (int body = 0; body < system->body_count; body++) {
-        solution->changes[body].v = add(solution->changes[body].v, changes[body].v);
-        solution->changes[body].w += changes[body].w;
+    if (keeps_bounds(system, problem, solution->impulses, impulses)) {
+        for (int row = 0; row < system->row_count; row++) {
+            solution->impulses[row] += impulses[row];
+        }
+        for (int body = 0; body < system->body_count; body++) {
+            solution->changes[body] = twist_sum(solution->changes[body], changes[body], 1.0);
+        }
+    } else {
+        solve_drawn(system, problem, solution, arena);
     }
     arena_release(arena, mark);
 }

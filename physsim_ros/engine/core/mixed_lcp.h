@@ -12,7 +12,8 @@ void solve_problem(System *system, const Problem *problem, Solution *solution, A
 // Solve them with other targets from the sides of the last solution, whose factors the system has.
 void solve_again(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
-// Make one step of iterative refinement against E, which keeps a solution from its targets.
+// Make one step of iterative refinement against E, which keeps a solution from its targets. Where that would take λ out
+// of its bounds, rows change sides.
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
 #endif

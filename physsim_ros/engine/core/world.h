@@ -120,10 +120,6 @@ static inline Pose moved(Pose pose, Twist way, double share) {
     return (Pose){add(pose.p, scaled(way.v, share)), pose.yaw + way.w * share};
 }
 
-static inline Twist twist_sum(Twist a, Twist b, double share) {
-    return (Twist){add(a.v, scaled(b.v, share)), a.w + b.w * share};
-}
-
 // The next contact in the list of a body.
 static inline cpArbiter *next_of(const cpArbiter *arbiter, const cpBody *body) {
     return arbiter->body_a == body ? arbiter->thread_a.next : arbiter->thread_b.next;

@@ -128,7 +128,7 @@ export function nearestWithin(shape, [x, y]) {
 }
 
 /** @param {Point[]} outline */
-function closed(outline) {
+export function closed(outline) {
   return [...outline, outline[0]];
 }
 

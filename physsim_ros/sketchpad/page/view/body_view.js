@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Bodies on the canvas: filled, outlined, hatched where they are anchored, with a mark that turns. */
 
-import {isClockwise, pathOf, reachOf} from './body_path.js';
+import {closed, distanceTo, isClockwise, pathOf, reachOf} from './body_path.js';
 
 /** @import {Body, Frame, Point, SceneView, Shape} from '../types.js' */
 
@@ -310,10 +310,7 @@ function css([red, green, blue, alpha], share = 0) {
  */
 function innerRadius({shape, centroid: [x, y]}, radius) {
   if (!shape.outline) return shape.radius ?? radius / 3;
-  return 0.9 * Math.min(...shape.outline.map(([ax, ay], i) => {
-    const [bx, by] = shape.outline[(i + 1) % shape.outline.length];
-    return Math.abs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / Math.hypot(bx - ax, by - ay);
-  }));
+  return 0.9 * distanceTo(closed(shape.outline), x, y);
 }
 
 /**
