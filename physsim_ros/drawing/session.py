@@ -307,6 +307,7 @@ def _mark_reading(figure: Figure) -> Reading:
 
 def _reading_preview(reading: Reading) -> Preview:
     label = f'{reading.meaning} {reading.confidence:.0%}'
-    if reading.runner_up and reading.runner_up_confidence >= _MENTIONED:
-        label += f', or {reading.runner_up} {reading.runner_up_confidence:.0%}'
+    for other in reading.guesses[1:2]:
+        if other.confidence >= _MENTIONED:
+            label += f', or {other.meaning} {other.confidence:.0%}'
     return Preview(lines=(as_tuples(reading.outline),), label=label)

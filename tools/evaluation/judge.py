@@ -24,7 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
-from physsim_ros.drawing.strokes.judge import log_odds, Node, TABLE, Tree
+from physsim_ros.drawing.strokes.evidence import log_odds
+from physsim_ros.drawing.strokes.judge import Node, TABLE, Tree
 from physsim_ros.drawing.strokes.reading import guesses_by_rules, in_scene, is_likely, measures_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags

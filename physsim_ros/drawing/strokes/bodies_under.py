@@ -10,8 +10,7 @@ that the stroke only crosses is not covered.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
 import itertools
 import math
 
@@ -19,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.geometry import point_of
-from physsim_ros.drawing.strokes.meanings import Context
+from physsim_ros.drawing.strokes.meanings import Context, End
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
@@ -37,29 +36,18 @@ _STRIDE = 3
 # The least angle about the middle of a wheel, and the least change of direction there, of a rope
 # that runs around it [rad].
 _AROUND, _BEND = math.radians(90.0), math.radians(45.0)
+# The least share of a hatching line on its body: ends may cross the edge.
+_INSIDE = 0.95
 # Name of a body -> which of these points lie on it, (43,) bool.
 Crossed = dict[str, NDArray[np.bool_]]
 # The least share of the stroke on a body that is covered.
-COVERING = 0.3
+_COVERING = 0.3
 # Of a body with a smaller share, whose centroid lies in the bounding box of the stroke: its
 # greatest outer radius, in diagonals of that box, and the least number of entries of the stroke.
-AS_LARGE, LEAST_ENTRIES = 0.75, 2
+_AS_LARGE, _LEAST_ENTRIES = 0.75, 2
 
 
-@dataclass(frozen=True, slots=True)
-class End:
-    """
-    An end of a joint.
-
-    :param point: in the world [m]
-    :param body: name of the body, or 'world' for the background
-    """
-
-    point: Point
-    body: str
-
-
-def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
+def joint_ends(points: Floats, scene: SceneQuery, snap: float) -> tuple[End, End] | None:
     """
     Return the ends of a joint between the bodies at two points, the first on a dynamic body.
 
@@ -67,7 +55,6 @@ def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
     :return: None where no body at either point is dynamic, or it is the same body at both
     """
     start, end = point_of(points[0]), point_of(points[-1])
-    scene, snap = context.scene, context.settings.snap
     first = _bodies_near(start, scene, snap) or (WORLD,)
     last = _bodies_near(end, scene, snap) or (WORLD,)
     moving = next((b for b in last if _is_dynamic(b, scene)), None)
@@ -83,7 +70,9 @@ def _is_dynamic(name: str, scene: SceneQuery) -> bool:
     return name != WORLD and scene.body(name).dynamic
 
 
-def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
+def wheels_passed(
+    points: Floats, ends: Sequence[End], scene: SceneQuery, snap: float
+) -> list[tuple[str, Point]]:
     """
     Return the wheels that a rope runs around, in the order of the stroke, and where it does [m].
 
@@ -91,16 +80,18 @@ def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
     runs around it that bends beside it, about its middle.
 
     :param points: (n, 2) float64: of the stroke [m]
+    :param ends: of the rope
     """
-    scene, snap = context.scene, context.settings.snap
+    at_ends = {end.body for end in ends}
     low, high, centers = points.min(axis=0), points.max(axis=0), scene.snapshot.centers
     within = ((centers > low) & (centers < high)).all(axis=1)
     found: list[tuple[int, str]] = []
     for row in np.flatnonzero(within).tolist():
         body, name = scene.snapshot.scene.bodies[row], scene.names[row]
-        if not isinstance(body.shape, Disc) or not (body.anchored or _is_jointed(name, scene)):
+        held = isinstance(body.shape, Disc) and (body.anchored or _is_jointed(name, scene))
+        if not held or name in at_ends:
             continue
-        away, radius = points - centers[row], body.shape.radius
+        away, radius = points - centers[row], body.shape.form.outer
         beside = np.flatnonzero(norms(away) < radius + max(snap, radius / 2))
         if not len(beside) or beside[0] == 0 or beside[-1] == len(points) - 1:
             continue
@@ -116,6 +107,14 @@ def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
 
 def _is_jointed(name: str, scene: SceneQuery) -> bool:
     return any(name in (joint.a, joint.b) for joint in scene.joints)
+
+
+def hatched_body(points: Floats, scene: SceneQuery) -> str | None:
+    """Return the name of the topmost dynamic body that all of a stroke lies on, if any."""
+    for name in scene.bodies_at(point_of(points[len(points) // 2])):
+        if scene.body(name).dynamic and scene.covers(name, points).mean() >= _INSIDE:
+            return name
+    return None
 
 
 def axle_pairs(center: Point, context: Context) -> tuple[Point, list[tuple[str, str]]]:
@@ -283,18 +282,18 @@ def covered_bodies(points: Floats, crossed: Crossed, scene: SceneQuery) -> tuple
     :param crossed: the bodies that it crosses, by `crossed_bodies`
     """
     low, high = points.min(axis=0), points.max(axis=0)
-    reach = AS_LARGE * float(norms(high - low))
+    reach = _AS_LARGE * float(norms(high - low))
     covered = set()
     for name, hits in crossed.items():
         form = scene.body(name).shape.form
         middle = scene.in_world(name, form.centroid)
         within = bool(((middle >= low) & (middle <= high)).all()) and form.outer <= reach
-        if hits.mean() >= COVERING or (within and _entries(hits) >= LEAST_ENTRIES):
+        if hits.mean() >= _COVERING or (within and _entries(hits) >= _LEAST_ENTRIES):
             covered.add(name)
     if not covered and crossed:
         # Of a scribble across a long wall, only little of either lies on the other.
         most = max(crossed, key=lambda name: _entries(crossed[name]))
-        if _entries(crossed[most]) >= LEAST_ENTRIES:
+        if _entries(crossed[most]) >= _LEAST_ENTRIES:
             covered.add(most)
     return tuple(name for name in scene.names if name in covered)
 

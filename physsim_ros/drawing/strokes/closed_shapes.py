@@ -10,14 +10,14 @@ square over two bodies welds them (a pin).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.evidence import Form, Limit
-from physsim_ros.drawing.strokes.geometry import point_of, principal_axis, size_of
+from physsim_ros.drawing.strokes.geometry import circle_outline, point_of, principal_axis, size_of
 from physsim_ros.drawing.strokes.meanings import Context, Meaning, Outcome
 from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
 from physsim_ros.model.arrays import Floats
@@ -29,81 +29,85 @@ from physsim_ros.model.transform import Point
 _LEAST_ROUND = Limit(0.4, 0.03)
 # The size of an axle or a weld, in shares of the greatest.
 _SMALL = Limit(1.0, 0.06)
-# The greatest diameter of an axle, in side lengths of a square of the body's area: on one body;
-# on two that overlap.
+# The greatest diameter of an axle, and side of a weld, in side lengths of a square of the lesser
+# body's area: with its middle on one body, or in a gap; on two that overlap.
 _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
-# The least number of corners of a polygon that may be a small circle.
+# The least number of corners of a polygon that may be a small circle; one of four may be a square.
 _LEAST_CORNERS = 5
-# The greatest side of a weld, in side lengths of a square of the lesser body's area.
-_LARGEST_WELD = 0.5
+
+# The meaning of an outline that is a body, and the function of its points that builds that.
+Body = tuple[str, Callable[[Floats, Context], Outcome]]
 
 
 def disc_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and disc."""
-    points = form.points
-    circle = point_of(points[0]), math.dist(*points)
-    share = _axle_share(*circle, context)
-    build = partial(outcomes.disc, points, context)
-    yield from _axle_or_body(form, share, circle, context, meaning=DISC, build=build)
+    circle = point_of(form.points[0]), math.dist(*form.points)
+    return _axle_or_body(form, circle, (DISC, outcomes.disc), context)
 
 
 def oval_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and polygon, which is not regularised."""
-    points = form.points
-    circle = point_of(points.mean(axis=0)), size_of(points) / 3
-    share = _axle_share(*circle, context)
-    build = partial(outcomes.smooth_polygon, points, context)
-    yield from _axle_or_body(form, share, circle, context, meaning=POLYGON, build=build)
+    circle = point_of(form.points.mean(axis=0)), size_of(form.points) / 3
+    return _axle_or_body(form, circle, (POLYGON, outcomes.smooth_polygon), context)
 
 
 def polygon_meanings(form: Form, context: Context) -> Iterator[Meaning]:
-    """Yield axle and polygon: small circles are drawn with corners."""
-    points = form.points
+    """Yield a polygon, and axle or weld: small circles are drawn with corners, squares askew."""
+    points, body = form.points, (POLYGON, outcomes.polygon)
+    if len(points) < _LEAST_CORNERS:
+        return _weld_or_body(form, body, context)
     middle = points.mean(axis=0)
-    center = point_of(middle)
-    share = 0.0
-    if len(points) >= _LEAST_CORNERS:
-        _, along, across = principal_axis(points - middle)
-        share = _axle_share(center, size_of(points) / 3, context)
-        share *= _LEAST_ROUND.above(math.sqrt(across / along))
-    circle = center, math.dist(middle, points[0])
-    build = partial(outcomes.polygon, points, context)
-    yield from _axle_or_body(form, share, circle, context, meaning=POLYGON, build=build)
-
-
-def _axle_or_body(
-    form: Form,
-    share: float,
-    circle: tuple[Point, float],
-    context: Context,
-    *,
-    meaning: str,
-    build: Callable[[], Outcome],
-) -> Iterator[Meaning]:
-    """
-    Yield an axle and a body, which share the weight of an outline.
-
-    :param share: of the axle, 0 .. 1
-    :param circle: centre and radius that the preview of the axle shows [m]
-    :param meaning: of the body
-    :param build: returns its outcome
-    """
-    axle = partial(_build_axle, *circle, context)
-    yield Meaning(name='axle', weight=form.weight * share, build=axle)
-    yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
+    _, along, across = principal_axis(points - middle)
+    circle = point_of(middle), size_of(points) / 3
+    roundness = _LEAST_ROUND.above(math.sqrt(across / along))
+    return _axle_or_body(form, circle, body, context, roundness)
 
 
 def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a weld and a rectangle."""
-    center = point_of(form.points.mean(axis=0))
+    return _weld_or_body(form, (RECTANGLE, outcomes.rectangle), context)
+
+
+def _axle_or_body(
+    form: Form, circle: tuple[Point, float], body: Body, context: Context, roundness: float = 1.0
+) -> Iterator[Meaning]:
+    """
+    Yield an axle and a body.
+
+    :param circle: centre and radius of the axle [m]
+    :param roundness: factor on the share of the axle, 0 .. 1
+    """
+    share = roundness * _axle_share(*circle, context)
+    return _either(form, share, ('axle', partial(_build_axle, *circle, context)), body, context)
+
+
+def _weld_or_body(form: Form, body: Body, context: Context) -> Iterator[Meaning]:
+    """Yield a weld of the two bodies under an outline of four corners, and a body."""
+    center, share = point_of(form.points.mean(axis=0)), 0.0
     under = bodies_under.crossed_pair(center, context)
-    weld = form.weight * _weld_share(form.points, under, context)
-    yield Meaning(name='pin', weight=weld, build=partial(_weld_bodies, center, under, context))
-    yield Meaning(
-        name=RECTANGLE,
-        weight=form.weight - weld,
-        build=partial(outcomes.rectangle, form.points, context),
-    )
+    if len(form.points) == 4 and len(under) == 2:
+        side = max(map(math.dist, form.points[:2], form.points[1:3]))
+        share = _SMALL.below(side / _largest_joint(center, under, context))
+    weld = partial(_weld_bodies, center, under, context)
+    return _either(form, share, ('pin', weld), body, context)
+
+
+def _either(
+    form: Form,
+    share: float,
+    joint: tuple[str, Callable[[], Outcome]],
+    body: Body,
+    context: Context,
+) -> Iterator[Meaning]:
+    """
+    Yield a joint and a body, which share the weight of an outline.
+
+    :param share: of the joint, 0 .. 1
+    """
+    meaning, outcome = body
+    yield Meaning(name=joint[0], weight=form.weight * share, build=joint[1])
+    build = partial(outcome, form.points, context)
+    yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
 
 
 def _axle_share(center: Point, radius: float, context: Context) -> float:
@@ -113,20 +117,25 @@ def _axle_share(center: Point, radius: float, context: Context) -> float:
     :param radius: of the shape [m]
     """
     scene = context.scene
-    covering = scene.bodies_at(center)[:2]
     # In a gap, an axle joins the bodies on either side.
-    under = covering or bodies_under.crossed_pair(center, context)
-    if not covering and not any(scene.body(name).dynamic for name in under):
+    under = bodies_under.crossed_pair(center, context)
+    if not under or not any(scene.body(name).dynamic for name in under):
         return 0.0
-    least = min(math.sqrt(scene.body(name).shape.form.area) for name in under)
-    limit = (_LARGEST if len(covering) < 2 else _LARGEST_ON_TWO) * least
+    limit = _largest_joint(center, under, context)
     if len(under) == 1:
-        rim = outcomes.circle_outline(center, radius, sides=8)[:-1]
+        rim = circle_outline(center, radius, sides=8)[:-1]
         inside = np.count_nonzero(scene.covers(under[0], rim))
         # A circle over the edge is a body of its own, unless it is as small as a hand can draw.
         if inside < len(rim) - 1:
-            limit = min(2 * context.settings.snap, 0.9 * least)
+            limit = min(2 * context.settings.snap, 0.9 * limit / _LARGEST)
     return _SMALL.below(2 * radius / limit)
+
+
+def _largest_joint(center: Point, under: Sequence[str], context: Context) -> float:
+    """Return the greatest diameter of an axle of some bodies, or side of a weld [m]."""
+    least = min(math.sqrt(context.scene.body(name).shape.form.area) for name in under)
+    on_two = len(context.scene.bodies_at(center)) > 1
+    return least * (_LARGEST_ON_TWO if on_two else _LARGEST)
 
 
 def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
@@ -136,16 +145,8 @@ def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
         requests=tuple(outcomes.joins_at(JointKind.AXLE, point, pairs, context)),
         subject=names[0],
         message=f'an axle between {", ".join(names[:-1])} and {names[-1]}',
-        outline=outcomes.circle_outline(point, radius),
+        outline=circle_outline(point, radius),
     )
-
-
-def _weld_share(corners: Floats, under: tuple[str, ...], context: Context) -> float:
-    if len(under) < 2:
-        return 0.0
-    least = min(math.sqrt(context.scene.body(name).shape.form.area) for name in under)
-    side = max(math.dist(corners[0], corners[1]), math.dist(corners[1], corners[2]))
-    return _SMALL.below(side / (_LARGEST_WELD * least))
 
 
 def _weld_bodies(point: Point, under: tuple[str, ...], context: Context) -> Outcome:

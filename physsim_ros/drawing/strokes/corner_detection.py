@@ -25,19 +25,19 @@ from physsim_ros.model.transform import dots, norms, Point
 # Standard deviation of the Gaussian before detection, and arms of the turning angle [points].
 SMOOTHING, ARM = 1.5, 5
 # The least turn of a candidate, and the least turn of a corner [rad].
-CANDIDATE_TURN, CORNER_TURN = 0.25, 0.42
+_CANDIDATE_TURN, _CORNER_TURN = 0.25, 0.42
 # The greatest number of candidates: the cost of the search grows with its square.
-CANDIDATES = 28
+_CANDIDATES = 28
 # Cost of a corner: the decrease of the logarithm of the residual (mean square distance) that is
 # worth one. The wobble of a careful hand, in shares of the size, which is worth no corner: of open
 # lines and of outlines, whose many corners are flatter.
-CORNER_COST, WOBBLE, WOBBLE_CLOSED = 0.5, 0.012, 0.008
+_CORNER_COST, _WOBBLE, _WOBBLE_CLOSED = 0.5, 0.012, 0.008
 # The greatest number of sides of an outline with corners.
-MOST_SIDES = 20
+_MOST_SIDES = 20
 # The least distance between the ends of a side, in shares of the length along the stroke.
-ASTRAY = 0.75
+_ASTRAY = 0.75
 # The greatest length of an end that bends aside by mistake, in shares of the length.
-STUB = 0.07
+_STUB = 0.07
 
 
 def corners(points: Floats, *, closed: bool) -> list[int]:
@@ -52,7 +52,7 @@ def corners(points: Floats, *, closed: bool) -> list[int]:
     places = _peaks(turn, closed=closed)
     if not closed:
         inner = places[(places > 2) & (places < count - 3)]
-        chosen = _corners_among(smooth, np.array([0, *inner, count - 1]), WOBBLE)
+        chosen = _corners_among(smooth, np.array([0, *inner, count - 1]), _WOBBLE)
         return _without_arcs(smooth, chosen)
     if len(places) < 2:
         return list(map(int, places))
@@ -60,7 +60,7 @@ def corners(points: Floats, *, closed: bool) -> list[int]:
     start = places[turn[places].argmax()]
     path = np.roll(smooth, -start, axis=0)
     opened = np.array([*np.sort((places - start) % count), count])
-    chosen = _corners_among(np.vstack((path, path[:1])), opened, WOBBLE_CLOSED)
+    chosen = _corners_among(np.vstack((path, path[:1])), opened, _WOBBLE_CLOSED)
     return sorted((each + int(start)) % count for each in chosen[:-1])
 
 
@@ -97,7 +97,19 @@ def bends_of(points: Floats) -> Floats:
     return vertices(points, at, closed=False)
 
 
-def side_error(outline: Floats, at: list[int]) -> float:
+def outline_corners(outline: Floats) -> tuple[list[int], Floats, float]:
+    """
+    Return the corners of an outline and their positions.
+
+    :return: their indices; (k, 2) float64 [m]; the distance of the outline from the sides between
+        them (rms) [m], infinite where they are fewer than three
+    """
+    at = corners(outline, closed=True)
+    error = _side_error(outline, at) if len(at) > 2 else math.inf
+    return at, vertices(outline, at, closed=True), error
+
+
+def _side_error(outline: Floats, at: list[int]) -> float:
     """Return the distance of a closed stroke from the sides between its corners (rms) [m]."""
     path = np.vstack((outline, outline[: at[0] + 1]))
     ends = np.array([*at, at[0] + len(outline)])
@@ -113,18 +125,18 @@ def _without_stubs(points: Floats, at: list[int]) -> list[int]:
         if len(kept) > 2:
             a, b = np.diff(points[kept[-3:]], axis=0)
             bent = abs(float(angles(a, b))) > HOOK_TURN / 2
-            if abs(kept[-1] - kept[-2]) < (STUB + HOOK * bent / 2) * (len(points) - 1):
+            if abs(kept[-1] - kept[-2]) < (_STUB + HOOK * bent / 2) * (len(points) - 1):
                 kept.pop()
     return kept
 
 
 def _peaks(turn: NDArray[np.float64], *, closed: bool) -> NDArray[np.intp]:
-    """Return the indices of the local maxima of the turn, at most `CANDIDATES`."""
+    """Return the indices of the local maxima of the turn, at most `_CANDIDATES`."""
     around = np.pad(turn, 2, mode='wrap' if closed else 'constant')
     highest = np.max([around[:-4], around[1:-3], around[3:-1], around[4:]], axis=0)
-    places = np.flatnonzero((turn >= highest) & (turn > CANDIDATE_TURN))
-    if len(places) > CANDIDATES:
-        places = np.sort(places[np.argsort(-turn[places])[:CANDIDATES]])
+    places = np.flatnonzero((turn >= highest) & (turn > _CANDIDATE_TURN))
+    if len(places) > _CANDIDATES:
+        places = np.sort(places[np.argsort(-turn[places])[:_CANDIDATES]])
     return places
 
 
@@ -132,14 +144,14 @@ def _corners_among(path: Floats, places: NDArray[np.intp], wobble: float) -> lis
     """
     Return the indices of the corners among candidates, the ends included.
 
-    Corners minimise residual and cost; those that turn by less than `CORNER_TURN` are dropped.
+    Corners minimise residual and cost; those that turn by less than `_CORNER_TURN` are dropped.
     """
     if len(places) > 2:
         places = places[_least_cost(_errors(path, places), path, wobble)]
     kept: list[int] = places.tolist()
     points: list[tuple[float, float]] = list(map(tuple, path[kept].tolist()))
     turning = [_turn(*around) for around in zip(points, points[1:], points[2:], strict=False)]
-    while turning and min(turning) <= CORNER_TURN:
+    while turning and min(turning) <= _CORNER_TURN:
         least = turning.index(min(turning))
         del kept[least + 1], points[least + 1], turning[least]
         # Its neighbours turn by more without it.
@@ -154,19 +166,19 @@ def _least_cost(errors: NDArray[np.float64], path: Floats, wobble: float) -> lis
     Return the candidates of least description length, the ends included.
 
     With k sides, of the least residual among all choices of k + 1 candidates (dynamic programming,
-    Bellman, 1961), it is log(residual + wobble²) + k · CORNER_COST.
+    Bellman, 1961), it is log(residual + wobble²) + k · _CORNER_COST.
     """
     # Mean square distances, in shares of the size squared.
     shares = errors / (float((np.ptp(path, axis=0) ** 2).sum()) * len(path))
     shares[np.tril_indices(len(shares))] = np.inf
     total, before = shares[0], []
     best, sides = math.inf, 0
-    for count in range(1, min(len(shares), MOST_SIDES + 1)):
+    for count in range(1, min(len(shares), _MOST_SIDES + 1)):
         if count > 1:
             sums = total[:, None] + shares
             before.append(sums.argmin(axis=0))
             total = sums.min(axis=0)
-        length = math.log(float(total[-1]) + wobble**2) + count * CORNER_COST
+        length = math.log(float(total[-1]) + wobble**2) + count * _CORNER_COST
         if length < best:
             best, sides = length, count
     chosen = [len(shares) - 1]
@@ -225,6 +237,6 @@ def _errors(path: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:
     ends = path[places]
     chord = norms(ends[None] - ends[:, None])
     steps = np.concatenate(([0.0], np.cumsum(norms(np.diff(path, axis=0)))))[places]
-    astray = np.maximum(ASTRAY * (steps[None] - steps[:, None]) - chord, 0.0)
+    astray = np.maximum(_ASTRAY * (steps[None] - steps[:, None]) - chord, 0.0)
     wrong: NDArray[np.float64] = least + number * astray**2
     return wrong

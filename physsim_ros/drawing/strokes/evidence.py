@@ -33,11 +33,11 @@ from physsim_ros.model.arrays import Floats
 TABLE, CONSTANT = 'evidence.csv', 'constant'
 # Weight of the possibility that a stroke means nothing, and the share of the weight that no form
 # has that adds to it.
-DOUBT, _UNEXPLAINED = 0.02, 0.3
+_DOUBT, _UNEXPLAINED = 0.02, 0.3
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
-GROUP_BIAS, GROUP_SLOPE = -0.4, 1.9
+_GROUP_BIAS, _GROUP_SLOPE = -0.4, 1.9
 # The same for a meaning within its group.
-SHARE_BIAS, SHARE_SLOPE = 0.36, 0.86
+_SHARE_BIAS, _SHARE_SLOPE = 0.36, 0.86
 # The least share of either side, so that log odds are finite.
 _LEAST = 1e-3
 # Forms and meanings of a lower weight are dropped. A rival of a hundredth tells right
@@ -126,6 +126,12 @@ def logistic(odds: float) -> float:
     return 1.0 / (1.0 + math.exp(min(max(-odds, -50.0), 50.0)))
 
 
+def log_odds(share: float) -> float:
+    """Return the log odds of a share, 0 .. 1."""
+    share = min(max(share, _LEAST), 1.0 - _LEAST)
+    return math.log(share / (1.0 - share))
+
+
 def terms_of(sign: str) -> Sequence[Term]:
     """Return the terms of the evidence for a sign."""
     return _TABLE[sign]
@@ -164,8 +170,8 @@ def group_confidence(weight: float, total: float, unexplained: float = 0.0) -> f
     :param total: of all groups
     :param unexplained: the weight that no form of the stroke has, 0 .. 1
     """
-    doubt = DOUBT + _UNEXPLAINED * unexplained
-    return _platt(weight / (total + doubt), GROUP_BIAS, GROUP_SLOPE)
+    doubt = _DOUBT + _UNEXPLAINED * unexplained
+    return _platt(weight / (total + doubt), _GROUP_BIAS, _GROUP_SLOPE)
 
 
 def share_confidence(share: float) -> float:
@@ -174,9 +180,8 @@ def share_confidence(share: float) -> float:
 
     :param share: weight of the meaning, as a share of the weight of its group
     """
-    return _platt(share, SHARE_BIAS, SHARE_SLOPE)
+    return _platt(share, _SHARE_BIAS, _SHARE_SLOPE)
 
 
 def _platt(share: float, bias: float, slope: float) -> float:
-    odds = max(share, _LEAST) / max(1.0 - share, _LEAST)
-    return 1.0 / (1.0 + math.exp(-bias - slope * math.log(odds)))
+    return logistic(bias + slope * log_odds(share))

@@ -17,11 +17,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.corner_detection import ARM
-from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.geometry import (
     COUNT,
+    Crossing,
     intersections,
-    path_length,
     smoothed,
     turns,
 )
@@ -33,13 +32,11 @@ from physsim_ros.model.transform import cross, norms
 _ANGLES = np.arange(12) * math.pi / 12
 _DIRECTIONS = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
 # Number of outermost points at either side that the extent of a stroke leaves out.
-FRINGE = 4
+_FRINGE = 4
 # The least count of swings whose height and advance are measured.
 FEWEST = 3
 # The advance of all swings, and of one, between those of scribbles and zigzags, in mean heights.
-FAR_APART, WIDE_TOOTH = 1.75, 0.23
-# The number of swings from which on a stroke is no plain line or outline.
-_SWINGING = Limit(5.5, 0.25)
+_FAR_APART, _WIDE_TOOTH = 1.75, 0.23
 # Stride of the points between which crossings are searched.
 _STRIDE = 3
 # Pairs of segments between those points that may cross, the earlier first: not a segment and its
@@ -48,14 +45,6 @@ _SEGMENTS = len(range(0, COUNT, _STRIDE)) - 1
 _PAIRS = np.triu(np.ones((_SEGMENTS, _SEGMENTS), np.bool_), 3)
 # Crossings at most this far from one another along the stroke are merged [points].
 _MERGED = 12
-
-# The greatest gap of a closed outline, in shares of its length, and how much it rises with the
-# relatability of its ends: 99 of 100 people leave less than 11.5 %; a question mark has 17 %, and
-# ends that do not go on across it.
-_OPEN, _RELATED = Limit(0.134, 0.01), 0.045
-
-# A self-crossing: position [m], and its two places along the stroke [points], the earlier first.
-Crossing = tuple[Floats, float, float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -83,12 +72,7 @@ class Swings:
         A scribble of many swings may go far, if each lies close to the one before it.
         """
         tooth = self.advance / max(self.count, 1)
-        return min(self.advance / FAR_APART, tooth / WIDE_TOOTH)
-
-    @property
-    def absence(self) -> float:
-        """Return the weight of the stroke having no oscillation, 0 .. 1."""
-        return _SWINGING.below(self.count)
+        return min(self.advance / _FAR_APART, tooth / _WIDE_TOOTH)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -106,12 +90,6 @@ class Features:
     swings: Swings
     crossings: list[Crossing]
     measures: Mapping[str, float]
-
-    @property
-    def closure(self) -> float:
-        """Return the weight of the stroke being closed, 0 .. 1; the rest is that of a line."""
-        related = _RELATED * max(self.stroke.relatability, 0.0)
-        return _OPEN.below(self.stroke.gap - related)
 
 
 def features_of(stroke: Stroke) -> Features:
@@ -139,9 +117,9 @@ def swings_of(points: Floats) -> Swings:
     # A row for each direction: numpy sorts and sums those twice as fast as columns.
     x, y = points.T
     across = _DIRECTIONS[:, :1] * x + _DIRECTIONS[:, 1:] * y
-    ordered = np.partition(across, (FRINGE, len(points) - 1 - FRINGE), axis=1)
+    ordered = np.partition(across, (_FRINGE, len(points) - 1 - _FRINGE), axis=1)
     # The outermost points may be drawn by mistake.
-    low, high = ordered[:, FRINGE, None], ordered[:, -1 - FRINGE, None]
+    low, high = ordered[:, _FRINGE, None], ordered[:, -1 - _FRINGE, None]
     extent = np.maximum(high - low, 1e-12)
     place = (across - low) / extent
     side = np.where(place > 0.64, 1, np.where(place < 0.36, -1, 0))
@@ -169,14 +147,6 @@ def swings_of(points: Floats) -> Swings:
         advance=whole / 2 / len(advances) * len(strides) / max(height, 1e-12),
         steady=whole / max(steps, 1e-12),
     )
-
-
-def loop_roundness(points: Floats, crossing: Crossing) -> float:
-    """Return the area within the loop from a crossing to itself, by its length squared."""
-    at, first, last = crossing
-    loop = np.vstack((at, points[slice(int(first) + 1, int(last) + 1)], at))
-    area = abs(float(cross(loop[:-1] - at, loop[1:] - at).sum())) / 2
-    return area / path_length(loop) ** 2
 
 
 def crossings_of(points: Floats) -> list[Crossing]:

@@ -20,7 +20,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.forms import sign_forms
 from physsim_ros.drawing.strokes.geometry import COUNT, few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
@@ -211,15 +210,14 @@ def _contexts_together(
     strokes = tuple(stroke for figure in group for stroke in figure.strokes)
     cross = x.of_lines(strokes)
     if cross is not None:
-        features = features_of(_joined(joined_strokes(strokes)))
-        yield Context(features=features, forms=(cross,), scene=scene, settings=settings), _JOINED
+        whole = _joined(joined_strokes(strokes))
+        yield in_scene(whole, scene, settings, lambda _: (cross,)), _JOINED
         return
     arrow = joined_arrow(strokes)
     if arrow is not None:
         # The looks of the way from the one part to the other tell nothing.
-        features = features_of(_joined(arrow))
-        forms, _ = sign_forms(features, (ARROW,))
-        yield Context(features=features, forms=forms, scene=scene, settings=settings), _ARROWS
+        whole = _joined(arrow)
+        yield in_scene(whole, scene, settings, lambda it: sign_forms(it, (ARROW,))[0]), _ARROWS
     # A solid, or a scribble, is part of an arrow alone; several lines may be an arrow so far.
     *before, last = group
     if last.is_line and all(

@@ -27,7 +27,7 @@ from physsim_ros.model.transform import dots, next_vertices, norms, rotated_each
 
 # The greatest distance of an open stroke from straight sides, root mean square, at which it is no
 # curve; and the tolerance to which a curve is simplified. Both in shares of its size.
-CURVED, FINE = 0.013, 0.006
+_CURVED, FINE = 0.013, 0.006
 # Rounds of the fit of a rectangle, each point to its nearest side.
 _ROUNDS = 3
 # Smoothing before a curve is simplified: standard deviation of the Gaussian [points].
@@ -151,7 +151,7 @@ def simplified(points: Floats, bends: Floats) -> Floats | None:
     size = size_of(points)
     path = smoothed(points, SMOOTHING, closed=False)
     off = segment_distances(path, bends[:-1, None], bends[1:, None]).min(axis=0)
-    if math.sqrt(float((off**2).mean())) <= CURVED * size:
+    if math.sqrt(float((off**2).mean())) <= _CURVED * size:
         return None
     return _traced(path, FINE * size)
 

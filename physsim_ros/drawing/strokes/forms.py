@@ -15,14 +15,14 @@ from collections.abc import Sequence
 from physsim_ros.drawing.strokes.evidence import evidence, Form, LEAST, probabilities
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.meanings import Sign
-from physsim_ros.drawing.strokes.plain_forms import line_forms, outline_forms
+from physsim_ros.drawing.strokes.plain_forms import plain_forms
 from physsim_ros.drawing.strokes.signs import SIGNS
 
 
 def forms_of(features: Features) -> tuple[Form, ...]:
     """Return the forms that a stroke may have, by falling weight."""
     signs, plain = sign_forms(features)
-    forms = *signs, *line_forms(features, plain), *outline_forms(features, plain)
+    forms = *signs, *plain_forms(features, plain)
     likely = (each for each in forms if each.weight >= LEAST)
     return tuple(sorted(likely, key=lambda each: -each.weight))
 

@@ -22,6 +22,8 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import cross, dots, norms, Point
 
 _atan2 = np.frompyfunc(math.atan2, 2, 1)
+# Where two polylines cross [m], and its place along both [points].
+Crossing = tuple[Floats, float, float]
 # Sine of the least angle between lines that meet: 17 degrees.
 LEAST_SINE = 0.3
 
@@ -85,7 +87,7 @@ def meeting_point(one: Floats, along: Floats, other: Floats, beside: Floats) -> 
 
 def intersections(
     one: Floats, other: Floats, *, pairs: Flags | Literal[True] = True
-) -> list[tuple[Floats, float, float]]:
+) -> list[Crossing]:
     """
     Return the places where two polylines cross [m], each with its place along both [points].
 
@@ -104,6 +106,14 @@ def intersections(
     meet = near & (first >= 0) & (first < 1) & (last >= 0) & (last < 1)
     places = [(i, j, float(first[i, j]), float(last[i, j])) for i, j in np.argwhere(meet).tolist()]
     return [(one[i] + a * (one[i + 1] - one[i]), i + a, j + b) for i, j, a, b in places]
+
+
+def loop_roundness(points: Floats, crossing: Crossing) -> float:
+    """Return the area within the loop from a self-crossing to itself, by its length squared."""
+    at, first, last = crossing
+    loop = np.vstack((at, points[slice(int(first) + 1, int(last) + 1)], at))
+    area = abs(float(cross(loop[:-1] - at, loop[1:] - at).sum())) / 2
+    return area / path_length(loop) ** 2
 
 
 def convex_hull(points: Floats) -> Floats:
@@ -153,7 +163,7 @@ COUNT = 128
 # Stride of the points between which strokes are compared: 1.6 % of the length.
 _FEW = 2
 # The least width of an outline after stretching, in shares of its length, and the greatest factor.
-WIDE, WIDEST = 0.3, 10.0
+WIDE, _WIDEST = 0.3, 10.0
 
 
 def spaced(path: Floats, count: int) -> Floats:
@@ -175,6 +185,13 @@ def few_points(stroke: Floats) -> Floats:
 def size_of(points: Floats) -> float:
     """Return the diagonal of the bounding box of points [m]."""
     return float(norms(np.ptp(points, axis=0)))
+
+
+def circle_outline(center: Point, radius: float, sides: int = 48) -> Floats:
+    """Return a circle as a closed outline, (sides + 1, 2) float64 [m]."""
+    angles = np.linspace(0.0, 2 * math.pi, sides + 1)
+    circle: Floats = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
+    return circle
 
 
 def path_length(path: Floats) -> float:
@@ -227,7 +244,7 @@ def widened(outline: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
     :return: the polyline, evenly spaced; and the function that undoes the stretching
     """
     angle, along, across = principal_axis(outline - outline.mean(axis=0))
-    factor = min(max(WIDE / max(math.sqrt(across / along), 1e-6), 1.0), WIDEST)
+    factor = min(max(WIDE / max(math.sqrt(across / along), 1e-6), 1.0), _WIDEST)
     side = unit_vector(angle + math.pi / 2)
     path = stretched(outline, side, factor)
     narrowed = partial(stretched, along=side, factor=1.0 / factor)

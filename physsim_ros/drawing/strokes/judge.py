@@ -16,12 +16,11 @@ from collections.abc import Mapping
 import csv
 from dataclasses import dataclass
 from importlib.resources import files
-import math
+
+from physsim_ros.drawing.strokes.evidence import log_odds, logistic
 
 # The file of the trees, beside this one.
 TABLE = 'judge.csv'
-# The least share of either side, so that log odds are finite.
-_LEAST = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,12 +42,6 @@ class Node:
 Tree = dict[int, Node]
 
 
-def log_odds(share: float) -> float:
-    """Return the log odds of a share, 0 .. 1."""
-    share = min(max(share, _LEAST), 1.0 - _LEAST)
-    return math.log(share / (1.0 - share))
-
-
 def judged(confidence: float, measures: Mapping[str, float]) -> float:
     """
     Return the confidence in a reading, 0 .. 1.
@@ -56,8 +49,7 @@ def judged(confidence: float, measures: Mapping[str, float]) -> float:
     :param confidence: of the rules, 0 .. 1
     :param measures: of the reading by name; one that it lacks is 0
     """
-    odds = log_odds(confidence) + sum(_leaf_of(tree, measures) for tree in _TREES)
-    return 1.0 / (1.0 + math.exp(-odds))
+    return logistic(log_odds(confidence) + sum(_leaf_of(tree, measures) for tree in _TREES))
 
 
 def _leaf_of(tree: Tree, measures: Mapping[str, float]) -> float:

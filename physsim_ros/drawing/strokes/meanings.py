@@ -21,6 +21,7 @@ from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Request
+from physsim_ros.model.transform import Point
 
 # Factor on the weight of a sign that was drawn where there is nothing that it could change: a
 # meaning that can be carried out is taken before it.
@@ -35,6 +36,19 @@ OPEN = frozenset({'wall', 'rod', 'rope', 'chain', 'spring', 'hatching'})
 DELETION, GRAVITY = 'deletion', 'gravity'
 
 
+@dataclass(frozen=True, slots=True)
+class End:
+    """
+    An end of a joint.
+
+    :param point: in the world [m]
+    :param body: name of the body, or 'world' for the background
+    """
+
+    point: Point
+    body: str
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Context:
     """
@@ -44,12 +58,17 @@ class Context:
     :param forms: that it may have, by falling weight
     :param scene: the world that it was drawn over
     :param settings: of drawing
+    :param ends: of a joint between the bodies at its ends, the first on a dynamic body; None where
+        no joint can be there
+    :param wheels: that it runs around as a rope between these ends, in its order, and where [m]
     """
 
     features: Features
     forms: Sequence[Form]
     scene: SceneQuery
     settings: DrawingSettings
+    ends: tuple[End, End] | None
+    wheels: Sequence[tuple[str, Point]]
 
     @property
     def drawn(self) -> Stroke:

@@ -27,24 +27,21 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.transform import cross, norms
 
-# The least straightness of a rod: the distance of its ends by its length.
+# The least straightness of a rod, and the greatest of a rope: the distance of the ends by the
+# length. An arc as high as a seventh of its chord has 0.95.
 _STRAIGHT = 0.95
-# The greatest straightness of a rope; an arc as high as a seventh of its chord has 0.95.
-_SAGGING = 0.95
 # The least number of bends, on alternate sides, of a spring. Of round teeth: the least height, in
 # shares of the size, that no hand trembles by; the least straightness of their advance.
 _FEWEST_TEETH, _HIGH, _STEADY = 3, 0.06, 0.9
 # Factor on the density of a body by each line of its hatching.
-HEAVIER = 1.25
-# The least share of the stroke on the body: ends may cross its edge.
-_INSIDE = 0.95
+_HEAVIER = 1.25
 
 
 def meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield hatching, or a rod, spring or rope, with that a chain, and a wall."""
     points = form.points
     kind, share = _joint_along(points, context)
-    body = hatched_body(context)
+    body = bodies_under.hatched_body(context.drawn.points, context.scene)
     if body is not None and share == 0.0:
         lines = len(points) - 1
         yield hatching_meaning(body, lines, context, weight=form.weight)
@@ -52,7 +49,7 @@ def meanings(form: Form, context: Context) -> Iterator[Meaning]:
     yield Meaning(
         name=str(kind),
         weight=form.weight * share,
-        build=partial(outcomes.join, kind, context.drawn.points, context),
+        build=partial(outcomes.join, kind, context),
     )
     if kind is JointKind.ROPE:
         # No stroke tells a chain from a rope: it is offered, and never the first guess.
@@ -67,22 +64,17 @@ def meanings(form: Form, context: Context) -> Iterator[Meaning]:
 
 def rope_around_wheels(context: Context) -> Meaning | None:
     """Return the meaning of a line from body to body, or to the background, around a wheel."""
-    drawn = context.drawn.points
-    wheels = {name for name, _ in bodies_under.wheels_passed(drawn, context)}
-    if not wheels or math.dist(drawn[0], drawn[-1]) <= context.settings.snap:
+    start, end = context.drawn.points[[0, -1]]
+    if not context.wheels or math.dist(start, end) <= context.settings.snap:
         return None
-    ends = bodies_under.joint_ends(drawn, context)
-    if ends is None or not wheels - {end.body for end in ends}:
-        return None
-    build = partial(outcomes.join, JointKind.ROPE, drawn, context)
+    build = partial(outcomes.join, JointKind.ROPE, context)
     return Meaning(name=str(JointKind.ROPE), weight=BETWEEN, build=build)
 
 
 def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
-    drawn = context.drawn.points
+    drawn, ends = context.drawn.points, context.ends
     start, end = point_of(drawn[0]), point_of(drawn[-1])
-    ends = bodies_under.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
     # A line beside a body that ends on no other is a wall.
@@ -90,7 +82,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     joins = between or (ends is not None and ends[0].body in at_ends)
     if between and _is_toothed(context.features, points):
         return JointKind.SPRING, BETWEEN
-    if joins and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
+    if joins and math.dist(start, end) < _STRAIGHT * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
     straight = math.dist(start, end) > _STRAIGHT * float(norms(sides).sum())
     return JointKind.ROD, BETWEEN if joins and straight else 0.0
@@ -133,15 +125,6 @@ def _gram_polynomials(degree: int, count: int) -> list[Floats]:
 _CUBICS = _gram_polynomials(3, COUNT)
 
 
-def hatched_body(context: Context) -> str | None:
-    """Return the name of the topmost dynamic body that all of the stroke lies on, if any."""
-    points, scene = context.drawn.points, context.scene
-    for name in scene.bodies_at(point_of(points[len(points) // 2])):
-        if scene.body(name).dynamic and scene.covers(name, points).mean() >= _INSIDE:
-            return name
-    return None
-
-
 def hatching_meaning(body: str, lines: int, context: Context, *, weight: float) -> Meaning:
     """
     Return the meaning of a line as hatching.
@@ -156,11 +139,11 @@ def hatching_meaning(body: str, lines: int, context: Context, *, weight: float) 
 
 def _make_heavier(name: str, lines: int, context: Context) -> Outcome:
     body = context.scene.body(name)
-    density = body.total_mass / body.shape.form.area * HEAVIER**lines
+    density = body.total_mass / body.shape.form.area * _HEAVIER**lines
     heavier = ChangeBody(name=name, properties=Properties(density=density))
     return Outcome(
         requests=(heavier,),
         subject=name,
-        message=f'{name} is heavier by {HEAVIER**lines - 1.0:.0%}: {density:.3g} kg/m²',
+        message=f'{name} is heavier by {_HEAVIER**lines - 1.0:.0%}: {density:.3g} kg/m²',
         outline=context.drawn.points,
     )

@@ -16,16 +16,13 @@ import numpy as np
 from physsim_ros.drawing import body_requests, chains
 from physsim_ros.drawing.strokes import bodies_under, regularisation
 from physsim_ros.drawing.strokes.fitting import simplified
-from physsim_ros.drawing.strokes.geometry import point_of
-from physsim_ros.drawing.strokes.meanings import Context, Outcome
+from physsim_ros.drawing.strokes.geometry import circle_outline, point_of
+from physsim_ros.drawing.strokes.meanings import Context, End, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
 from physsim_ros.model.requests import Join
 from physsim_ros.model.transform import Point
-
-# Number of sides that a circle of the preview is drawn with.
-_SIDES = 48
 
 
 def disc(points: Floats, context: Context) -> Outcome:
@@ -98,20 +95,22 @@ def wall(points: Floats, context: Context) -> Outcome:
     )
 
 
-def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
-    """Return a joint between the bodies at the first and the last point."""
-    ends = bodies_under.joint_ends(points, context)
-    if ends is None:
+def join(kind: JointKind, context: Context) -> Outcome:
+    """Return a joint between the bodies at the ends of the stroke."""
+    if context.ends is None:
         raise NothingThere(
             f'{kind.phrase} joins two bodies, one of which moves; there are none at its ends',
             field='poses',
         )
-    first, last = ends
+    first, last = context.ends
     name = context.scene.next_joint()
     line: tuple[Point, ...] = (first.point, last.point)
     message = f'{kind.phrase} from {first.body} to {last.body}'
     properties = JointProperties()
-    if kind is JointKind.ROPE and (passed := _wheels_between(first, last, points, context)):
+    passed = context.wheels[: MOST_STOPS - 2] if kind is JointKind.ROPE else ()
+    if passed:
+        if not _begins_at(first, context):
+            passed = passed[::-1]
         names = tuple(wheel for wheel, _ in passed)
         properties = JointProperties(over=names)
         line = (first.point, *(point for _, point in passed), last.point)
@@ -131,23 +130,18 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
     )
 
 
-def _wheels_between(
-    first: bodies_under.End, last: bodies_under.End, points: Floats, context: Context
-) -> list[tuple[str, Point]]:
-    """Return the wheels that a rope runs around from its first to its last end, and where [m]."""
-    passed = bodies_under.wheels_passed(points, context)
-    passed = [each for each in passed if each[0] not in (first.body, last.body)]
-    is_drawn_so = math.dist(first.point, points[0]) <= math.dist(last.point, points[0])
-    return passed[: MOST_STOPS - 2] if is_drawn_so else passed[::-1][: MOST_STOPS - 2]
+def _begins_at(end: End, context: Context) -> bool:
+    """Return whether the pen began at an end of a joint."""
+    start, finish = context.drawn.points[[0, -1]]
+    return math.dist(end.point, start) <= math.dist(end.point, finish)
 
 
 def chain(context: Context) -> Outcome:
     """Return a chain between the bodies at the ends of the stroke, along it."""
     path = context.drawn.points.copy()
-    ends = bodies_under.joint_ends(path, context)
-    if ends is None:
+    if context.ends is None:
         raise NothingThere('a chain joins two bodies; there are none at its ends', field='poses')
-    first, last = sorted(ends, key=lambda end: math.dist(end.point, path[0]))
+    first, last = context.ends if _begins_at(context.ends[0], context) else context.ends[::-1]
     path[0], path[-1] = first.point, last.point
     bodies = first.body, last.body
     requests = chains.chain(path, bodies, context.scene, context.settings)
@@ -165,13 +159,6 @@ def joins_at(
     """Yield the requests for axles or pins of pairs of bodies at a point."""
     for name, (a, b) in zip(context.scene.new_joints(), pairs, strict=False):
         yield Join(name=name, kind=kind, points=(point,), a=a, b=b)
-
-
-def circle_outline(center: Point, radius: float, sides: int = _SIDES) -> Floats:
-    """Return a circle as a closed outline, (n, 2) float64 [m]."""
-    angles = np.linspace(0.0, 2 * math.pi, sides + 1)
-    circle: Floats = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
-    return circle
 
 
 def _closed(corners: Floats) -> Floats:

@@ -35,13 +35,14 @@ from functools import cache
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
+from physsim_ros.drawing.strokes.bodies_under import joint_ends, wheels_passed
 from physsim_ros.drawing.strokes.evidence import (
     Form,
     group_confidence,
     LEAST,
     share_confidence,
 )
-from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.features import Features, features_of
 from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.meanings import (
@@ -62,7 +63,7 @@ from physsim_ros.model.errors import NotRecognised
 # The greatest number of guesses that a reading has.
 MOST_GUESSES = 3
 # The least confidence with which bodies are deleted, and gravity is turned.
-SURE = 0.9
+_SURE = 0.9
 
 # The function from each form to its meanings, by the form's name.
 _MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
@@ -118,25 +119,28 @@ class Reading(Outcome):
         return self.guesses[0].confidence
 
     @property
-    def runner_up(self) -> str:
-        """Return the second most likely meaning; '' where there is none."""
-        return self.guesses[1].meaning if len(self.guesses) > 1 else ''
-
-    @property
-    def runner_up_confidence(self) -> float:
-        """Return the confidence in the runner-up, 0 .. 1."""
-        return self.guesses[1].confidence if len(self.guesses) > 1 else 0.0
-
-    @property
     def values(self) -> tuple[tuple[str, str], ...]:
         """Return the guesses with their confidences, as pairs of key and value."""
         return _values(self.guesses)
 
 
-def in_scene(stroke: Stroke, scene: SceneQuery, settings: DrawingSettings) -> Context:
+def in_scene(
+    stroke: Stroke,
+    scene: SceneQuery,
+    settings: DrawingSettings,
+    forms_of: Callable[[Features], Sequence[Form]] = forms_of,
+) -> Context:
     """Return a stroke with its features and forms in the scene that it was drawn over."""
     features = features_of(stroke)
-    return Context(features=features, forms=forms_of(features), scene=scene, settings=settings)
+    ends = joint_ends(stroke.points, scene, settings.snap)
+    return Context(
+        features=features,
+        forms=forms_of(features),
+        scene=scene,
+        settings=settings,
+        ends=ends,
+        wheels=wheels_passed(stroke.points, ends, scene, settings.snap) if ends else (),
+    )
 
 
 def meanings_of(context: Context) -> Iterator[Meaning]:
@@ -218,7 +222,10 @@ def _group_of(meaning: str) -> frozenset[str]:
 
 def not_recognised(guesses: Sequence[Guess]) -> NotRecognised:
     """Return the refusal of a stroke of which no guess is likely enough."""
-    return NotRecognised(_doubt(guesses), field='poses', values=_values(guesses))
+    words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
+    doubt = f'is not clear enough; it might be: {words}. Nothing was drawn'
+    message = f'the stroke {doubt if guesses else "looks like nothing that can be drawn"}'
+    return NotRecognised(message, field='poses', values=_values(guesses))
 
 
 def reading_of(guesses: Sequence[Guess], number: int, *, amends: tuple[int, ...] = ()) -> Reading:
@@ -245,7 +252,7 @@ def is_likely(guesses: Sequence[Guess], settings: DrawingSettings) -> bool:
     if not guesses:
         return False
     guess = guesses[0]
-    if guess.meaning in {DELETION, GRAVITY} and guess.group_confidence < SURE:
+    if guess.meaning in {DELETION, GRAVITY} and guess.group_confidence < _SURE:
         return False
     return guess.group_confidence >= settings.sketch_confidence
 
@@ -262,11 +269,3 @@ def _values(guesses: Sequence[Guess]) -> tuple[tuple[str, str], ...]:
         for (name, share), guess in zip(keys, guesses, strict=False)
         for pair in ((name, guess.meaning), (share, f'{guess.confidence:.3f}'))
     )
-
-
-def _doubt(guesses: Sequence[Guess]) -> str:
-    """Return the message about a stroke that was not recognised."""
-    if not guesses:
-        return 'the stroke looks like nothing that can be drawn'
-    words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
-    return f'the stroke is not clear enough; it might be: {words}. Nothing was drawn'

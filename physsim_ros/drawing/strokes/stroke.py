@@ -29,8 +29,8 @@ from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import dots, norms
 
 # Factor of the finer resampling, for the ends of narrow outlines, and its number of points.
-FINER = 4
-FINELY = FINER * (COUNT - 1) + 1
+_FINER = 4
+_FINELY = _FINER * (COUNT - 1) + 1
 # Strokes of these numbers of samples have more put between them, on arcs. The greatest turn at a
 # sample of an arc [rad]: that of a circle of eight samples is 0.79, of a hexagon 1.05.
 _FEWEST, _FEW, _GENTLE = 4, 50, 0.9
@@ -41,9 +41,9 @@ HOOK, HOOK_TURN = 0.1, 1.2
 ROUNDS, AGAIN = 1.25, 0.065
 # The greatest overlap that is cut off at either end of a closed stroke, and the greatest gap
 # between its ends, in shares of its length.
-OVERLAP, GAP = 0.14, 0.22
+_OVERLAP, GAP = 0.14, 0.22
 # Cost of a length that is cut off, in lengths of gap.
-CUT_COST = 0.6
+_CUT_COST = 0.6
 # The number of points that give the direction of a line at an overlap, and at an end: that of a
 # plank is short.
 _HEADING, _HEADING_AT_END = 6, 3
@@ -65,8 +65,8 @@ class Stroke:
     A stroke of evenly spaced points.
 
     :param points: (COUNT, 2) float64: the stroke without hooks [m]
-    :param outline: (FINELY - 1, 2) float64: the stroke closed, overlapping ends cut off, the first
-        point not repeated [m]; None where the gap between the ends is too large
+    :param outline: (4 (COUNT - 1), 2) float64: the stroke closed, overlapping ends cut off, the
+        first point not repeated [m]; None where the gap between the ends is too large
     :param gap: between the ends, in shares of the length
     :param relatability: how well both ends go on across the gap, -2 .. 2: the cosines of the two
         angles between them and the gap (Kellman and Shipley, 1991); an arc of a circle has nearly
@@ -99,15 +99,15 @@ def resample_stroke(samples: Floats) -> Stroke:
         )
     while _FEWEST <= len(cleaned) < _FEW:
         cleaned = _subdivided(cleaned)
-    path = spaced(_without_hooks(spaced(cleaned, FINELY)), FINELY)
-    points = path[::FINER]
+    path = spaced(_without_hooks(spaced(cleaned, _FINELY)), _FINELY)
+    points = path[::_FINER]
     first, last = _repeated_round(points) or _seam(points)
     length = path_length(points)
     gap = math.dist(points[last], points[first]) / (length * (last - first) / (COUNT - 1))
-    once = path[slice(FINER * first, FINER * last + 1)]
+    once = path[slice(_FINER * first, _FINER * last + 1)]
     return Stroke(
         points=points,
-        outline=spaced(np.vstack((once, once[:1])), FINELY)[:-1] if gap <= GAP else None,
+        outline=spaced(np.vstack((once, once[:1])), _FINELY)[:-1] if gap <= GAP else None,
         gap=gap,
         relatability=_relatability(points, first, last),
         size=size_of(points),
@@ -156,14 +156,14 @@ def _subdivided(samples: Floats) -> Floats:
 
 def _without_hooks(path: Floats) -> Floats:
     """Return a stroke without the short sharp turns at its ends that a moving pen leaves."""
-    points = path[::FINER]
+    points = path[::_FINER]
     x, y = points.T
     size = math.hypot(float(np.ptp(x)), float(np.ptp(y)))
     reach = int(HOOK * size / float(np.hypot(np.diff(x), np.diff(y)).mean()))
     if reach < 2:
         return path
     first, last = _hook(points, reach), len(points) - 1 - _hook(points[::-1], reach)
-    kept = slice(FINER * first, FINER * last + 1)
+    kept = slice(_FINER * first, _FINER * last + 1)
     return path[kept] if last - first > len(points) // 2 else path
 
 
@@ -189,14 +189,14 @@ def _relatability(points: Floats, first: int, last: int) -> float:
 
 def _seam(points: Floats) -> tuple[int, int]:
     """
-    Return the first and the last point of an outline whose ends overlap by `OVERLAP`.
+    Return the first and the last point of an outline whose ends overlap by `_OVERLAP`.
 
     Ends overlap where they cross or run the same way; those of a plank that lacks a part of one
     side run against each other.
     """
     count = len(points)
     step = float(norms(np.diff(points, axis=0)).mean())
-    ends = int(OVERLAP * count)
+    ends = int(_OVERLAP * count)
     head, tail = points[:ends], points[-ends:]
     gaps = norms(head[:, None] - tail[None])
     # Number of points before a point of the head and after a point of the tail.
@@ -205,7 +205,7 @@ def _seam(points: Floats) -> tuple[int, int]:
     until = tail - points[:-_HEADING][-ends:]
     cosines = dots(onward[:, None], until[None]) / (norms(onward)[:, None] * norms(until) + 1e-300)
     overlap = (cosines > _SAME_WAY) | (gaps < _CROSSING * step) | (cut == 0)
-    best = int(np.where(overlap, gaps + CUT_COST * step * cut, np.inf).argmin())
+    best = int(np.where(overlap, gaps + _CUT_COST * step * cut, np.inf).argmin())
     first, last = divmod(best, ends)
     return first, count - ends + last
 

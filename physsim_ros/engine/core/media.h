@@ -35,11 +35,11 @@ Media media_of(World *world, double ahead);
 
 // The motion of a body up to the moment that the force of the media is of.
 typedef struct Flight {
-    bool free;    // nothing but `others` and the media acts on it
+    bool free;    // no contact or joint acts on it
     double ahead; // until that moment [s]
     Twist now;
     Twist guess;  // of its twist at that moment
-    Twist others; // other forces [N, N m]
+    Twist others; // other forces; of attraction, only the guess knows [N, N m]
 } Flight;
 
 // The force of the media on a body at a pose, in times of a length [s].

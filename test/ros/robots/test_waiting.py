@@ -53,6 +53,15 @@ def test_a_scan_after_a_rewind_waits_for_an_answer_of_its_own(flat: PhysSim) -> 
     assert commands.awaited <= 1.5e9
 
 
+def test_a_scan_with_a_latency_is_answered_by_the_stamp_of_its_measurement(flat: PhysSim) -> None:
+    laser = {'kind': 'laser', 'beams': 4, 'latency': 0.15}
+    flat.robot({'from': 'turtlebot3_burger', 'sensors': [laser]})
+    driver = driver_of(flat, looks=True, kind=TwistStamped)
+    flat.run(2.0)
+    assert len(driver.scans) > 5
+    assert flat.node.fleet.robots['robot/0'].commands.awaited is None
+
+
 def test_of_several_lasers_the_first_one_that_is_heard_is_answered(
     flat: PhysSim, client: Client
 ) -> None:

@@ -120,10 +120,12 @@ def _in_frame(points: Floats, origin: Floats, one: Floats) -> Floats:
 
 
 def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
-    """Yield a velocity where the tail lies on a body that can move, else a turn of gravity."""
-    points = form.points
-    under = context.scene.bodies_at(point_of(points[0]))
-    moving = next((name for name in under if not context.scene.body(name).anchored), None)
+    """Yield a velocity where the tail is at a body that can move, else a turn of gravity."""
+    points, scene = form.points, context.scene
+    tail = point_of(points[0])
+    under = scene.bodies_at(tail)
+    near = under or scene.bodies_at(tail, context.settings.snap)
+    moving = next((name for name in near if not scene.body(name).anchored), None)
     if moving is not None:
         yield Meaning(
             name='velocity',

@@ -54,15 +54,14 @@ def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
 
 def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield hatching, spring and wall."""
-    drawn, weight = context.drawn, form.weight
-    ends = bodies_under.joint_ends(form.points, context)
+    drawn, ends, weight = context.drawn, context.ends, form.weight
     spring = 0.0
     if ends is not None:
         # A spring leaves the bodies that it joins.
         crossed = bodies_under.crossed_bodies(drawn.points, context.scene)
         share = bodies_under.share_on(crossed, ends)
         spring = _ON_ENDS.below(share) if ends[1].body != WORLD else 1.0 - share
-    body = open_lines.hatched_body(context)
+    body = bodies_under.hatched_body(drawn.points, context.scene)
     if body is not None and (ends is None or ends[1].body == WORLD):
         lines = len(bends_of(drawn.points)) - 1
         yield open_lines.hatching_meaning(body, lines, context, weight=weight)
@@ -70,7 +69,7 @@ def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     yield Meaning(
         name='spring',
         weight=weight * spring,
-        build=partial(outcomes.join, JointKind.SPRING, form.points, context),
+        build=partial(outcomes.join, JointKind.SPRING, context),
     )
     yield Meaning(
         name='wall',
@@ -87,7 +86,7 @@ def _scribble_candidates(features: Features) -> Iterator[Candidate]:
 
 def _scribble_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield spring and deletion."""
-    ends = bodies_under.joint_ends(form.points, context)
+    ends = context.ends
     crossed = bodies_under.crossed_bodies(context.drawn.points, context.scene)
     covered = bodies_under.covered_bodies(context.drawn.points, crossed, context.scene)
     spring = 0.0
@@ -99,7 +98,7 @@ def _scribble_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     yield Meaning(
         name='spring',
         weight=form.weight * spring,
-        build=partial(outcomes.join, JointKind.SPRING, form.points, context),
+        build=partial(outcomes.join, JointKind.SPRING, context),
     )
     yield Meaning(
         name=DELETION,

@@ -10,12 +10,14 @@ from functools import partial
 import math
 
 from physsim_ros.drawing.strokes.evidence import Candidate, Form
-from physsim_ros.drawing.strokes.features import Features, loop_roundness
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.geometry import (
+    Crossing,
     few_points,
     intersections,
     LEAST_SINE,
+    loop_roundness,
     path_length,
     point_of,
 )
@@ -77,7 +79,7 @@ def of_lines(strokes: Sequence[Floats]) -> Form | None:
     if abs(float(cross(along, beside))) < LEAST_SINE:
         return None
 
-    def inside(crossing: tuple[Floats, float, float]) -> float:
+    def inside(crossing: Crossing) -> float:
         _, first, last = crossing
         shares = first / (len(one) - 1), last / (len(other) - 1)
         return min(min(share, 1.0 - share) for share in shares)
