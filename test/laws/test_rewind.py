@@ -22,12 +22,21 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.model.shapes import Box, Compound, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .scenes import floor, G, NOWHERE, pyramid, run, spawn, turned, walls
+from .scenes import floor, G, NOWHERE, pyramid, run, spawn, walls
 from ..outside import run_python
+from ..relations.scenes import (
+    bounces,
+    gas,
+    incline,
+    meetings,
+    on_walls,
+    projectiles,
+    stack,
+)
 from ..slow import slow
 
 # Simulation time from one checkpoint to the next [s]: at the default of 3 s each scene would have
@@ -50,59 +59,15 @@ def _simulation(**settings):
 # requests.
 
 
-def _projectiles():
-    """Laws 1 and 2: they meet nothing."""
-    sim = _simulation()
-    for number, shape in enumerate((Disc(radius=0.5), Box(width=1.0, height=0.3), ELL, PAIR)):
-        velocity = (3.0 + number, 8.0)
-        spawn(sim, f'body/{number}', shape, (4.0 * number, -2.0, 0.4), velocity=velocity, spin=3.0)
-    return sim, {}
+def _as(build, *args):
+    """Return a scene of the relations, in a world that takes a checkpoint every second."""
 
+    def scene():
+        sim = _simulation()
+        sim.begin(build(*args).save())
+        return sim, {}
 
-def _meetings():
-    """Laws 3, 6 and 9: pairs that meet head-on and obliquely."""
-    sim = _simulation(gravity=NOWHERE, friction=0.3)
-    for number, elasticity in enumerate((1.0, 0.5, 0.0)):
-        for side, shape, mass in ((-1, Disc(radius=0.5), 1.0), (1, Box(width=1, height=1), 3.0)):
-            pose = (side * (1.5 + number), 4.0 * number + 0.1 * side, 0.3 * number)
-            said = {'mass': mass, 'velocity': (-1.0 * side, 0.05), 'elasticity': elasticity}
-            spawn(sim, f'pair/{2 * number + (side > 0)}', shape, pose, **said)
-    return sim, {}
-
-
-def _on_walls():
-    """Laws 4, 5 and 25: discs and corners on walls, one of them thin and hit at 40 m/s."""
-    sim = _simulation(gravity=NOWHERE, elasticity=1.0, friction=0.2)
-    walls(sim, -6.0, -6.0, 6.0, 6.0)
-    thin = Chain(points=((0.0, -3.0), (0.0, 3.0)), thickness=0.02)
-    spawn(sim, 'thin/0', thin, (2.0, 0.0, 0.4), anchored=True)
-    spawn(sim, 'fast/0', Disc(radius=0.1), (-3.0, 0.5, 0.0), velocity=(40.0, 3.0))
-    for number in range(4):
-        at = (-4.0 + number, -3.0 + number, 0.5)
-        spawn(sim, f'box/{number}', Box(width=0.6, height=0.6), at, velocity=(2.0, -3.0), spin=1.0)
-    return sim, {}
-
-
-def _bounces():
-    """Laws 7 and 8: what falls on a floor, on a box's sides and corners, and bounces."""
-    sim = _simulation(elasticity=0.9)
-    floor(sim)
-    spawn(sim, 'box/0', Box(width=1.0, height=1.0), (0.0, 3.0, 0.3), anchored=True)
-    for number in range(9):
-        shape = (Disc(radius=0.2), Box(width=0.4, height=0.4), PAIR)[number % 3]
-        spawn(sim, f'body/{number}', shape, (-2.0 + 0.5 * number, 5.0 + number % 4, 0.1 * number))
-    return sim, {}
-
-
-def _incline():
-    """Laws 10 to 12: a block that slides, one that sticks, a disc that rolls."""
-    sim = _simulation()
-    floor(sim, angle=0.5)
-    shapes = (Box(width=1, height=1), Disc(radius=0.5), Box(width=1.0, height=1.0))
-    for number, shape in enumerate(shapes):
-        at = turned((3.0 * number, 0.5), 0.5)
-        spawn(sim, f'body/{number}', shape, (*at, 0.5), friction=(0.1, 0.5, 0.9)[number])
-    return sim, {}
+    return scene
 
 
 def _comes_to_roll():
@@ -113,15 +78,6 @@ def _comes_to_roll():
     return sim, {120: [Command(names=('disc/0',), twists=((5.0, 0.0, 0.0),))]}
 
 
-def _stack():
-    """Law 18: ten boxes."""
-    sim = _simulation()
-    floor(sim)
-    for level in range(10):
-        spawn(sim, f'box/{level}', Box(width=0.3, height=0.3), (0.0, 0.3 * (level + 0.5), 0.0))
-    return sim, {}
-
-
 def _pyramid():
     """Law 19: 105 boxes, one of which is shot at in the middle of it."""
     sim = _simulation()
@@ -129,19 +85,6 @@ def _pyramid():
     pyramid(sim, 0.5, 0.1)
     ball = Spawn(name='ball/0', shape=Disc(radius=0.3), pose=(-8.0, 2.0, 0.0))
     return sim, {350: [ball, Command(names=('ball/0',), twists=((20.0, 2.0, 0.0),))]}
-
-
-def _gas():
-    """Law 21: 100 discs in a closed box."""
-    sim = _simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
-    walls(sim, -5.0, -5.0, 5.0, 5.0)
-    chance = random.Random(21)
-    for number in range(100):
-        at = (number % 10 - 4.5, number // 10 - 4.5, 0.0)
-        velocity = (chance.uniform(-5, 5), chance.uniform(-5, 5))
-        shape = Disc(radius=chance.uniform(0.1, 0.3))
-        spawn(sim, f'disc/{number}', shape, at, velocity=velocity)
-    return sim, {}
 
 
 def _anchored():
@@ -256,15 +199,15 @@ def _eventful():
 
 
 SCENES = {
-    'projectiles': _projectiles,
-    'pairs that meet': _meetings,
-    'walls, thin ones too': _on_walls,
-    'bounces': _bounces,
-    'incline': _incline,
+    'projectiles': _as(projectiles),
+    'pairs that meet': _as(meetings),
+    'walls, thin ones too': _as(on_walls),
+    'bounces': _as(bounces),
+    'incline': _as(incline),
     'disc that comes to roll': _comes_to_roll,
-    '10 boxes': _stack,
+    '10 boxes': _as(stack, 10, 0.3),
     'pyramid of 105': _pyramid,
-    '100 discs': _gas,
+    '100 discs': _as(gas, 100),
     'anchored body': _anchored,
     'robots on a floor': _robots,
     'actors': _actors,
