@@ -58,12 +58,24 @@ def test_a_force_along_a_line_needs_two_points_and_no_axis(kind):
     assert not kind.schema.has_axis
 
 
+def joint(kind, b, **properties):
+    seat = Seat(0.1, 0.2, 1.0, 2.0, 0.6, 0.8, 0.3, 1.5)
+    said = JointProperties(**properties)
+    return Joint(name='joint/0', kind=kind, a='a/0', b=b, seat=seat, properties=said)
+
+
 @pytest.mark.parametrize('kind', JointKind)
 def test_a_body_at_the_origin_is_as_good_an_end_as_the_world(kind):
-    seat = Seat(0.1, 0.2, 1.0, 2.0, 0.6, 0.8, 0.3, 1.5)
-    rest = {'name': 'joint/0', 'kind': kind, 'seat': seat, 'properties': JointProperties()}
-    to_body, to_world = (Joint(a='a/0', b=b, **rest) for b in ('b/0', WORLD))
+    to_body, to_world = joint(kind, 'b/0'), joint(kind, WORLD)
     poses = {'a/0': (3.0, 4.0, 0.5), 'b/0': ORIGIN}
 
     assert to_world.position(poses) == to_body.position(poses) != 0.0
     assert to_world.drawn_points(poses) == to_body.drawn_points(poses)
+
+
+@pytest.mark.parametrize('kind', JointKind)
+@pytest.mark.parametrize('rate', [None, 2.0])
+def test_a_greatest_force_holds_every_joint_but_a_slider_that_a_rate_drives(kind, rate):
+    drives = kind is JointKind.SLIDER and rate is not None
+
+    assert joint(kind, WORLD, rate=rate, max_force=3.0).holding_force == (None if drives else 3.0)
