@@ -567,6 +567,8 @@ def welded(state):
 
 # Number of tiles of a floor: more than there are seams under what happens.
 TILES = 40
+# Heights of tiles beside each other, as shares of that of the floor; their tops lie in one plane.
+TILE_HEIGHTS = (1.0, 0.6, 0.8)
 
 
 def is_floor(state, held):
@@ -584,7 +586,7 @@ def is_floor(state, held):
 
 
 def tiled(state):
-    """Make floors of tiles."""
+    """Make floors of tiles, each of another height than its neighbours."""
     bodies, count = [], itertools.count()
     for held in state.bodies:
         if not is_floor(state, held):
@@ -592,10 +594,11 @@ def tiled(state):
             continue
         box = held.body.shape
         width = box.width / TILES
-        tile = Box(width=width, height=box.height)
         for number in range(TILES):
+            height = TILE_HEIGHTS[number % len(TILE_HEIGHTS)] * box.height
+            tile = Box(width=width, height=height)
             x = (number + 0.5) * width - box.width / 2
-            place = local_to_world((x, 0.0), held.pose)
+            place = local_to_world((x, (box.height - height) / 2), held.pose)
             made = replace(held.body, name=f'tile/{next(count)}', shape=tile)
             bodies.append(replace(held, body=made, pose=(*place, held.pose[2])))
     return replace(state, bodies=tuple(bodies))

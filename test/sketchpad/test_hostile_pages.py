@@ -24,6 +24,8 @@ from .browser import Browser
 FIELDS = {
     'type', 'request', 'ok', 'code', 'message', 'subject', 'topic', 'field', 'values',
 }  # fmt: skip
+# A request whose body does not come.
+BODILESS = 'POST /login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100\r\n\r\n'
 CLICK = '{"id": "x", "type": "click", "tool": "anchor", "point": [0, 0]}'
 
 
@@ -308,17 +310,37 @@ def test_one_page_too_many_is_refused(browser: Browser) -> None:
     assert pages[0].ask('drop')['ok']
 
 
+@pytest.mark.parametrize('part', ['', 'GET / HTTP/1.1\r\nHost:', BODILESS])
+def test_connections_that_ask_nothing_give_way_to_others(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    page = browser.open_page()
+    monkeypatch.setattr(website, 'MOST_CONNECTIONS', 4)
+    with ExitStack() as closing:
+        for _ in range(20):
+            connection = closing.enter_context(socket.create_connection(address_of(browser)))
+            connection.sendall(part.encode())
+            assert browser.fetch('/session').code == 200
+    assert page.ask('drop')['ok']
+
+
 def test_one_connection_too_many_is_closed(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(website, 'MOST_CONNECTIONS', 3)
-    host, port = browser.base.removeprefix('http://').split(':')
-    with ExitStack() as closing:
-        for _ in range(3):
-            closing.enter_context(socket.create_connection((host, int(port))))
+    page = browser.open_page()
+    # No connection waits for a request, as where all are being answered.
+    with monkeypatch.context() as patched:
+        patched.setattr(website, 'MOST_CONNECTIONS', 0)
         with pytest.raises((HTTPClientError, OSError)):
             browser.fetch('/session')
     browser.until(lambda: is_served(browser))
+    assert page.ask('drop')['ok']
+
+
+def address_of(browser: Browser) -> tuple[str, int]:
+    """Return the host and the port of the page."""
+    host, port = browser.base.removeprefix('http://').split(':')
+    return host, int(port)
 
 
 def is_served(browser: Browser) -> bool:

@@ -5,13 +5,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 import errno
 from functools import partial
 from ipaddress import ip_address
 import resource
 import socket
-from typing import Any
+from typing import Any, cast
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
@@ -26,13 +26,15 @@ from physsim_ros.sketchpad.server.page_handlers import (
     PageFiles,
     QrCode,
 )
+from tornado.http1connection import HTTP1ServerConnection
 from tornado.httpserver import HTTPServer
+from tornado.httputil import HTTPConnection, HTTPMessageDelegate
 from tornado.iostream import IOStream
 from tornado.netutil import bind_sockets
 from tornado.web import Application
 
-# Connections at once, pages included, and their greatest share of the files that a process may
-# have open.
+# Connections at once, besides the sockets of pages, and their greatest share of the files that a
+# process may have open.
 MOST_CONNECTIONS, _SHARE_OF_FILES = 256, 0.25
 # Time until a connection without a request, or a request without the rest of it, is closed [s].
 LIMITS = {'idle_connection_timeout': 10.0, 'body_timeout': 10.0}
@@ -100,18 +102,63 @@ def most_connections() -> int:
 
 
 class BoundedServer(HTTPServer):
-    """A server that closes connections beyond a number, and those that stand idle."""
+    """
+    A server of a bounded number of connections.
+
+    Law: a connection that asks nothing shuts nobody out. Beyond the number, that one is closed
+    whose request has been awaited longest; the new one only where no request is awaited.
+    """
 
     def initialize(self, *arguments: Any, **options: Any) -> None:
         """Begin without a connection, as `HTTPServer` does."""
         super().initialize(*arguments, **(LIMITS | options))
+        # Connections whose next request is not there yet, that which waits longest first.
+        self._waiting: dict[object, None] = {}
 
     def handle_stream(self, stream: IOStream, address: Any) -> None:
-        """Serve a connection, if there are not too many."""
-        if len(self._connections) < most_connections():
-            super().handle_stream(stream, address)
-        else:
-            stream.close()
+        """Serve a connection; where there are too many, close one."""
+        if len(self._connections) >= most_connections():
+            waiting = next(iter(self._waiting), None)
+            if waiting is None:
+                stream.close()
+                return
+            del self._waiting[waiting]
+            cast('HTTP1ServerConnection', waiting).stream.close()
+        super().handle_stream(stream, address)
+
+    def start_request(
+        self, server_conn: object, request_conn: HTTPConnection
+    ) -> HTTPMessageDelegate:
+        """Await the next request of a connection."""
+        self._waiting[server_conn] = None
+        delegate = super().start_request(server_conn, request_conn)
+        return _Awaited(delegate, partial(self._waiting.pop, server_conn, None))
+
+    def on_close(self, server_conn: object) -> None:
+        """Forget a connection."""
+        self._waiting.pop(server_conn, None)
+        super().on_close(server_conn)
+
+
+class _Awaited(HTTPMessageDelegate):
+    """
+    A request on its way.
+
+    :param delegate: receives it
+    :param on_whole: called when all of it has come
+    """
+
+    def __init__(self, delegate: HTTPMessageDelegate, on_whole: Callable[[], object]) -> None:
+        self.headers_received = delegate.headers_received  # type: ignore[method-assign]
+        self.data_received = delegate.data_received  # type: ignore[method-assign]
+        self.on_connection_close = delegate.on_connection_close  # type: ignore[method-assign]
+        self._delegate = delegate
+        self._on_whole = on_whole
+
+    def finish(self) -> None:
+        """Have the request answered."""
+        self._on_whole()
+        self._delegate.finish()
 
 
 def listening_sockets(address: str, port: int) -> list[socket.socket]:

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.robots import command_topic
 from physsim_ros.testing import PhysSim, shared_context
 import pytest
 import rclpy
@@ -130,6 +131,28 @@ def test_commands_that_are_not_finite_are_refused_once(
         flat.step()
     codes = [event.code for event in client.refusals]
     assert codes == ['malformed', 'bad_property', 'malformed']
+
+
+def test_a_command_of_a_megabyte_is_refused_before_it_is_decoded(
+    flat: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = driver_of(flat, kind=TwistStamped)
+    driver.send(0.1)
+    flat.step(2)
+    client.events.clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(command_topic, 'deserialize_message', lambda *_: pytest.fail('decoded'))
+        long = TwistStamped()
+        long.header.frame_id = 'x' * command_topic.MOST_BYTES
+        driver.publisher.publish(long)
+        flat.step(2)
+    assert [event.code for event in client.refusals] == ['malformed']
+    # The command before it holds.
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.1)
+    driver.send(0.0)
+    flat.step(10)
+    assert robot.truth().twist.twist.linear.x == 0.0
 
 
 def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:

@@ -1,0 +1,175 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Law: no message of a pupil's page changes a locked body; every kind of message is tried."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from physsim_ros.drawing import Tool
+from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad.message import KINDS
+from physsim_ros.sketchpad.messages.worlds import ACTIONS
+from physsim_ros.sketchpad.rights import Right
+from physsim_ros.testing import PhysSim
+import pytest
+
+from .browser import Browser, Page
+
+# Bodies `a/...` are locked. Free ones are joined to them, and have a rope over one of them.
+WORLD = """
+format: 1
+gravity: [0, 0]
+bodies:
+- {name: a/0, circle: {radius: 0.5}, at: [0, 5]}
+- {name: a/1, robot: arm, at: [0, 0]}
+- {name: a/2, circle: {radius: 0.5}, at: [6, 4], anchored: true}
+- {name: a/3, circle: {radius: 0.5}, at: [10, 0]}
+- {name: a/4, robot: turtlebot3_burger, at: [20, 0]}
+- {name: b/0, box: {width: 1, height: 1}, at: [4, 5]}
+- {name: b/1, box: {width: 1, height: 1}, at: [8, 0]}
+joints:
+- {name: rod/0, kind: rod, a: a/0, b: b/0, points: [[0, 5], [4, 5]]}
+- {name: rope/0, kind: rope, a: b/0, b: b/1, points: [[4, 5], [6, 4], [8, 0]], over: [a/2]}
+- {name: axle/0, kind: axle, a: a/3, b: b/1, points: [[9, 0]]}
+"""
+ON, FREE, ASIDE = [0.0, 5.0], [4.0, 5.0], [2.0, 8.0]
+JOINTS = ('rod/0', 'rope/0', 'axle/0', 'a/1/shoulder/0')
+ZIGZAG = [[-0.6 + 0.1 * n, 5.5 if n % 2 else 4.5, 0.05 * n] for n in range(13)]
+LINE = [[0.2 * n, 5.0, 0.03 * n] for n in range(21)]
+SMALL = [[0.05, 5.0, 0.0], [0.0, 5.05, 0.1], [-0.05, 5.0, 0.2], [0.0, 4.95, 0.3], [0.05, 5.0, 0.4]]
+# What a pupil tries, by the kind of message; of some kinds several times.
+ATTEMPTS: dict[str, list[dict[str, Any]]] = {
+    'change': [
+        {'name': 'a/0', 'properties': each}
+        for each in ({'mass': 2}, {'at': [1, 5, 0]}, {'color': 'red'}, {'circle': {'radius': 1}})
+    ],
+    'spawn': [
+        {'body': {'name': 'a/0', 'circle': {'radius': 1}, 'at': [1, 5]}},
+        {'body': {'name': 'a/0', 'robot': 'turtlebot3_burger', 'at': [1, 5]}},
+    ],
+    'move_bodies': [{'names': ['b/0', name], 'by': [1, 0]} for name in ('a/0', 'a/1/upper/0')],
+    'place': [{'names': ['b/0', 'a/0'], 'poses': [[0, 0, 0], [1, 0, 0]]}],
+    'copy': [{'name': 'a/0', 'to': [0, 20]}, {'name': 'a/1', 'to': [0, 30]}],
+    'copy_machine': [{'names': ['a/0', 'b/0'], 'by': [0, 40]}],
+    'delete': [{'names': [name]} for name in ('a/0', 'a/1', 'a/1/upper/0')],
+    'drive': [{'name': name, 'velocity': [1, 0, 1]} for name in ('a/0', 'a/4')],
+    'change_joint': [
+        {'name': name, 'properties': properties}
+        for name in JOINTS
+        for properties in ({'effort': 1}, {'collide': True}, {'length': 1}, {'max_force': 1})
+    ],
+    'motor': [{'name': name, 'position': 0.5} for name in JOINTS],
+    'unjoin': [{'name': name} for name in JOINTS],
+    'stroke': [{'points': points} for points in (ZIGZAG, LINE, LINE[::-1], SMALL)],
+    'instead': [{}, {'meaning': 'delete'}],
+    'click': [
+        {'tool': tool, 'point': point}
+        for tool in Tool
+        for points in ((ON, FREE, ON), (FREE, ON, FREE), ([-1.0, 5.2], [1.0, 5.2], ASIDE))
+        for point in points
+    ],
+    'drop': [{}],
+    'draw_with': [{'density': 3.0}],
+    'grab': [{'point': ON}, {'point': [0, 0]}],
+    'move': [{'point': ASIDE}, {'point': ASIDE, 'yaw': 1.0}],
+    'let_go': [{}],
+    'take_back': [{}],
+    'service': [
+        *({'name': name} for name in ACTIONS),
+        {'name': 'load_world', 'world': 'demo'},
+        {'name': 'save_world', 'world': 'demo'},
+    ],
+    'speed': [{'speed': 2.0}, {'speed': -1.0}, {'speed': 0.0}],
+    'course': [{'course': 0}, {'course': 1}],
+    'open': [{'name': 'demo'}],
+    'save': [{'name': 'mine'}, {'name': 'mine', 'replace': True}],
+    'rename': [{'name': 'mine', 'to': 'yours'}],
+    'remove': [{'name': 'yours'}],
+    'put_back': [{'name': 'yours'}],
+    'forget': [{}],
+    'share': [{}, {'run': True}],
+    'person': [{'name': 'Teacher'}, {'name': 'Anna'}],
+    'answered': [{'lesson': 'x', 'answer': '1', 'right': True}],
+    'raise_hand': [{'raised': True}],
+}
+# The kinds that change those bodies where they are not locked.
+CHANGING = (
+    *('change', 'spawn', 'move_bodies', 'place', 'delete', 'drive', 'change_joint', 'motor'),
+    *('unjoin', 'stroke', 'click', 'grab', 'take_back', 'service', 'open'),
+)
+# About the world, the moment that is shown, or what the pages of others show.
+ELSEWHERE = {'gravity', 'air', 'seek', 'here'}
+
+
+def locked(physsim: PhysSim) -> str:
+    """Return all that there is of the locked bodies: state, joints, and hands on them."""
+    world = physsim.node.simulation.world
+    state = world.save()
+    bodies = [
+        (each.body, each.pose, each.twist, each.wrench, each.driven, each.coming)
+        for each in state.bodies
+        if each.body.name.startswith('a/')
+    ]
+    joints = [
+        (each, [command for command, _ in state.commands if command.joint == each.name])
+        for each in state.joints
+        if any(name.startswith('a/') for name in each.bodies)
+    ]
+    return repr((bodies, joints, [each for each in world.grips if each.body.startswith('a/')]))
+
+
+def opened(browser: Browser, tmp_path: Path) -> tuple[Page, Page]:
+    """Return the pages of a pupil and of a teacher, in the world of the locked bodies."""
+    (tmp_path / 'locked.yaml').write_text(WORLD)
+    browser.physsim.load(tmp_path / 'locked.yaml')
+    browser.physsim.step()
+    pupil, boss = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
+    # A gesture that is undone, taken back or read anew is about a body that is locked then.
+    assert pupil.ask('change', name='a/0', properties={'friction': 0.3})['ok']
+    assert boss.ask('lock', names=['a/*'])['ok']
+    return pupil, boss
+
+
+def tell(page: Page, kind: str, fields: dict[str, Any]) -> None:
+    """Send a message, and wait until it is carried out."""
+    if kind not in ('move', 'drive'):
+        page.ask(kind, **fields)
+        return
+    # They are answered only if they are refused.
+    page.send(kind, **fields)
+    page.ask('raise_hand', raised=False)
+
+
+def test_every_kind_of_message_that_a_pupil_may_send_is_tried() -> None:
+    sent = {name for name, kind in KINDS.items() if kind.right in (Right.CHANGE, Right.DRAW)}
+    assert sent == ATTEMPTS.keys() | ELSEWHERE
+
+
+@pytest.mark.parametrize('kind', CHANGING)
+def test_what_changes_bodies_changes_no_locked_one(
+    browser: Browser, tmp_path: Path, kind: str
+) -> None:
+    pupil, boss = opened(browser, tmp_path)
+    before = locked(browser.physsim)
+    for fields in ATTEMPTS[kind]:
+        tell(pupil, kind, fields)
+        assert locked(browser.physsim) == before, fields
+    # A kind of which no attempt would do anything would not be tried.
+    assert boss.ask('lock', names=[])['ok']
+    for fields in ATTEMPTS[kind]:
+        tell(pupil, kind, fields)
+    assert locked(browser.physsim) != before
+
+
+def test_what_is_about_other_things_changes_no_locked_body(
+    browser: Browser, tmp_path: Path
+) -> None:
+    pupil, _ = opened(browser, tmp_path)
+    before = locked(browser.physsim)
+    for kind in [each for each in ATTEMPTS if each not in CHANGING]:
+        for fields in ATTEMPTS[kind]:
+            tell(pupil, kind, fields)
+            assert locked(browser.physsim) == before, (kind, fields)
