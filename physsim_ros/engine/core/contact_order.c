@@ -9,7 +9,8 @@
 // Method: the point that lies ahead in the direction in which the lighter body slips on the other, by the friction
 // of the step before, comes first; what does not slip keeps Chipmunk's order.
 // Cost: 5 ns a contact.
-// Without it law 27 fails for boxes on an incline.
+// Without it law 27 fails for boxes on an incline; without the slip of contacts that have no friction yet, ten scenes
+// of boxes and their mirror images part.
 
 #include "stages.h"
 #include "touch.h"

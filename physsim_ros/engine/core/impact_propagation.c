@@ -25,9 +25,6 @@
 // Restitution from which an impact is passed on, rather than taken together: below it, more than 7 / 16 of the energy
 // of an impact is lost anyway.
 static const double elastic = 0.75;
-// Overlap below which contacts are those of polygons that just touch [m]: ten times the rounding of a position within a
-// kilometre of the origin.
-static const double grazing = 1e-12;
 // Approach velocities of this ratio are equal but for rounding.
 static const double alike = 1.0 - 1e-9;
 // Approach that a deferred contact permits, in velocities of the impact: the impact changes the velocity of each body
@@ -57,18 +54,13 @@ static bool is_elastic(const cpArbiter *arbiter) {
     return arbiter->count > 0 && arbiter->e >= elastic;
 }
 
-// Polygons that just touch have one point by rounding, and both in the next step.
-static bool is_grazing(const cpArbiter *arbiter) {
-    return arbiter->count == 1 && depth_of(arbiter) < grazing && approach_of(arbiter) > slowest_impact;
-}
-
 // The fastest approach of each body; bodies that forces do not move take no impact.
 static double *fastest_impacts(World *world) {
     double *impacts = TAKE(&world->own->arena, double, world->body_count);
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *each = arbiter_at(world, number);
         double approach = is_elastic(each) ? approach_of(each) : 0.0;
-        if (approach > slowest_impact && !is_grazing(each)) {
+        if (approach > slowest_impact) {
             const cpBody *ends[2] = {each->body_a, each->body_b};
             for (int end = 0; end < 2; end++) {
                 double *impact = impacts + place_of(world, ends[end]);
@@ -118,7 +110,7 @@ static int find_weaker(World *world, const double *impacts, Weaker *found) {
         }
         int a = place_of(world, each->body_a), b = place_of(world, each->body_b);
         double approach = approach_of(each);
-        double impact = is_grazing(each) ? 2.0 * approach : greatest(impacts[a], impacts[b]);
+        double impact = greatest(impacts[a], impacts[b]);
         // One that is deeper than two steps of the impact take it is solved with the others.
         double deepest = slop_of(each) + 2.0 * impact * world->dt;
         if (approach < alike * impact && depth_of(each) < deepest) {
