@@ -64,7 +64,7 @@ class ComingCommands(Generic[_Command]):
         for name, coming in self.in_order(names):
             begun = [command for command in coming if command.begun <= step]
             if begun:
-                self.put(name, coming[len(begun) :])
+                self.put(name, tuple(command for command in coming if command.begun > step))
                 last.append((name, begun[-1]))
         return last
 

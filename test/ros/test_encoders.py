@@ -413,8 +413,13 @@ def test_of_a_scene_of_thousands_some_are_serialised_for_each_frame():
     assert encoder.encode(frame_of(snapshot_of(bodies))) is None
     # Those of the scene before hold in another one.
     assert len(picture(encoder, snapshot_of(bodies))) == count
-    changed = [replace(each, color=(0.0, 0.0, 0.0, 1.0)) for each in bodies[: MOST_NEW + 1]]
-    changed = snapshot_of([*changed, *bodies[MOST_NEW + 1 :]])
+    color = (0.0, 0.0, 0.0, 1.0)
+    changed = snapshot_of(
+        [
+            replace(each, color=color) if number <= MOST_NEW else each
+            for number, each in enumerate(bodies)
+        ]
+    )
     assert encoder.encode(frame_of(changed)) is None
     dark = [each for each in picture(encoder, changed) if each.color.b == 0.0]
     assert len(dark) == MOST_NEW + 1
