@@ -110,6 +110,7 @@ OF_SIMULATION: dict[str, Call] = {
     'world': of_simulation(lambda it: it.world),
 }
 OF_ROBOT: dict[str, Call] = {
+    'battery': Robot.battery,
     'bumped': lambda robot: robot.bumped,
     'description': lambda robot: robot.description,
     'drive': lambda robot: robot.drive(-0.1, 0.5),

@@ -89,7 +89,7 @@ def test_a_message_that_is_read(doors: PageDoors) -> None:
         ('remove', {'name': 'mine'}, OwnWorlds, 'delete'),
         ('put_back', {'name': 'mine'}, OwnWorlds, 'put_back'),
         ('forget', {}, Autosave, 'forget_unsaved'),
-        ('share', {}, Simulation, 'save'),
+        ('share', {}, Simulation, 'saver'),
         ('take_back', {}, request_queue, 'take_back'),
         ('course', {'course': 7}, Simulation, 'return_to_course'),
     ],

@@ -555,6 +555,7 @@ def test_a_page_moves_a_motor_of_a_robot(browser: Browser) -> None:
     page.until(lambda: page.of_type('scene')[-1]['joints'])
     joint = next(each for each in page.of_type('scene')[-1]['joints'] if 'effort' in each)
     rows = joint['b'], joint['a']
+    page.until(lambda: len(page.frames[-1].poses) > max(rows))
     before = np.diff([page.frames[-1].poses[row, 2] for row in rows if row >= 0] or [0.0])
     assert page.ask('motor', name=joint['name'], position=0.3)['ok']
     browser.physsim.run(3.0)

@@ -147,7 +147,7 @@ export function isDrawn(name) {
 }
 
 /** @param {string} name which may have 1,000 characters */
-export function shorten(name) {
+function shorten(name) {
   return name.length > LONGEST ? `${name.slice(0, HEAD)}…${name.slice(-TAIL)}` : name;
 }
 
