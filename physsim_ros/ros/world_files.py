@@ -82,15 +82,17 @@ class WorldFiles:
 
         :raises BadWorldFile: it cannot be written, or lies outside `world_dir`
         """
-        saved, name = self._simulation.saver(), self._values['world_file']
+        # All of this moment: the world goes on while a thread writes.
+        saved, rate = self._simulation.saver(), self._simulation.physics_rate
+        name, directory = self._values['world_file'], self.directory
 
         def write() -> tuple[WorldState, Path]:
-            state, rate = saved(), self._simulation.physics_rate
-            return state, save_world(state, name, world_dir=self.directory, physics_rate=rate)
+            state = saved()
+            return state, save_world(state, name, world_dir=directory, physics_rate=rate)
 
         state, path = await on_thread(write, finishes=True)
         message = f'saved {counted(len(state.bodies), "body")} to {path.name}'
-        if hides_shipped(path, world_dir=self.directory):
+        if hides_shipped(path, world_dir=directory):
             message += '; from now on it comes before the shipped world of that name'
         return message
 

@@ -107,12 +107,8 @@ def test_a_drive_looks_for_commands_at_its_rate():
     assert arrivals(world, 60) == [16]
 
 
-def test_commands_on_their_way_are_saved_and_loaded_to_the_bit(tmp_path):
-    world = driven_world(latency=[0.1, 0.3])
-    for speed in (0.1, 0.2, 0.3):
-        command(world, speed)
-        world.step(5)
-    assert world.save().bodies[0].coming
+def assert_goes_on_alike(world, tmp_path):
+    """Expect a world to go on to the bit from its file, and restored at another moment."""
     one, other = twins(world, tmp_path)
     later = seen_from_above()
     later.step(100)
@@ -122,6 +118,15 @@ def test_commands_on_their_way_are_saved_and_loaded_to_the_bit(tmp_path):
             each.step(30)
         assert one.digest() == other.digest()
         assert np.array_equal(one.snapshot().poses, later.snapshot().poses)
+
+
+def test_commands_on_their_way_are_saved_and_loaded_to_the_bit(tmp_path):
+    world = driven_world(latency=[0.1, 0.3])
+    for speed in (0.1, 0.2, 0.3):
+        command(world, speed)
+        world.step(5)
+    assert world.save().bodies[0].coming
+    assert_goes_on_alike(world, tmp_path)
 
 
 def test_a_command_on_its_way_is_in_the_digest():
@@ -265,15 +270,7 @@ def test_commands_on_their_way_to_motors_are_saved_and_loaded_to_the_bit(tmp_pat
         bend(world, (0.0, angle), (0.3, angle + 0.5))
         world.step(10)
     assert len(world.save().commands) > 1
-    one, other = twins(world, tmp_path)
-    later = seen_from_above()
-    later.step(100)
-    later.apply(Restore(state=world.save()))
-    for _ in range(4):
-        for each in (one, other, later):
-            each.step(30)
-        assert one.digest() == other.digest()
-        assert np.array_equal(one.snapshot().poses, later.snapshot().poses)
+    assert_goes_on_alike(world, tmp_path)
 
 
 def test_a_rewind_repeats_commands_on_their_way_to_motors():

@@ -56,7 +56,7 @@ ROOM = """async () => {
         {shape: {kind: 'polygon', outline}, color: [1, 0, 0, 1], centroid: [0.99, 0]}).inner;
 }"""
 
-# What is framed of a world in which a rod hangs just below the upper bound [m].
+# The box that is framed of a world in which a rod hangs just below the upper bound [m].
 HUNG = """async () => {
     const {WorldState} = await import('/page/world_state.js'), world = new WorldState({on() {}});
     Object.assign(world.scene, {bounds: [-1, 0, 1, 5.1],

@@ -21,12 +21,12 @@ from ..building import BOX, spawning
 
 
 def empty() -> Callable[[int], str]:
-    """Return what makes an empty text."""
+    """Return a function that returns an empty text."""
     return lambda _: ''
 
 
 def names_in(simulation: Simulation) -> Callable[[], Callable[[int], str]]:
-    """Return what makes a text with the names of the bodies of a world."""
+    """Return a function that begins a text: the names of the bodies of a world."""
 
     def text() -> Callable[[int], str]:
         scene = simulation.world.scene

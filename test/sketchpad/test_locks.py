@@ -40,7 +40,7 @@ JOINTS = ('rod/0', 'rope/0', 'axle/0', 'a/1/shoulder/0')
 ZIGZAG = [[-0.6 + 0.1 * n, 5.5 if n % 2 else 4.5, 0.05 * n] for n in range(13)]
 LINE = [[0.2 * n, 5.0, 0.03 * n] for n in range(21)]
 SMALL = [[0.05, 5.0, 0.0], [0.0, 5.05, 0.1], [-0.05, 5.0, 0.2], [0.0, 4.95, 0.3], [0.05, 5.0, 0.4]]
-# What a pupil tries, by the kind of message; of some kinds several times.
+# The messages that a pupil tries, by their kind.
 ATTEMPTS: dict[str, list[dict[str, Any]]] = {
     'change': [
         {'name': 'a/0', 'properties': each}

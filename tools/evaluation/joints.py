@@ -21,7 +21,7 @@ from .things import line, Thing
 
 
 def _over_wheels(count: int) -> Callable[[Random, str], Thing]:
-    """Return what draws a rope from a weight over anchored wheels to another weight."""
+    """Return a function that draws a rope from a weight over anchored wheels to another weight."""
 
     def thing(rng: Random, _half: str) -> Thing:
         radius, size = rng.uniform(0.2, 0.6), rng.uniform(0.15, 0.4)
@@ -91,7 +91,7 @@ def _circle(rng: Random, planks: Sequence[Spawn]) -> Floats:
 
 def _axle_through(count: int, rings: int) -> Callable[[Random, str], Thing]:
     """
-    Return what draws an axle through planks.
+    Return a function that draws an axle through planks.
 
     :param rings: number of circles that are drawn there, one after the other
     """
@@ -114,7 +114,7 @@ def _axle_through(count: int, rings: int) -> Callable[[Random, str], Thing]:
 
 
 def _on_two(kind: JointKind) -> Callable[[Random, str], Thing]:
-    """Return what draws a small square or circle where two planks meet or overlap."""
+    """Return a function that draws a small square or circle where two planks meet or overlap."""
 
     def thing(rng: Random, _half: str) -> Thing:
         high = rng.uniform(0.3, 0.8)

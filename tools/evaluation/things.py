@@ -120,7 +120,7 @@ def _head_of_two(rng: Random, head: Floats) -> list[Floats]:
 
 
 def _other_arrow(head_of: Callable[[Random, Floats], list[Floats]]) -> Callable[..., Thing]:
-    """Return what draws an arrow whose head is another one than two barbs in one stroke."""
+    """Return a function that draws an arrow; its head is none of two barbs in one stroke."""
 
     def thing(rng: Random, half: str) -> Thing:
         shaft, head = _shaft_and_head(rng, half)

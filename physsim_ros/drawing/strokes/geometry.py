@@ -22,7 +22,7 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import cross, dots, norms, Point
 
 _atan2 = np.frompyfunc(math.atan2, 2, 1)
-# Where two polylines cross [m], and its place along both [points].
+# The point at which two polylines cross [m], and how far along each it lies [points].
 Crossing = tuple[Floats, float, float]
 # Sine of the least angle between lines that meet: 17 degrees.
 LEAST_SINE = 0.3

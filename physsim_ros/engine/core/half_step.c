@@ -189,9 +189,11 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
             taken_back += body->engine->m * lead;
         }
     }
-    // A body that parts is slower in the engine than in truth: all is reported.
-    double share = greatest(load / all, 1.0 - taken_back / size);
-    return taken_back > 0.0 && all > 0.0 ? least(share, 1.0) : 1.0;
+    if (taken_back == 0.0 || all == 0.0) {
+        return 1.0;
+    }
+    // Bodies that part are slower in the engine than in truth, so that the share would exceed 1.
+    return least(greatest(load / all, 1.0 - taken_back / size), 1.0);
 }
 
 void find_free(World *world) {

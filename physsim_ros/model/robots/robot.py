@@ -42,7 +42,7 @@ class Odometry(Checked):
         'standard deviations of its drift, 0 .. 1: of the path after 1 m [m], of the heading '
         'after 1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
     ] = (0.0, 0.0)
-    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    # Digests leave it out, as it moves nothing.
     latency: Annotated[
         Point,
         delays,
@@ -107,7 +107,7 @@ class Robot(Checked):
     odometry: Annotated[
         Odometry, Odometry.from_value, 'rate and errors of `odom`: a mapping, see below'
     ] = field(default_factory=Odometry)
-    # Not part of the text, so that digests of worlds are those of ever: they have its charge.
+    # Digests leave it out, as they have the charge that it has given.
     battery: Annotated[
         Battery | None,
         Battery.from_value,
@@ -118,7 +118,7 @@ class Robot(Checked):
         ListOf(sensor_from, 'mappings', MOST_SENSORS),
         f'a list of mappings, at most {MOST_SENSORS}; each with its own topic',
     ] = ()
-    # Not part of the text, so that digests of worlds are those of ever: parts are bodies.
+    # Digests leave it out, as the parts are bodies, which they have.
     links: Annotated[
         tuple[Link, ...],
         ListOf(Link.from_value, 'mappings', MOST_PARTS),
@@ -136,7 +136,7 @@ class Robot(Checked):
         'Robots of a world must differ in namespaces, topics and frames (a sensor `x/odom` in '
         '`tb` and a robot in `tb/x` collide)',
     ] = None
-    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    # Digests leave it out, as it moves nothing.
     command_topic: Annotated[str, topic_name, 'topic of the commands, below its namespace'] = (
         field(default='cmd_vel', repr=False)
     )

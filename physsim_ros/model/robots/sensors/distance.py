@@ -53,7 +53,7 @@ class Laser(Sensor):
         Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
     ] = (0.1, 10.0)
     noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
-    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    # Digests leave it out, as it moves nothing.
     blind: Annotated[
         tuple[Point, ...],
         ListOf(angles, 'pairs of angles', _MOST_SECTORS),

@@ -32,7 +32,7 @@ class Imu(Sensor):
         Row((Within(0.0, FASTEST),) * 2),
         'standard deviations of acceleration [m/s²] and turn rate [rad/s]',
     ] = (0.0, 0.0)
-    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    # Digests leave it out, as it moves nothing.
     gravity: Annotated[
         float,
         Within(0.0, 100.0, 'm/s²'),
@@ -59,7 +59,7 @@ class Gps(Sensor):
     name: str = 'fix'
     rate: float = 5.0
     noise: Annotated[float, LENGTH, 'standard deviation to the east, and to the north'] = 0.0
-    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    # Digests leave it out, as it moves nothing.
     status: Annotated[
         str,
         OneOf(('none', 'fix', 'sbas', 'gbas')),

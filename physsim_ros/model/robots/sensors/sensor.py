@@ -113,11 +113,11 @@ class Sensor(Checked, ABC):
     rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'readings a second of simulation time'] = (
         10.0
     )
-    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    # Digests leave it out, as it moves nothing.
     link: Annotated[str, check_part, 'that it is mounted on; `base` is the body of the robot'] = (
         field(default=BASE, repr=False)
     )
-    # The same.
+    # Digests leave it out, as it moves nothing.
     latency: Annotated[
         Point,
         delays,
