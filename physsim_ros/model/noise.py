@@ -17,6 +17,7 @@ from __future__ import annotations
 from functools import lru_cache
 import hashlib
 import math
+import threading
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,14 +37,13 @@ def normals(seed: int, name: str, step: int, count: int) -> Floats:
     """
     Return (count,) float64: independent normal numbers of mean 0 and variance 1.
 
-    A call takes some 30 µs, and 0.1 µs a number.
+    A call takes some 15 µs, and 0.1 µs a number.
 
     :param seed: of all noise
     :param name: of what is noisy; two names have independent numbers
     :param step: number of steps since the world began, >= 0
     """
-    generator = np.random.Philox(key=_key(seed, name), counter=[0, 0, 0, step])
-    words = generator.random_raw(_WORDS * count)
+    words = _generator(seed, name, step).random_raw(_WORDS * count)
     # Two sums in the halves of a word.
     pairs = (words & _LOWER) + (words >> 16 & _LOWER)
     sums = pairs[::3] + pairs[1::3] + pairs[2::3]
@@ -59,8 +59,37 @@ def uniform(seed: int, name: str, step: int) -> float:
     :param name: of what is random; two names have independent numbers
     :param step: number of steps since the world began, >= 0
     """
-    generator = np.random.Philox(key=_key(seed, name), counter=[0, 0, 0, step])
-    return int(generator.random_raw()) / 2**64
+    return int(_generator(seed, name, step).random_raw()) / 2**64
+
+
+class _OfThread(threading.local):
+    """
+    A generator of each thread, which begins anew with each key and counter.
+
+    Another one would take four times as long: NumPy asks the system for a seed, without need.
+    """
+
+    def __init__(self) -> None:
+        self.generator = np.random.Philox(0)
+
+
+_OF_THREAD = _OfThread()
+# Words of a generator that were made and not read: none.
+_BUFFER = np.zeros(4, np.uint64)
+
+
+def _generator(seed: int, name: str, step: int) -> np.random.Philox:
+    """Return the generator of this thread, at the words of a seed, name and step."""
+    generator = _OF_THREAD.generator
+    generator.state = {
+        'bit_generator': 'Philox',
+        'state': {'counter': np.array((0, 0, 0, step), np.uint64), 'key': _key(seed, name)},
+        'buffer': _BUFFER,
+        'buffer_pos': len(_BUFFER),
+        'has_uint32': 0,
+        'uinteger': 0,
+    }
+    return generator
 
 
 @lru_cache(maxsize=4096)
