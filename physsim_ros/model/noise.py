@@ -17,9 +17,10 @@ from __future__ import annotations
 from functools import lru_cache
 import hashlib
 import math
-import threading
+from typing import cast
 
 import numpy as np
+from numpy.random.bit_generator import ISeedSequence
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 
@@ -62,38 +63,32 @@ def uniform(seed: int, name: str, step: int) -> float:
     return int(_generator(seed, name, step).random_raw()) / 2**64
 
 
-class _OfThread(threading.local):
+class _Key(ISeedSequence):
     """
-    A generator of each thread, which begins anew with each key and counter.
+    The key of a seed and a name, as a source of seeds that has no other words.
 
-    Another one would take four times as long: NumPy asks the system for a seed, without need.
+    A generator with NumPy's argument `key` takes six times as long to make: it asks the system
+    for a seed all the same.
+
+    :param seed: of all noise
+    :param name: of what is noisy
     """
 
-    def __init__(self) -> None:
-        self.generator = np.random.Philox(0)
+    def __init__(self, seed: int, name: str) -> None:
+        digest = hashlib.blake2b(f'{seed} {name}'.encode(), digest_size=16).digest()
+        self._words = np.frombuffer(digest, dtype='<u8').astype(np.uint64)
+
+    def generate_state(self, n_words: int, dtype: object = np.uint64) -> NDArray[np.uint64]:
+        """Return (2,) uint64: the key, which Philox asks for."""
+        assert (n_words, dtype) == (2, np.uint64)  # noqa: S101 - other generators have other keys
+        return self._words
 
 
-_OF_THREAD = _OfThread()
-# Words of a generator that were made and not read: none.
-_BUFFER = np.zeros(4, np.uint64)
+_key = lru_cache(maxsize=4096)(_Key)
 
 
 def _generator(seed: int, name: str, step: int) -> np.random.Philox:
-    """Return the generator of this thread, at the words of a seed, name and step."""
-    generator = _OF_THREAD.generator
-    generator.state = {
-        'bit_generator': 'Philox',
-        'state': {'counter': np.array((0, 0, 0, step), np.uint64), 'key': _key(seed, name)},
-        'buffer': _BUFFER,
-        'buffer_pos': len(_BUFFER),
-        'has_uint32': 0,
-        'uinteger': 0,
-    }
-    return generator
-
-
-@lru_cache(maxsize=4096)
-def _key(seed: int, name: str) -> NDArray[np.uint64]:
-    """Return (2,) uint64: the key of a seed and a name."""
-    digest = hashlib.blake2b(f'{seed} {name}'.encode(), digest_size=16).digest()
-    return np.frombuffer(digest, dtype='<u8').astype(np.uint64)
+    """Return a generator of the words of a seed, name and step."""
+    # The stubs of NumPy 2.5 know no other source of seeds than its own; Philox does.
+    key = cast('np.random.SeedSequence', _key(seed, name))
+    return np.random.Philox(key, counter=[0, 0, 0, step])
