@@ -44,7 +44,7 @@ from physsim_ros.model.requests import Cut, Join, Request, Spawn
 from physsim_ros.model.shapes import as_tuples
 from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview, request_count, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
-from physsim_ros.simulation.request_queue import Amend
+from physsim_ros.simulation.entries import Amend
 from physsim_ros.simulation.simulation import Simulation
 
 # The least confidence in a runner-up that the label of a preview mentions.

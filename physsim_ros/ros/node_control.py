@@ -25,8 +25,8 @@ from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import in_parts, Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock

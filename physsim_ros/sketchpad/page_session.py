@@ -23,8 +23,8 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import in_parts, Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened

@@ -20,7 +20,7 @@ from typing import Any
 from physsim_ros.files import OwnWorlds, text_of
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Wait
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS

@@ -19,8 +19,8 @@ from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import on_thread, state_from
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of
 

@@ -14,7 +14,7 @@ from physsim_ros.model.requests import ChangeBody, Request, Restore, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import TakeBack
+from physsim_ros.simulation.entries import TakeBack
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest

@@ -33,8 +33,8 @@ from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.simulation.entries import Amend, TakeBack
 from physsim_ros.simulation.past import Past
-from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 
 from .random_history import history_of, Operation, SETTINGS, shipped_world

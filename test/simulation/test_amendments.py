@@ -6,9 +6,9 @@
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.requests import Axle, Configure, Delete, MoveBodies, Request
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.entries import Amend, TakeBack
 from physsim_ros.simulation.past import amendment
 from physsim_ros.simulation.past.cursor import Cursor
-from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 

@@ -6,7 +6,7 @@
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Amend, TakeBack, Unread, Wait
+from physsim_ros.simulation.entries import Amend, TakeBack, Unread, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest

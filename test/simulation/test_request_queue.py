@@ -9,9 +9,9 @@ from physsim_ros.model.errors import Malformed
 from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation import request_queue
-from physsim_ros.simulation.entries import size_of
-from physsim_ros.simulation.request_queue import RequestQueue, Wait
+from physsim_ros.simulation import waiting_entries
+from physsim_ros.simulation.entries import size_of, Wait
+from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -75,7 +75,7 @@ def test_a_seek_to_where_nothing_is_kept_is_refused():
 def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(bound, monkeypatch):
     sim = Simulation(speed=0.0)
     size = size_of(SPAWN)
-    monkeypatch.setattr(request_queue, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
+    monkeypatch.setattr(waiting_entries, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
     for _ in range(2):
         for number in range(7):
             spawn(sim, number)
@@ -133,7 +133,7 @@ def test_a_move_of_a_hand_overtakes_nothing_but_moves(applied):
 
 
 def test_answers_that_are_too_many_are_counted(monkeypatch, applied):
-    monkeypatch.setattr(request_queue, 'MOST_WAITING', 5)
+    monkeypatch.setattr(waiting_entries, 'MOST_WAITING', 5)
     queue = Simulation().requests
     queue.submit(SPAWN, topic='~/spawn')
     for stamp in range(100):

@@ -10,8 +10,8 @@ from threading import Thread
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import wrap_future
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 
 from ..building import BOX, NOWHERE, spawning

@@ -23,7 +23,8 @@ from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests import conversions
-from physsim_ros.simulation.request_queue import RequestQueue, Unread
+from physsim_ros.simulation.entries import Unread
+from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message

@@ -11,7 +11,7 @@ import re
 from physsim_ros.model.checks import flag, Whole
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies
-from physsim_ros.simulation.request_queue import TakeBack, Unread
+from physsim_ros.simulation.entries import TakeBack, Unread
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching

@@ -15,8 +15,8 @@ from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import in_parts, Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching

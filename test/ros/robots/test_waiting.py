@@ -12,7 +12,7 @@ from geometry_msgs.msg import TwistStamped
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.ros.robots import Fleet
-from physsim_ros.simulation.request_queue import TakeBack
+from physsim_ros.simulation.entries import TakeBack
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.time import Time as SimulationTime
