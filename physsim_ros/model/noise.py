@@ -89,6 +89,6 @@ _key = lru_cache(maxsize=4096)(_Key)
 
 def _generator(seed: int, name: str, step: int) -> np.random.Philox:
     """Return a generator of the words of a seed, name and step."""
-    # The stubs of NumPy 2.5 know no other source of seeds than its own; Philox does.
+    # The stubs of NumPy 2.4 know no other source of seeds than its own; Philox does.
     key = cast('np.random.SeedSequence', _key(seed, name))
     return np.random.Philox(key, counter=[0, 0, 0, step])
