@@ -26,6 +26,7 @@ from physsim_ros.simulation.entries import (
     Amend,
     Call,
     Entry,
+    Origin,
     Seek,
     size_of,
     TakeBack,
@@ -95,23 +96,16 @@ class RequestQueue:
     def submit(
         self,
         request: Request | Unread | Amend | TakeBack,
+        origin: Origin,
         *,
-        topic: str,
         joined: bool = False,
         gesture: int | None = None,
-        field: str = '',
-        asker: str = '',
-        author: str = '',
     ) -> None:
         """
         Add a request; the next frame applies and answers it.
 
-        :param topic: its source
         :param joined: whether it is in the gesture of the entry before, and is undone with it
         :param gesture: number of an earlier gesture that it is in, whatever came between
-        :param field: the only field of its message, which a refusal names; '' if it has several
-        :param asker: key of the message that asks, which the answer names; '' for none
-        :param author: name of the person who did it; '' is nobody
         """
         if isinstance(request, MoveHand) and self._waiting.replace_move(request):
             return
@@ -119,24 +113,19 @@ class RequestQueue:
         if gesture is None:
             gesture = self.gesture if joined else self.begin_gesture()
         subject = request.subject if isinstance(request, Request | Unread) else ''
-        entry = Entry(request, topic, subject, gesture, field, asker, size, author)
+        entry = Entry(request, origin, subject, gesture, size)
         if busy := self._waiting.busy(size):
             self._waiting.add_answer(replace(entry, request=busy, size=0))
         else:
             self._waiting.add(entry)
 
-    def submit_seek(self, stamp: int, *, topic: str, asker: str = '') -> None:
-        """
-        Add a seek to a simulation time [ns], in place of one that is the last entry.
-
-        :param topic: its source
-        :param asker: key of the message that asks, which the answer names; '' for none
-        """
+    def submit_seek(self, stamp: int, origin: Origin) -> None:
+        """Add a seek to a simulation time [ns], in place of one that is the last entry."""
         if busy := self._waiting.busy():
-            self.refuse(busy, topic=topic, subject='', joined=True, asker=asker)
+            self.refuse(busy, origin, joined=True)
             return
         seek = Seek(stamp)
-        self._waiting.add_seek(Entry(seek, topic, '', self.gesture, asker=asker), seek)
+        self._waiting.add_seek(Entry(seek, origin, '', self.gesture), seek)
 
     def submit_call(
         self,
@@ -160,29 +149,25 @@ class RequestQueue:
         if busy := self._waiting.busy():
             raise busy
         # Its answers have their own topics.
-        self._waiting.add(Entry(Call(call, wait, on_told), '', '', self.begin_gesture()))
+        entry = Entry(Call(call, wait, on_told), Origin(''), '', self.begin_gesture())
+        self._waiting.add(entry)
 
     def refuse(
-        self,
-        refusal: Refusal,
-        *,
-        topic: str,
-        subject: str,
-        joined: bool = False,
-        field: str = '',
-        asker: str = '',
+        self, refusal: Refusal, origin: Origin, *, subject: str = '', joined: bool = False
     ) -> None:
         """
-        Add the refusal of a message that is no request; see `submit` for other parameters.
+        Add the refusal of a message that is no request.
 
         :param subject: name of the body or joint that the message names, or ''
+        :param joined: whether it is in the gesture of the entry before
         """
         gesture = self.gesture if joined else self.begin_gesture()
-        self._waiting.add_answer(Entry(refusal, topic, subject, gesture, field, asker))
+        self._waiting.add_answer(Entry(refusal, origin, subject, gesture))
 
     def tell(self, answer: Answer) -> None:
         """Add an answer without a request, in the order of entries."""
-        self._waiting.add_answer(Entry(answer, answer.topic, answer.subject, self.gesture))
+        entry = Entry(answer, Origin(answer.topic), answer.subject, self.gesture)
+        self._waiting.add_answer(entry)
 
     # Applying
 
@@ -243,12 +228,12 @@ class RequestQueue:
                         self._past.cursor.work(self._amend(change, entry))
                     case Seek(stamp=stamp):
                         message = self.seek(stamp)
-                        self._answer_arrival = partial(self._answer_seek, entry, message)
+                        self._answer_arrival = partial(self._answer_seek, entry.origin, message)
                     case request:
                         self._playback.changed = True
                         if isinstance(request, Unread):
                             request = request.convert()
-                        answer = self.apply_now(request, entry.gesture, entry.author)
+                        answer = self.apply_now(request, entry.gesture, entry.origin.author)
                         # Moves and drives come at the rate of frames.
                         if not isinstance(request, DriveRobot | MoveHand | KeepHand):
                             self._answer(answer, entry)
@@ -307,18 +292,17 @@ class RequestQueue:
         self.answers += answers
         call.on_told()
 
-    def _answer_seek(self, entry: Entry, message: str, superseded: str) -> None:
+    def _answer_seek(self, origin: Origin, message: str, superseded: str) -> None:
         """Collect the answer to a seek."""
-        self.answers.append(
-            Answer(topic=entry.topic, message=superseded or message, asker=entry.asker)
-        )
+        told = superseded or message
+        self.answers.append(Answer(topic=origin.topic, message=told, asker=origin.asker))
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
         """Change the past in parts, and collect the answers."""
-        past, author = self._past, entry.author
+        past, author = self._past, entry.origin.author
         results: list[Answer | Refusal]
         try:
-            with past.boundary.reading(entry.topic):
+            with past.boundary.reading(entry.origin.topic):
                 if isinstance(change, Amend):
                     results = yield from amend(past, change.gestures, change.requests, author)
                 else:
@@ -331,9 +315,10 @@ class RequestQueue:
 
     def _answer(self, result: Answer | Refusal, entry: Entry) -> None:
         """Collect the answer to a request that waited."""
+        topic, field, asker, _ = entry.origin
         if isinstance(result, Refusal):
-            result = Answer.refused(result, topic='', subject=entry.subject, field=entry.field)
-        self.answers.append(replace(result, topic=entry.topic, asker=entry.asker))
+            result = Answer.refused(result, topic=topic, subject=entry.subject, field=field)
+        self.answers.append(replace(result, topic=topic, asker=asker))
 
     def apply_now(self, request: Request, gesture: int, author: str = '') -> Answer:
         """

@@ -72,7 +72,8 @@ class WaitingEntries:
         """Add a seek; the one that waits as the last entry is answered as superseded."""
         if (waiting := self._seek) is not None:
             message = f'superseded by a seek to {seek.stamp * 1e-9:.3f} s'
-            waiting.request = Answer(topic=waiting.topic, message=message, asker=waiting.asker)
+            topic, asker = waiting.origin.topic, waiting.origin.asker
+            waiting.request = Answer(topic=topic, message=message, asker=asker)
         self.add(entry)
         self._seek = entry
 
