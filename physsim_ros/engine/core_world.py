@@ -292,5 +292,6 @@ def copy_of(table: Table) -> Table:
 
 def _copy(memory: Any, count: int, dtype: np.dtype[np.void]) -> Table:
     """Return a copy of values in the memory of the core."""
-    values = ffi.buffer(memory, count * dtype.itemsize) if count else b''
-    return np.frombuffer(bytearray(values), dtype)
+    if not count:
+        return np.empty(0, dtype)
+    return np.frombuffer(bytearray(ffi.buffer(memory, count * dtype.itemsize)), dtype)
