@@ -19,6 +19,7 @@ from physsim_ros.model.requests import Command, Delete, Join, Request, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import rotated_each
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -190,7 +191,7 @@ def drawn_into_a_world(drawn: Drawn, pause: float) -> tuple[str, Scene]:
     before, strokes = drawn
     simulation = Simulation(speed=0.0)
     for request in before:
-        simulation.requests.submit(request, topic='')
+        simulation.requests.submit(request, Origin(''))
     frame = simulation.advance_frame()
     frame = simulation.apply_requests() or frame
     session, now, meaning = DrawingSession(DrawingSettings()), 0.0, ''
@@ -201,7 +202,7 @@ def drawn_into_a_world(drawn: Drawn, pause: float) -> tuple[str, Scene]:
         except Refusal:
             meaning = ''
             continue
-        submit_reading(simulation, session, reading, topic='')
+        submit_reading(simulation, session, reading, Origin(''))
         frame = simulation.apply_requests() or frame
         assert all(answer.code == '' for answer in frame.answers), frame.answers
         meaning = ' '.join((reading.meaning, *concerned(reading.requests)))
