@@ -114,8 +114,7 @@ def restore_checkpoint(
     space.core.write_state(checkpoint.state)
     for joint in scene.joints:
         space.joints.add(joint)
-    for command in checkpoint.commands:
-        space.joints.put_command(command, checkpoint.step)
+    space.joints.set_commands(checkpoint.commands, checkpoint.step)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()

@@ -129,8 +129,7 @@ def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int)
     for row, coming in checkpoint.coming:
         space.coming.put(rigids[row].body.name, coming)
     space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
-    for command in checkpoint.commands:
-        space.joints.put_command(command, checkpoint.step)
+    space.joints.set_commands(checkpoint.commands, checkpoint.step)
     return checkpoint
 
 

@@ -23,6 +23,7 @@ from physsim_ros.simulation.world import World
 import pytest
 
 from .driven import body_request, changing, put, refusal_of_file, seen_from_above, twins
+from ..building import check_begins_alike
 
 
 def driven_world(**drive: object) -> World:
@@ -109,6 +110,7 @@ def test_a_drive_looks_for_commands_at_its_rate():
 
 def assert_goes_on_alike(world, tmp_path):
     """Expect a world to go on to the bit from its file, and restored at another moment."""
+    check_begins_alike(world.save(), world.physics_rate)
     one, other = twins(world, tmp_path)
     later = seen_from_above()
     later.step(100)
