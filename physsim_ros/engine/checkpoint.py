@@ -70,7 +70,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         robots=table.robot_states,
         coming=tuple(
             (table.columns.rows[name], coming)
-            for name, coming in space.coming.in_order(space.bodies.by_name)
+            for name, coming in space.commands.coming.in_order(space.bodies.by_name)
         ),
         actors=table.actor_states,
     )
@@ -101,7 +101,7 @@ def restore_checkpoint(
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
-        space.coming.put(rigids[row].body.name, coming)
+        space.commands.coming.put(rigids[row].body.name, coming)
     space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0

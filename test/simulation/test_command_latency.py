@@ -7,7 +7,7 @@ import numpy as np
 from physsim_ros.files import robot_spawn
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.motor_command import MotorCommand
+from physsim_ros.model.motor_command import MotorCommand, TimedCommand
 from physsim_ros.model.requests import (
     ChangeBody,
     CommandMotors,
@@ -245,7 +245,7 @@ def test_a_motor_obeys_after_the_latency_as_it_would_have_at_once(points):
     bend(late, *points)
     late.step(24 + 120)
     prompt.step(48)
-    prompt.space.command_motor(motor_command(points), 48)
+    prompt.space.commands.command_motor(TimedCommand(motor_command(points), 48), 48)
     prompt.step(120)
     # A path begins where the joint is when the command arrives.
     assert np.array_equal(late.snapshot().poses[:, 2], prompt.snapshot().poses[:, 2])

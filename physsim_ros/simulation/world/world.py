@@ -186,7 +186,7 @@ class World(LiveSpace):
         digest.update(free.tobytes())
         for rigid in self.space.wrenched():
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
-        for name, coming in self.space.coming.in_order(self.space.bodies.by_name):
+        for name, coming in self.space.commands.coming.in_order(self.space.bodies.by_name):
             digest.update(f'{name} {coming!r}'.encode())
         for command in self.space.joints.all_commands:
             digest.update(repr(tuple(command)).encode())
