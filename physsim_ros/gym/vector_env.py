@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from functools import partial
 from typing import Any, cast
 
@@ -23,7 +24,8 @@ class RobotVectorEnv(SyncVectorEnv):
     """
     Many worlds of one task in one process: Gymnasium's `SyncVectorEnv` with saved moments.
 
-    After a reset with a seed, world k has the episodes of a `RobotEnv` reset with seed + k.
+    A copy, also a shallow one, and a pickle have worlds of their own. After a reset with a seed,
+    world k has the episodes of a `RobotEnv` reset with seed + k.
 
     :param task: the task
     :param num_envs: number of worlds
@@ -47,6 +49,10 @@ class RobotVectorEnv(SyncVectorEnv):
         _COUNT(num_envs, 'num_envs')
         make = partial(RobotEnv, task, render_mode=render_mode)
         super().__init__([make] * num_envs, autoreset_mode=autoreset_mode)
+
+    def __copy__(self) -> RobotVectorEnv:
+        """Return a copy with worlds of its own, as a copy of a `RobotEnv` has."""
+        return deepcopy(self)
 
     def reset(
         self,
