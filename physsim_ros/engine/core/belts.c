@@ -13,7 +13,7 @@
 #include "world.h"
 
 void move_belts(World *world) {
-    for (int number = 0; number < arbiter_count(world); number++) {
+    for (int number = 0; world->own->has_belt && number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         // The normal leads out of the first body, and into the second.
         double along = body_of(arbiter->body_a)->belt + body_of(arbiter->body_b)->belt;

@@ -63,9 +63,10 @@ static bool has_joint_row(const World *world, const cpArbiter *arbiter) {
 
 void find_rolls(World *world) {
     Private *own = world->own;
-    own->rolls = TAKE(&own->arena, Roll, arbiter_count(world));
+    int count = own->has_rolling ? arbiter_count(world) : 0;
+    own->rolls = TAKE(&own->arena, Roll, count);
     own->roll_count = 0;
-    for (int number = 0; number < arbiter_count(world); number++) {
+    for (int number = 0; number < count; number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         double arm = rolling_arm(arbiter), inverse = arbiter->body_a->i_inv + arbiter->body_b->i_inv;
         if (arm > 0.0 && !has_joint_row(world, arbiter)) {
