@@ -59,6 +59,11 @@ static bool is_false(cpArbiter *arbiter) {
     return false;
 }
 
+// Whether a disc touches a shape with edges; Chipmunk has the disc first.
+static bool is_disc_on_edges(const cpArbiter *arbiter) {
+    return kind_of(arbiter->a) == SHAPE_CIRCLE && kind_of(arbiter->b) != SHAPE_CIRCLE;
+}
+
 // Turn the contact of a disc, which has begun before.
 static void roll_over_edge(cpArbiter *arbiter) {
     Touch touch = touch_of(arbiter);
@@ -97,7 +102,7 @@ void correct_first_touches(World *world) {
             arbiter->data = NULL;
             arbiter->state = ARBITER_FIRST_COLLISION;
             touches[count++] = touch_of(arbiter);
-        } else if (has_stage(world, STAGE_EDGES) && kind_of(arbiter->a) == SHAPE_CIRCLE) {
+        } else if (has_stage(world, STAGE_EDGES) && is_disc_on_edges(arbiter)) {
             roll_over_edge(arbiter);
         }
     }
