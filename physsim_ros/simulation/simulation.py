@@ -27,7 +27,7 @@ from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.world import Beginning, forces_now, loaded
+from physsim_ros.simulation.world import Beginning, forces_now, load_message
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -310,7 +310,7 @@ class Simulation(FrameMaker):
             past.open_world(state)
             self.requests.hands.clear()
             self.stop_driving()
-        return loaded(state)
+        return load_message(state)
 
     def undo(self) -> str:
         """

@@ -312,7 +312,7 @@ class Tree(LineInForce):
         self._release(line.tip)
 
     def drop_undone(self) -> None:
-        """Drop the undone lines, and the courses of eras that were undone: there is no redo."""
+        """Drop what redo returns to: undone lines, and courses since resets that were undone."""
         undone = [line for line in self.left.values() if line.reset_count > self.reset_count]
         for line in [*self.undone, *undone]:
             self.drop(line)

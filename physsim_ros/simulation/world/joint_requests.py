@@ -19,6 +19,7 @@ import math
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.motor_command import TimedCommand
 from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.rope_path import arc, side, spans
@@ -156,10 +157,7 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
         properties = live.space.joints.by_name[command.joint].joint.properties
         latency, rate = properties.latency or (0.0, 0.0), properties.command_rate or 0.0
         begun = live.begin_of_command(command.joint, latency, rate)
-        if begun == live.step_count and not live.space.joints.coming.of(command.joint):
-            live.space.command_motor(command, begun)
-        else:
-            live.space.command_motor_later(command, begun)
+        live.space.commands.command_motor(TimedCommand(command, begun), live.step_count)
     subject = names[0] if len(names) == 1 else ''
     return Answer(subject=subject, message=f'commanded {counted(len(names), "motor")}')
 

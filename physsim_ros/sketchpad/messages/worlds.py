@@ -15,14 +15,14 @@ from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.parts import in_parts, Parted
-from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
+from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession
-from physsim_ros.sketchpad.rights import Right
-from physsim_ros.sketchpad.world_control import opened
+from physsim_ros.sketchpad.rights import check_moment, Right
+from physsim_ros.sketchpad.world_control import open_content
 
 # Names of the services that a page may call.
 ACTIONS = (
@@ -78,7 +78,7 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
     """Perform the action of a service, on the world file of a name where one is given."""
     origin = origin._replace(topic=f'~/{name}')
     if name in ('clear', 'load_world', 'reset', 'undo', 'redo'):
-        page.check_moment()
+        check_moment(page.role, page.world)
     action, wait = page.world.service(name)
     if world:
         if name not in ('load_world', 'save_world'):
@@ -96,13 +96,13 @@ def set_speed(page: PageSession, origin: Origin, speed: float) -> None:
 @message('seek', '~/seek', time=_stamp)
 def seek(page: PageSession, origin: Origin, time: int) -> None:
     """Go to a simulation time, which a message has in [s] and the function in [ns]."""
-    page.world.submit_seek(time, topic=origin.topic, asker=origin.asker)
+    page.world.submit_seek(time, origin)
 
 
 @message('course', '~/timeline', course=Whole(0, 2**31))
 def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
     """Return to a course of events that was left, by its number."""
-    page.check_moment()
+    check_moment(page.role, page.world)
     action = partial(page.world.simulation.return_to_course, course)
     page.perform(origin, action, Wait.BEHIND_REQUESTS)
 
@@ -113,7 +113,7 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 @message('open', '~/load_world', name=_world_name)
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
     """Begin with a world at time 0, which undo reverts."""
-    page.check_moment()
+    check_moment(page.role, page.world)
     page.perform(origin, partial(page.world.open_world, name), Wait.FOR_SEEK)
 
 
@@ -181,7 +181,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
 @message('open_text', '~/load_world', Right.TEACH, world=_world_text)
 def open_text(page: PageSession, origin: Origin, world: dict[str, Any]) -> None:
     """Begin with the world of a text, as that of a run, at time 0, which undo reverts."""
-    page.perform(origin, partial(opened, page.world.simulation, world), Wait.FOR_SEEK)
+    page.perform(origin, partial(open_content, page.world.simulation, world), Wait.FOR_SEEK)
 
 
 @message('share', '~/save_world', Right.DRAW, run=Optional(flag))
@@ -218,4 +218,4 @@ def _text_content(
         answer = Answer.refused(refusal, topic='page')
     else:
         answer = Answer(topic='page', message='the world as text', values=(('yaml', text),))
-    return answer_content(answer, origin.request)
+    return answer_content(answer, request_of(origin))
