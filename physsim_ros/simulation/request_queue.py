@@ -357,7 +357,7 @@ class RequestQueue:
 
     def note_arrival(self) -> None:
         """Collect the answer to the last seek, if its moment is reached."""
-        if self._playback.has_arrived:
+        if self._answer_arrival is not None and self._playback.has_arrived:
             self._tell_arrival()
 
     def _supersede(self, by: str) -> None:
