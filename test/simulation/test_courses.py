@@ -150,6 +150,18 @@ def test_a_ghost_is_what_the_course_has_shown():
     assert sim.past.course_snapshot(2, 1.5) is not None
 
 
+def test_the_ghost_of_a_course_takes_no_memory_for_contacts():
+    sizes = set()
+    for reports_contacts in (False, True):
+        sim = simulation()
+        sim.reports_contacts = reports_contacts
+        run(sim, 0.5)
+        sim.seek(SECOND // 4)
+        act(sim, 1.0)
+        sizes.add(sim.past.tree.left[1].size)
+    assert len(sizes) == 1
+
+
 def test_undo_and_redo_go_along_a_course():
     sim = simulation()
     run(sim, 2.0)
