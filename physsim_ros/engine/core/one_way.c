@@ -13,7 +13,7 @@
 // (`time_of_impact.c`).
 // Limit: a corner that goes further in a sub-step than a segment is thick has entered it by the side of the least
 // depth.
-// Cost: 1 ns a contact, 20 ns one of a one-way body.
+// Cost: 1 ns a contact where there are one-way bodies, 20 ns one of such a body.
 
 #include "one_way.h"
 #include "stages.h"

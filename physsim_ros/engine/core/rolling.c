@@ -13,7 +13,7 @@
 // replaced within a step.
 // Law: a disc of radius of gyration k rolls on for v² (1 + k²/r²) / (2 c g), a cart of light wheels for v² / (2 c g),
 // and both stand on slopes below c.
-// Cost: 5 ns a contact, where no body has it 1 ns.
+// Cost: 5 ns a contact, nothing where no body has it.
 // Without it law 75 (rolling resistance) fails.
 
 #include "outline.h"
