@@ -166,8 +166,7 @@ static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) 
         pair->places = add(pair->places, scaled(place, 0.5));
         pair->points++;
     }
-    double share = reported_share(body_of(arbiter->body_a), body_of(arbiter->body_b), impulse);
-    pair->impulse = add(pair->impulse, scaled(impulse, sign * share));
+    pair->impulse = add(pair->impulse, scaled(impulse, sign));
 }
 
 // Sensors, and kinematic bodies among themselves, overlap without points; Chipmunk lists them only here.

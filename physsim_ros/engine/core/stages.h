@@ -87,13 +87,15 @@ void take_out_closing(World *world);
 void take_out_impacts(World *world);
 void begin_totals(World *world);
 void find_gaps(World *world);
-void add_totals(World *world);
+// Add to what joints report: their impulses, and those by which gaps were closed.
+void add_impulses(World *world);
+void add_closings(World *world);
 void find_broken(World *world);
 
 // Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).
 void find_free(World *world);
-// The share of an impulse on two bodies in this sub-step that does not take back a half-step lead; before `find_free`.
-double reported_share(const Body *a, const Body *b, Vec impulse);
+// Take back the lead of bodies whose velocity was set, until `find_free` (`half_step.c`).
+void take_back_leads(World *world);
 void forgive_trembling(World *world);
 void keep_awake(World *world);
 

@@ -10,7 +10,7 @@ static void begin_body(Body *body) {
     assert(body_of(body->engine) == body);
     body->scratch.begin = pose_of(body->engine);
     body->scratch.twist = twist_of(body->engine);
-    body->scratch.carried = body->scratch.rest = (Twist){0};
+    body->scratch.carried = body->scratch.rest = body->scratch.taken = (Twist){0};
     body->scratch.left = body->scratch.since = 0.0;
     body->scratch.parts = body->scratch.rests = false;
     body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
@@ -36,6 +36,7 @@ static void keep_twists(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->scratch.twist = twist_of(body->engine);
+        body->scratch.thrown = body->state.thrown;
         body->state.thrown = body->state.released = false;
     }
 }
@@ -61,6 +62,7 @@ static void find_lost(World *world) {
 static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
+    take_back_leads(world);
     move_belts(world);
     correct_first_touches(world);
     order_points(world);
@@ -108,10 +110,11 @@ static void step(World *world) {
     find_leads(world, world->has_fields);
     forgive_trembling(world);
     solve_joints(world);
+    add_impulses(world);
     find_borne(world);
     finish_moves(world);
     close_joints(world);
-    add_totals(world);
+    add_closings(world);
     find_pushes(world);
     if (world->reports_contacts) {
         report_contacts(world);
