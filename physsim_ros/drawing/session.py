@@ -44,7 +44,7 @@ from physsim_ros.model.requests import Cut, Join, Request, Spawn
 from physsim_ros.model.shapes import as_tuples
 from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview, request_count, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
-from physsim_ros.simulation.request_queue import Amend
+from physsim_ros.simulation.entries import Amend, Origin
 from physsim_ros.simulation.simulation import Simulation
 
 # The least confidence in a runner-up that the label of a preview mentions.
@@ -234,14 +234,7 @@ class DrawingSession:
 
 
 def submit_reading(
-    simulation: Simulation,
-    session: DrawingSession,
-    reading: Reading,
-    *,
-    topic: str,
-    field: str = '',
-    asker: str = '',
-    author: str = '',
+    simulation: Simulation, session: DrawingSession, reading: Reading, origin: Origin
 ) -> None:
     """
     Answer a stroke by its reading, and submit its requests as one gesture.
@@ -249,21 +242,17 @@ def submit_reading(
     The requests of a reading that amends earlier gestures replace those.
 
     :param session: whose last reading it is
-    :param topic: of the stroke
-    :param field: of its message, to be named by a refusal
-    :param asker: key of the message that asked
-    :param author: name of the person who did it; '' is nobody
+    :param origin: of the stroke
     """
     queue = simulation.requests
-    queue.tell(replace(reading_answer(reading, topic=topic), asker=asker))
+    queue.tell(replace(reading_answer(reading, topic=origin.topic), asker=origin.asker))
     if reading.amends:
         amend = Amend(reading.amends, reading.requests)
-        queue.submit(amend, topic=topic, joined=True, field=field, asker=asker, author=author)
+        queue.submit(amend, origin, joined=True)
         session.note_gesture(reading.amends[0])
         return
     for number, request in enumerate(reading.requests):
-        joined = number > 0
-        queue.submit(request, topic=topic, joined=joined, field=field, asker=asker, author=author)
+        queue.submit(request, origin, joined=number > 0)
     if reading.requests:
         session.note_gesture(queue.gesture)
 

@@ -67,13 +67,20 @@ class BodyTable:
         self.records = self.columns.bodies.copy()
         self.robots = self.columns.robots.copy()
         self.actors = self.columns.actors.copy()
-        # Blocks of noise by robot and number, until they are used up.
-        self._blocks: dict[tuple[int, int], Floats] = {}
+        # Numbers of the robots whose odometry is noisy.
+        self._noisy = np.flatnonzero(self.robots['slip'].any(axis=1))
+        # Numbers of the blocks of noise that are made, as the core reads them, and the addresses
+        # of their first numbers.
+        self._blocks = range(0)
+        self._noise = np.empty((0, 0, 2 * _BLOCK))
+        self._noise_rows = np.empty(0, np.int64)
         self.records['engine'] = [*(rigid.address for rigid in bodies), address_of(background)]
         for row, rigid in enumerate(bodies):
             if rigid.wrench != NO_WRENCH:
                 self.records['wrench'][row] = rigid.wrench
         self._take_over_states()
+        # Without sources, fields are only where velocities have led by them before.
+        self._has_led = bool(self.records['state']['field'].any())
 
     def _take_over_states(self) -> None:
         """Continue with the states of the bodies, which are in this table from now on."""
@@ -99,7 +106,7 @@ class BodyTable:
     def has_fields(self) -> bool:
         """Return whether fields act on the bodies, or velocities lead by them."""
         sources = len(self.columns.regions) + len(self.columns.attractors)
-        return sources > 0 or bool(self.records['state']['field'].any())
+        return sources > 0 or (self._has_led and bool(self.records['state']['field'].any()))
 
     @property
     def field_leads(self) -> Floats:
@@ -154,25 +161,29 @@ class BodyTable:
 
     def make_noise(self, step: int, count: int) -> None:
         """Make the noise of odometry for some steps: it depends on seed, name and step alone."""
-        robots = self.scene.robots
-        noisy = [number for number, robot in enumerate(robots) if any(robot.odometry.slip)]
-        if not noisy:
+        if not len(self._noisy):
             return
-        first, last = step // _BLOCK, (step + count - 1) // _BLOCK
-        wanted = [(number, block) for number in noisy for block in range(first, last + 1)]
-        kept = self._blocks
-        self._blocks = {key: kept[key] if key in kept else self._noise_of(*key) for key in wanted}
-        rows = np.stack([self._blocks[key] for key in wanted]).reshape(len(noisy), -1)
-        # Kept while the core reads it.
-        begin = 2 * (step - first * _BLOCK)
-        self._noise = rows[:, begin:]
-        for row, number in enumerate(noisy):
-            self.robots[number]['noise'] = self._noise[row].ctypes.data
+        blocks = range(step // _BLOCK, (step + count - 1) // _BLOCK + 1)
+        if blocks[0] not in self._blocks or blocks[-1] not in self._blocks:
+            self._make_blocks(blocks)
+        begin = step - self._blocks[0] * _BLOCK
+        self.robots['noise'][self._noisy] = self._noise_rows + 2 * self._noise.itemsize * begin
 
-    def _noise_of(self, number: int, block: int) -> Floats:
-        """Return (2 _BLOCK,) float64: a block of the noise of a robot, two numbers a step."""
-        name = f'odometry of {self.scene.names[self.robots["body"][number]]}'
-        return normals(self.scene.settings.seed, name, block, 2 * _BLOCK)
+    def _make_blocks(self, blocks: range) -> None:
+        """Make blocks of noise, two numbers a step, in a row of each robot that has noise."""
+        kept = {block: place for place, block in enumerate(self._blocks)}
+        noise = np.empty((len(self._noisy), len(blocks), 2 * _BLOCK))
+        names = [self.scene.names[row] for row in self.robots['body'][self._noisy].tolist()]
+        for place, block in enumerate(blocks):
+            if block in kept:
+                noise[:, place] = self._noise[:, kept[block]]
+                continue
+            for row, name in zip(noise, names, strict=True):
+                row[place] = normals(
+                    self.scene.settings.seed, f'odometry of {name}', block, 2 * _BLOCK
+                )
+        self._blocks, self._noise = blocks, noise
+        self._noise_rows = noise.ctypes.data + noise.strides[0] * np.arange(len(noise))
 
 
 class SceneColumns(NamedTuple):

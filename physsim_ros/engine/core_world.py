@@ -290,5 +290,6 @@ def _pointer_and_count(table: Table, kind: str) -> tuple[Any, int]:
 
 def _copy(memory: Any, count: int, dtype: np.dtype[np.void]) -> Table:
     """Return a copy of values in the memory of the core."""
-    values = ffi.buffer(memory, count * dtype.itemsize) if count else b''
-    return np.frombuffer(values, dtype).copy()
+    if not count:
+        return np.empty(0, dtype)
+    return np.frombuffer(ffi.buffer(memory, count * dtype.itemsize), dtype).copy()

@@ -48,9 +48,9 @@ def observe_scan(robot: Robot) -> NDArray[np.float32]:
     the least range.
     """
     laser = robot.first_laser
-    shares: NDArray[np.float32] = np.clip(robot.scan() / laser.range[1], 0.0, 1.0)
-    shares[np.isnan(shares)] = 1.0
-    return shares.astype(np.float32)
+    # `fmin` of NaN and 1 is 1.
+    shares = np.fmin(robot.scan() / laser.range[1], 1.0)
+    return np.maximum(shares, 0.0).astype(np.float32)
 
 
 def _shares() -> Space[Any]:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from functools import partial
 from typing import Any, cast
 
@@ -22,6 +23,8 @@ _COUNT = Whole(1, 10_000)
 class RobotVectorEnv(SyncVectorEnv):
     """
     Many worlds of one task, stepped one after the other, by Gymnasium's own `SyncVectorEnv`.
+
+    A copy, a shallow one too, and a pickle have worlds of their own.
 
     World k of a reset with a seed has the episodes of a `RobotEnv` that is reset with seed + k.
 
@@ -47,6 +50,10 @@ class RobotVectorEnv(SyncVectorEnv):
         _COUNT(num_envs, 'num_envs')
         make = partial(RobotEnv, task, render_mode=render_mode)
         super().__init__([make] * num_envs, autoreset_mode=autoreset_mode)
+
+    def __copy__(self) -> RobotVectorEnv:
+        """Return a copy with worlds of its own, as a copy of a `RobotEnv` has."""
+        return deepcopy(self)
 
     def reset(
         self,

@@ -15,13 +15,14 @@ import time
 
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path
-from physsim_ros.drawing import DrawingSession, Reading, submit_reading
+from physsim_ros.drawing import DrawingSession, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.planar import named_frame, point_in_frame
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.request_topics import RequestTopics
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 
 
@@ -60,39 +61,35 @@ class DrawingTopics:
         """
         self._loop.current_snapshot()
         reading = self._session.instead()
-        self._submit_reading(reading, '~/instead')
+        origin = Origin('~/instead', 'poses')
+        submit_reading(self._simulation, self._session, reading, origin)
         return reading.message
 
     def _click(self, message: PointStamped) -> None:
-        topic, field = 'clicked_point', 'point'
-        with self._drawing_on_snapshot(topic, field) as snapshot:
+        origin = Origin('clicked_point', 'point')
+        with self._drawing_on_snapshot(origin) as snapshot:
             point, frame = point_in_frame(message, frame_id=self._frame_id)
             result = self._session.click(point, frame, snapshot)
             queue = self._simulation.requests
             if result.message:
-                queue.tell(Answer(topic=topic, message=result.message, values=result.values))
+                topic, message = origin.topic, result.message
+                queue.tell(Answer(topic=topic, message=message, values=result.values))
             for number, request in enumerate(result.requests):
-                queue.submit(request, topic=topic, joined=number > 0, field=field)
+                queue.submit(request, origin, joined=number > 0)
 
     def _stroke(self, message: Path) -> None:
-        with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
+        origin = Origin('~/stroke', 'poses')
+        with self._drawing_on_snapshot(origin) as snapshot:
             name, samples, began = conversions.stroke_samples(message)
             frame = named_frame(name, self._frame_id)
             began = time.monotonic() if began is None else began
             reading = self._session.stroke(samples, frame, snapshot, began=began)
-            self._submit_reading(reading, '~/stroke')
-
-    def _submit_reading(self, reading: Reading, topic: str) -> None:
-        submit_reading(self._simulation, self._session, reading, topic=topic, field='poses')
+            submit_reading(self._simulation, self._session, reading, origin)
 
     @contextmanager
-    def _drawing_on_snapshot(self, topic: str, field: str) -> Iterator[Snapshot]:
-        """
-        Yield the snapshot that a click or stroke refers to, and report its refusal.
-
-        :param field: of the message, for the refusal
-        """
+    def _drawing_on_snapshot(self, origin: Origin) -> Iterator[Snapshot]:
+        """Yield the snapshot that a click or stroke refers to, and report its refusal."""
         try:
             yield self._loop.current_snapshot()
         except Refusal as refusal:
-            self._simulation.requests.refuse(refusal, topic=topic, subject='', field=field)
+            self._simulation.requests.refuse(refusal, origin)

@@ -16,8 +16,8 @@ import time
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.robots import Fleet
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 
 # Time after which a tick simulates no further publish period [ns], or where the last tick took

@@ -25,8 +25,8 @@ from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
+from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.parts import in_parts, Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
@@ -213,7 +213,7 @@ class NodeControl:
         def seek(message: Clock) -> None:
             stamp = message.clock.sec * 10**9 + message.clock.nanosec
             self._outputs.statistics.reset_pace()
-            requests.submit_seek(stamp, topic='~/seek')
+            requests.submit_seek(stamp, Origin('~/seek'))
 
         topics.subscribe(Float64, '~/speed', set_speed)
         topics.subscribe(Clock, '~/seek', seek)
@@ -229,16 +229,11 @@ class NodeControl:
         self.set_parameter('speed', speed)
         return f'speed {speed:g}'
 
-    def submit_seek(self, stamp: int, *, topic: str, asker: str) -> None:
-        """
-        Go to a simulation time [ns], in place of a seek under way; its end is answered.
-
-        :param topic: its source
-        :param asker: key of the message that asks, which the answer names
-        """
+    def submit_seek(self, stamp: int, origin: Origin) -> None:
+        """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
         self._outputs.statistics.reset_pace()
         self.simulation.stop_driving()
-        self.simulation.requests.submit_seek(stamp, topic=topic, asker=asker)
+        self.simulation.requests.submit_seek(stamp, origin)
         self._loop.apply_up_to_seek()
 
     def _step(self) -> str:

@@ -79,8 +79,9 @@ def within_range(
     :param noise: (k,) float64: of mean 0 and variance 1; None is no noise
     """
     measured = distances if noise is None else distances + deviation * noise
-    measured = np.where((distances > greatest) | (measured > greatest), np.inf, measured)
-    return np.where((distances < least) | (measured < least), -np.inf, measured)
+    nearest, farthest = np.minimum(distances, measured), np.maximum(distances, measured)
+    measured = np.where(farthest > greatest, np.inf, measured)
+    return np.where(nearest < least, -np.inf, measured)
 
 
 @lru_cache(maxsize=256)

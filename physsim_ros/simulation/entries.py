@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from typing import NamedTuple
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
@@ -93,6 +94,22 @@ class Call:
     on_told: Callable[[], object]
 
 
+class Origin(NamedTuple):
+    """
+    The message from which an entry comes.
+
+    :ivar topic: that its answers name
+    :ivar field: the only field of the message, which a refusal names; '' if it has several
+    :ivar asker: key of a page and its message, which the answers carry; '' for none
+    :ivar author: name of the person who did it; '' is nobody
+    """
+
+    topic: str
+    field: str = ''
+    asker: str = ''
+    author: str = ''
+
+
 @dataclass(slots=True)
 class Entry:
     """
@@ -100,23 +117,17 @@ class Entry:
 
     :param request: to be applied; or a change of the past, a seek, a call, the refusal of a
         message that is no request, an answer without a request
-    :param topic: its source
+    :param origin: the message from which it comes
     :param subject: name of the body or joint that it names, or ''
     :param gesture: number of its gesture; requests of one gesture are undone together
-    :param field: the only field of the message, which a refusal names; '' if it has several
-    :param asker: key of the message that asks, which the answer names; '' for none
     :param size: memory of the request [bytes]
-    :param author: name of the person who did it; '' is nobody
     """
 
     request: Request | Unread | Amend | TakeBack | Seek | Call | Refusal | Answer
-    topic: str
+    origin: Origin
     subject: str
     gesture: int
-    field: str = ''
-    asker: str = ''
     size: int = 0
-    author: str = ''
 
     @property
     def is_for_world(self) -> bool:

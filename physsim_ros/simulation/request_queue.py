@@ -5,36 +5,28 @@
 The queue of requests: they wait for the next frame, and are applied there in their order.
 
 Laws: entries are applied in the order of their arrival, and each is answered once, but moves of
-hands and drives only if refused. A move of a hand replaces the waiting move of that hand, unless a
-request of another kind came between them; so does a seek the waiting seek. A seek, or a call that
-sends the world elsewhere, is answered when the moment is reached, or when the world is sent
-elsewhere before. Requests that read or change the world wait for the end of a seek; all entries
-wait for the end of an amendment, and of a call in parts. Requests beyond a limit, in count and in
-memory, are refused; beyond twice that count, answers are dropped and only counted.
+hands and drives only if refused. A seek, or a call that sends the world elsewhere, is answered
+when the moment is reached, or when the world is sent elsewhere before. Requests that read or
+change the world wait for the end of a seek; all entries wait for the end of an amendment, and of a
+call in parts. `waiting_entries` has what replaces a waiting entry, and how many may wait.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, wait
 from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
-from physsim_ros.model.errors import Busy, Refusal
-from physsim_ros.model.requests import (
-    DriveRobot,
-    HandRequest,
-    KeepHand,
-    MoveHand,
-    Request,
-)
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import DriveRobot, HandRequest, KeepHand, MoveHand, Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import (
     Amend,
     Call,
     Entry,
+    Origin,
     Seek,
     size_of,
     TakeBack,
@@ -45,12 +37,7 @@ from physsim_ros.simulation.hands import Hands
 from physsim_ros.simulation.parts import at_once, in_parts, Parted, Parts
 from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
-
-__all__ = ['Amend', 'RequestQueue', 'TakeBack', 'Unread', 'Wait']
-
-# Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
-# bodies. Up to twice that number of answers are kept one by one.
-MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
+from physsim_ros.simulation.waiting_entries import WaitingEntries
 
 
 class _UnderWay(NamedTuple):
@@ -85,24 +72,16 @@ class RequestQueue:
         self.answers: list[Answer] = []
         self._past = past
         self._playback = playback
-        self._waiting: deque[Entry] = deque()
-        # Memory of the requests that wait [bytes].
-        self._size = 0
+        self._waiting = WaitingEntries()
         self._is_applying = False
         # Gesture of the last request that was applied.
         self._applied = 0
-        # Entries that a later one replaces: the waiting move of each hand, by its name, and a
-        # waiting seek that no request has followed.
-        self._moves: dict[str, Entry] = {}
-        self._seek: Entry | None = None
         # Answers the seek under way, or the call that began it; its argument tells by what it is
         # superseded, '' by nothing.
         self._answer_arrival: Callable[[str], object] | None = None
         # Whether the last call has sent the world elsewhere; the call that is under way.
         self._has_jumped = False
         self._under_way: _UnderWay | None = None
-        # Count of dropped answers that the last entry reports.
-        self._untold = 0
 
     # Submitting
 
@@ -117,59 +96,36 @@ class RequestQueue:
     def submit(
         self,
         request: Request | Unread | Amend | TakeBack,
+        origin: Origin,
         *,
-        topic: str,
         joined: bool = False,
         gesture: int | None = None,
-        field: str = '',
-        asker: str = '',
-        author: str = '',
     ) -> None:
         """
         Add a request; the next frame applies and answers it.
 
-        :param topic: its source
         :param joined: whether it is in the gesture of the entry before, and is undone with it
         :param gesture: number of an earlier gesture that it is in, whatever came between
-        :param field: the only field of its message, which a refusal names; '' if it has several
-        :param asker: key of the message that asks, which the answer names; '' for none
-        :param author: name of the person who did it; '' is nobody
         """
-        if isinstance(request, MoveHand) and request.hand in self._moves:
-            self._moves[request.hand].request = request
+        if isinstance(request, MoveHand) and self._waiting.replace_move(request):
             return
         size = size_of(request)
         if gesture is None:
             gesture = self.gesture if joined else self.begin_gesture()
         subject = request.subject if isinstance(request, Request | Unread) else ''
-        entry = Entry(request, topic, subject, gesture, field, asker, size, author)
-        if busy := self._busy(size):
-            self._add_answer(replace(entry, request=busy, size=0))
-            return
-        self._waiting.append(entry)
-        self._size += size
-        if not isinstance(request, MoveHand | KeepHand):
-            self._moves.clear()
-        self._seek = None
-        if isinstance(request, MoveHand):
-            self._moves[request.hand] = entry
+        entry = Entry(request, origin, subject, gesture, size)
+        if busy := self._waiting.busy(size):
+            self._waiting.add_answer(replace(entry, request=busy, size=0))
+        else:
+            self._waiting.add(entry)
 
-    def submit_seek(self, stamp: int, *, topic: str, asker: str = '') -> None:
-        """
-        Add a seek to a simulation time [ns], in place of one that is the last entry.
-
-        :param topic: its source
-        :param asker: key of the message that asks, which the answer names; '' for none
-        """
-        if busy := self._busy():
-            self.refuse(busy, topic=topic, subject='', joined=True, asker=asker)
+    def submit_seek(self, stamp: int, origin: Origin) -> None:
+        """Add a seek to a simulation time [ns], in place of one that is the last entry."""
+        if busy := self._waiting.busy():
+            self.refuse(busy, origin, joined=True)
             return
-        if (waiting := self._seek) is not None:
-            message = f'superseded by a seek to {stamp * 1e-9:.3f} s'
-            waiting.request = Answer(topic=waiting.topic, message=message, asker=waiting.asker)
-        self._moves.clear()
-        self._seek = Entry(Seek(stamp), topic, '', self.gesture, asker=asker)
-        self._waiting.append(self._seek)
+        seek = Seek(stamp)
+        self._waiting.add_seek(Entry(seek, origin, '', self.gesture), seek)
 
     def submit_call(
         self,
@@ -190,49 +146,28 @@ class RequestQueue:
                 self.tell(answer)
             on_told()
             return
-        if busy := self._busy():
+        if busy := self._waiting.busy():
             raise busy
-        self._moves.clear()
-        self._seek = None
         # Its answers have their own topics.
-        self._waiting.append(Entry(Call(call, wait, on_told), '', '', self.begin_gesture()))
+        entry = Entry(Call(call, wait, on_told), Origin(''), '', self.begin_gesture())
+        self._waiting.add(entry)
 
     def refuse(
-        self,
-        refusal: Refusal,
-        *,
-        topic: str,
-        subject: str,
-        joined: bool = False,
-        field: str = '',
-        asker: str = '',
+        self, refusal: Refusal, origin: Origin, *, subject: str = '', joined: bool = False
     ) -> None:
         """
-        Add the refusal of a message that is no request; see `submit` for other parameters.
+        Add the refusal of a message that is no request.
 
         :param subject: name of the body or joint that the message names, or ''
+        :param joined: whether it is in the gesture of the entry before
         """
         gesture = self.gesture if joined else self.begin_gesture()
-        self._add_answer(Entry(refusal, topic, subject, gesture, field, asker))
+        self._waiting.add_answer(Entry(refusal, origin, subject, gesture))
 
     def tell(self, answer: Answer) -> None:
         """Add an answer without a request, in the order of entries."""
-        self._add_answer(Entry(answer, answer.topic, answer.subject, self.gesture))
-
-    def _busy(self, size: int = 0) -> Busy | None:
-        """Return a refusal if a request of a size [bytes] exceeds the limits."""
-        if len(self) < MOST_WAITING and self._size + size <= MOST_BYTES:
-            return None
-        return Busy(f'{len(self)} requests wait; this one was one too many')
-
-    def _add_answer(self, entry: Entry) -> None:
-        """Add an answer or a refusal; where too many wait, the last entry counts them."""
-        self._untold = self._untold + 1 if len(self) >= 2 * MOST_WAITING else 0
-        if self._untold > 1:
-            self._waiting.pop()
-        if self._untold:
-            entry.request = Busy(f'{self._untold} more answers are not told, too many wait')
-        self._waiting.append(entry)
+        entry = Entry(answer, Origin(answer.topic), answer.subject, self.gesture)
+        self._waiting.add_answer(entry)
 
     # Applying
 
@@ -293,12 +228,12 @@ class RequestQueue:
                         self._past.cursor.work(self._amend(change, entry))
                     case Seek(stamp=stamp):
                         message = self.seek(stamp)
-                        self._answer_arrival = partial(self._answer_seek, entry, message)
+                        self._answer_arrival = partial(self._answer_seek, entry.origin, message)
                     case request:
                         self._playback.changed = True
                         if isinstance(request, Unread):
                             request = request.convert()
-                        answer = self.apply_now(request, entry.gesture, entry.author)
+                        answer = self.apply_now(request, entry.gesture, entry.origin.author)
                         # Moves and drives come at the rate of frames.
                         if not isinstance(request, DriveRobot | MoveHand | KeepHand):
                             self._answer(answer, entry)
@@ -316,15 +251,9 @@ class RequestQueue:
         self._is_applying = True
         try:
             self._continue_call()
-            while self._waiting and self._is_ready(self._waiting[0]):
+            while (first := self._waiting.first) and self._is_ready(first):
                 self.note_arrival()
-                entry = self._waiting.popleft()
-                self._size -= entry.size
-                request = entry.request
-                if isinstance(request, MoveHand) and self._moves.get(request.hand) is entry:
-                    del self._moves[request.hand]
-                if entry is self._seek:
-                    self._seek = None
+                entry = self._waiting.take()
                 if entry.is_for_world:
                     self._applied = entry.gesture
                 yield entry
@@ -363,18 +292,17 @@ class RequestQueue:
         self.answers += answers
         call.on_told()
 
-    def _answer_seek(self, entry: Entry, message: str, superseded: str) -> None:
+    def _answer_seek(self, origin: Origin, message: str, superseded: str) -> None:
         """Collect the answer to a seek."""
-        self.answers.append(
-            Answer(topic=entry.topic, message=superseded or message, asker=entry.asker)
-        )
+        told = superseded or message
+        self.answers.append(Answer(topic=origin.topic, message=told, asker=origin.asker))
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
         """Change the past in parts, and collect the answers."""
-        past, author = self._past, entry.author
+        past, author = self._past, entry.origin.author
         results: list[Answer | Refusal]
         try:
-            with past.boundary.reading(entry.topic):
+            with past.boundary.reading(entry.origin.topic):
                 if isinstance(change, Amend):
                     results = yield from amend(past, change.gestures, change.requests, author)
                 else:
@@ -387,9 +315,10 @@ class RequestQueue:
 
     def _answer(self, result: Answer | Refusal, entry: Entry) -> None:
         """Collect the answer to a request that waited."""
+        topic, field, asker, _ = entry.origin
         if isinstance(result, Refusal):
-            result = Answer.refused(result, topic='', subject=entry.subject, field=entry.field)
-        self.answers.append(replace(result, topic=entry.topic, asker=entry.asker))
+            result = Answer.refused(result, topic=topic, subject=entry.subject, field=field)
+        self.answers.append(replace(result, topic=topic, asker=asker))
 
     def apply_now(self, request: Request, gesture: int, author: str = '') -> Answer:
         """

@@ -22,6 +22,7 @@ from physsim_ros.model.declarations import check_key
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.sketchpad.rights import check_right, Right, Role
 
 # Levels of nested lists and mappings; a stroke has three, a body five.
@@ -75,25 +76,6 @@ class Message(NamedTuple):
     request: str
     kind: Kind
     arguments: dict[str, Any]
-
-
-class Origin(NamedTuple):
-    """
-    The origin of a request.
-
-    :ivar page: number of the page that asks
-    :ivar request: identifier of the page's message
-    :ivar topic: that the answers name
-    """
-
-    page: int
-    request: str
-    topic: str
-
-    @property
-    def asker(self) -> str:
-        """Return the key that goes with a request, and comes back with its answer."""
-        return f'{self.page}:{self.request}'
 
 
 # By the type that messages name.
@@ -224,10 +206,25 @@ def _check_depth(value: object) -> None:
 # Answers
 
 
+def asker_key(page: int, request: str) -> str:
+    """
+    Return the key that goes with a request, and comes back with its answers.
+
+    :param page: number of the page that asks
+    :param request: identifier of the page's message
+    """
+    return f'{page}:{request}'
+
+
 def asker_of(key: str) -> tuple[int, str]:
     """Return page and identifier of the key of an answer; -1 where no page has asked."""
     page, _, request = key.partition(':')
     return (int(page), request) if page else (-1, '')
+
+
+def request_of(origin: Origin) -> str:
+    """Return the identifier of the page's message from which a request comes."""
+    return asker_of(origin.asker)[1]
 
 
 def answer_content(answer: Answer, request: str) -> dict[str, Any]:

@@ -23,12 +23,12 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
+from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.parts import in_parts, Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened
-from physsim_ros.sketchpad.message import answer_content, Content, Message, Origin
+from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts
 from physsim_ros.sketchpad.results import Result, Results
 from physsim_ros.sketchpad.rights import (
@@ -122,7 +122,8 @@ class PageSession:
         """Carry out a message."""
         self.drawing.settings = self.world.drawing_settings
         kind = message.kind
-        origin = Origin(self.number, message.request, kind.topic)
+        asker = asker_key(self.number, message.request)
+        origin = Origin(kind.topic, asker=asker, author=author_of(self.person, self.role))
         try:
             with self.world.boundary.message(kind.topic):
                 check_right(kind.right, self.role, frozen=self.world.is_frozen)
@@ -158,11 +159,6 @@ class PageSession:
 
     # Requests
 
-    @property
-    def author(self) -> str:
-        """Return who makes its requests: a teacher is not a pupil of the same name."""
-        return author_of(self.person, self.role)
-
     def submit(
         self,
         origin: Origin,
@@ -183,11 +179,11 @@ class PageSession:
         requests = tuple(requests)
         self.check_locked(requests)
         queue = self.world.simulation.requests
-        topic, asker = origin.topic, origin.asker
         if message:
+            topic, asker = origin.topic, origin.asker
             queue.tell(Answer(topic=topic, message=message, values=values, asker=asker))
         for request in requests:
-            queue.submit(request, topic=topic, gesture=gesture, asker=asker, author=self.author)
+            queue.submit(request, origin, gesture=gesture)
             gesture = queue.gesture if gesture is None else gesture
         return gesture or 0
 
@@ -250,8 +246,7 @@ class PageSession:
 
     def refuse(self, origin: Origin, refusal: Refusal) -> None:
         """Queue the refusal of a message."""
-        queue = self.world.simulation.requests
-        queue.refuse(refusal, topic=origin.topic, subject='', asker=origin.asker)
+        self.world.simulation.requests.refuse(refusal, origin)
 
     def answer_page(self, origin: Origin, message: str, **details: Any) -> None:
         """
@@ -259,7 +254,8 @@ class PageSession:
 
         :param details: other fields of the answer
         """
-        self.send(answer_content(Answer(topic='page', message=message, **details), origin.request))
+        answer = Answer(topic='page', message=message, **details)
+        self.send(answer_content(answer, request_of(origin)))
 
     def perform(self, origin: Origin, action: Parted[str], wait: Wait = Wait.NONE) -> None:
         """
@@ -280,7 +276,7 @@ class PageSession:
 
     def _submit_unasked(self, request: HandRequest) -> None:
         """Submit a request of the hand that no message asks for."""
-        self.world.simulation.requests.submit(request, topic='~/drag/feedback')
+        self.world.simulation.requests.submit(request, Origin('~/drag/feedback'))
 
     def _send_preview(self) -> None:
         """Send the page its unfinished gesture, if that has changed."""
@@ -292,7 +288,7 @@ class PageSession:
 
 
 def author_of(person: str, role: Role) -> str:
-    """Return the author of the requests of a person of a role."""
+    """Return the author of the requests of a person: a teacher is no pupil of that name."""
     return person + _TEACHES if role is Role.TEACH else person
 
 

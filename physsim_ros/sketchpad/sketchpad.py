@@ -20,11 +20,11 @@ from typing import Any
 from physsim_ros.files import OwnWorlds, text_of
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Wait
+from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
-from physsim_ros.sketchpad.message import Message, Origin
+from physsim_ros.sketchpad.message import asker_key, Message
 from physsim_ros.sketchpad.page_session import answers_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts, timeline_content, TimelineReport
 from physsim_ros.sketchpad.results import Results, results_file
@@ -236,7 +236,8 @@ class Sketchpad:
 
     def _replace_world(self, upload: Upload) -> None:
         """Replace the world by an uploaded one, and tell the answer to the uploader too."""
-        origin, simulation = Origin(UPLOADERS, '', '~/load_world'), self._simulation
+        origin = Origin('~/load_world', asker=asker_key(UPLOADERS, ''))
+        simulation = self._simulation
 
         async def answers() -> tuple[Answer]:
             load = partial(opened, simulation, upload.content)
@@ -251,7 +252,7 @@ class Sketchpad:
                 self._world.submit_call(answers, Wait.FOR_SEEK)
         except Refusal as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
-            simulation.requests.refuse(refusal, topic=origin.topic, subject='')
+            simulation.requests.refuse(refusal, origin)
 
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""

@@ -19,8 +19,8 @@ from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import on_thread, state_from
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.parts import Parted
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of
 
@@ -109,13 +109,8 @@ class WorldControl(Protocol):
         :raises Refusal: it is out of range
         """
 
-    def submit_seek(self, stamp: int, *, topic: str, asker: str) -> None:
-        """
-        Go to a simulation time [ns], in place of a seek under way; its end is answered.
-
-        :param topic: its source
-        :param asker: key of the message that asks, which the answer names
-        """
+    def submit_seek(self, stamp: int, origin: Origin) -> None:
+        """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
 
 
 async def opened(simulation: Simulation, content: Mapping[str, Any]) -> str:

@@ -16,6 +16,7 @@ from physsim_ros.model.requests import Anchor, Grab, Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.transform import cross
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -344,10 +345,10 @@ def drawn_and_cut(kind, points, end):
     simulation = Simulation(settings=WorldSettings(gravity=(0.0, 0.0)))
     joint = Join(name='j/0', kind=JointKind(kind), points=points, a='a/0', b='world')
     for request in (spawning('a/0', BOX), joint):
-        simulation.requests.submit(request, topic='t', author='ann')
+        simulation.requests.submit(request, Origin('t', author='ann'))
     simulation.advance_frame()
     request = knife.cut((0.3, -2.0), (0.3, end), scene_of(simulation))
-    simulation.requests.submit(request, topic='t', author='ben')
+    simulation.requests.submit(request, Origin('t', author='ben'))
     simulation.advance_frame()
     return simulation
 

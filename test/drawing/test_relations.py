@@ -17,6 +17,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Command, Delete, Join, Request, Spawn
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import rotated_each
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -178,7 +179,7 @@ def readings(drawn: Drawn) -> str:
     before, strokes = drawn
     simulation = Simulation(speed=0.0)
     for request in before:
-        simulation.requests.submit(request, topic='')
+        simulation.requests.submit(request, Origin(''))
     frame = simulation.advance_frame()
     frame = simulation.apply_requests() or frame
     session, now, meaning = DrawingSession(DrawingSettings()), 0.0, ''
@@ -189,7 +190,7 @@ def readings(drawn: Drawn) -> str:
         except Refusal:
             meaning = ''
             continue
-        submit_reading(simulation, session, reading, topic='')
+        submit_reading(simulation, session, reading, Origin(''))
         frame = simulation.apply_requests() or frame
         meaning = ' '.join((reading.meaning, *concerned(reading.requests)))
     return meaning

@@ -22,6 +22,7 @@ from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -42,7 +43,7 @@ class Desk:
 
     def spawn(self, *requests: Request) -> None:
         for request in requests:
-            self.simulation.requests.submit(request, topic='t')
+            self.simulation.requests.submit(request, Origin('t'))
         self._settle()
 
     def draw(self, way: Way | Floats, *, after: float = 0.3) -> Reading:
@@ -76,7 +77,7 @@ class Desk:
         return self.simulation.world.snapshot().scene
 
     def _submit(self, reading: Reading) -> None:
-        submit_reading(self.simulation, self.session, reading, topic='~/stroke')
+        submit_reading(self.simulation, self.session, reading, Origin('~/stroke'))
         self._settle()
 
     def _settle(self) -> None:

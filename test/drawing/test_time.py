@@ -16,6 +16,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.transform import Point
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -44,7 +45,7 @@ class Studio:
         self.tick()
 
     def ask(self, request: Any) -> None:
-        self.simulation.requests.submit(request, topic='~/test')
+        self.simulation.requests.submit(request, Origin('~/test'))
 
     def tick(self) -> tuple[Answer, ...]:
         """Let a sixtieth of a second pass, and return what is answered."""

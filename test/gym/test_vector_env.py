@@ -5,6 +5,10 @@
 
 from __future__ import annotations
 
+from copy import copy, deepcopy
+import pickle
+from typing import Any
+
 import gymnasium
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import numpy as np
@@ -65,6 +69,25 @@ def test_saved_worlds_continue_to_the_bit_ended_ones_too() -> None:
     assert [env.robot.simulation.step for env in many.envs] == steps
     with pytest.raises(Malformed, match='saved must be of class SavedEpisode, not None'):
         many.restore([*saved[:-1], (None, False)])
+
+
+def pickled(many: RobotVectorEnv) -> RobotVectorEnv:
+    copied: RobotVectorEnv = pickle.loads(pickle.dumps(many))  # noqa: S301 - its own
+    return copied
+
+
+@pytest.mark.parametrize('copied', [copy, deepcopy, pickled])
+def test_a_copy_has_worlds_of_its_own_which_continue_to_the_bit(copied: Any) -> None:
+    many = RobotVectorEnv(task(longest=0.5), COUNT)
+    many.reset(seed=1)
+    for step in range(4):
+        many.step(actions(step))
+    other = copied(many)
+    told = [
+        [tuple(each.tolist() for each in vector.step(actions(step))[:4]) for step in range(5, 9)]
+        for vector in (many, other)
+    ]
+    assert told[0] == told[1]
 
 
 def test_worlds_tell_the_seeds_of_the_episodes_that_begin() -> None:

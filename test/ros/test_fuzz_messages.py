@@ -31,6 +31,7 @@ from physsim_ros.ros.encoders.streams import ContactsEncoder, PosesEncoder, Stat
 from physsim_ros.ros.planar import rotation_of
 from physsim_ros.ros.publishers.status_publishers import encode_event
 from physsim_ros.ros.requests import conversions
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, disc
 import pytest
@@ -233,9 +234,9 @@ class Fuzzed:
             request = CONVERT[topic](message, frame_id='world')
         except Refusal as refusal:
             subject = conversions.subject_of(message, joint=topic == '~/join')
-            self.simulation.requests.refuse(refusal, topic=topic, subject=subject)
+            self.simulation.requests.refuse(refusal, Origin(topic), subject=subject)
         else:
-            self.simulation.requests.submit(request, topic=topic)
+            self.simulation.requests.submit(request, Origin(topic))
         frame = self.simulation.apply_requests()
         assert frame is not None
         (answer,) = frame.answers

@@ -8,6 +8,7 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rcl_interfaces.srv import SetParameters
@@ -133,7 +134,7 @@ def begin_seek(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> None:
     """Begin a seek as with ticks, which bring the world to the cached frame that is shown."""
     physsim.run(1.0)
     monkeypatch.setattr(physsim.node.loop, 'started', True)
-    physsim.node.simulation.requests.submit_seek(500_000_000, topic='~/seek')
+    physsim.node.simulation.requests.submit_seek(500_000_000, Origin('~/seek'))
 
 
 @pytest.mark.parametrize('waits', [False, True])

@@ -14,7 +14,7 @@ from physsim_ros.model.requests import ChangeBody, Request, Restore, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import TakeBack
+from physsim_ros.simulation.entries import Origin, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -54,7 +54,7 @@ class Driven:
             self.shown[frame.snapshot.step] = frame
 
     def ask(self, request: Request, *, joined: bool = False) -> None:
-        self.simulation.requests.submit(request, topic='~/test', joined=joined)
+        self.simulation.requests.submit(request, Origin('~/test'), joined=joined)
 
     def apply_requests(self) -> Frame:
         return self.simulation.apply_requests()
@@ -92,14 +92,14 @@ def world_after(*timed: tuple[int, str, Request], frames: int = 60) -> Simulatio
     for frame in range(frames):
         for at, author, request in timed:
             if at == frame:
-                simulation.requests.submit(request, topic='t', author=author)
+                simulation.requests.submit(request, Origin('t', author=author))
         simulation.advance_frame()
     return simulation
 
 
 def take_back(simulation: Simulation, author: str) -> Answer:
     """Have the last gesture of a person be taken back, and return the answer."""
-    simulation.requests.submit(TakeBack(), topic='~/undo', author=author)
+    simulation.requests.submit(TakeBack(), Origin('~/undo', author=author))
     simulation.requests.apply_waiting()
     (answer,) = (each for each in simulation.requests.take_answers() if each.topic == '~/undo')
     return answer

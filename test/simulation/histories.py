@@ -33,8 +33,8 @@ from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.simulation.entries import Amend, Origin, TakeBack
 from physsim_ros.simulation.past import Past
-from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 
 from .random_history import history_of, Operation, SETTINGS, shipped_world
@@ -182,7 +182,7 @@ class Player:
     def seek_overdue(self, share: float, calls: int) -> None:
         """Seek in calls that have too little time; the next operation may find it under way."""
         step = self._step_at(share)
-        self.sim.requests.submit_seek(self._stamp(step), topic='~/fuzz')
+        self.sim.requests.submit_seek(self._stamp(step), Origin('~/fuzz'))
         while len(self.sim.requests):
             # Another seek may be under way.
             self._call_overdue(1)
@@ -250,7 +250,7 @@ class Player:
         """
         before = self._position()
         theirs = [each.gesture for each in before.made if each.author == author]
-        self.sim.requests.submit(TakeBack(), topic='~/fuzz', asker='me', author=author)
+        self.sim.requests.submit(TakeBack(), Origin('~/fuzz', author=author, asker='me'))
         made = [*self._frames_overdue(calls), self.sim.apply_requests()]
         frames = [frame for frame in made if frame is not None]
         answers = [answer for frame in frames for answer in frame.answers]
@@ -284,7 +284,7 @@ class Player:
         if self.dropped or not gestures:
             return
         gesture = gestures[-min(back, len(gestures))]
-        self.sim.requests.submit(Amend((gesture,), tuple(requests)), topic='~/fuzz')
+        self.sim.requests.submit(Amend((gesture,), tuple(requests)), Origin('~/fuzz'))
         frames = [*self._frames_overdue(calls), self.sim.apply_requests()]
         later = self._cut(before, gesture)
         self.submitted += requests
@@ -419,7 +419,7 @@ class Player:
 
     def _submit(self, request: Request, author: str = '', *, joined: bool = False) -> None:
         self.submitted.append(request)
-        self.sim.requests.submit(request, topic='~/fuzz', author=author, joined=joined)
+        self.sim.requests.submit(request, Origin('~/fuzz', author=author), joined=joined)
 
     def _perform(self, action: str) -> None:
         """Undo, redo or reset."""

@@ -6,9 +6,9 @@
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.requests import Axle, Configure, Delete, MoveBodies, Request
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.entries import Amend, Origin, TakeBack
 from physsim_ros.simulation.past import amendment
 from physsim_ros.simulation.past.cursor import Cursor
-from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -27,7 +27,7 @@ def begun() -> Simulation:
 
 def amend(simulation: Simulation, gestures: list[int], requests: list[Request]) -> Frame:
     """Replace the requests of gestures, and return the frame that shows it."""
-    simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), topic='t', joined=True)
+    simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), Origin('t'), joined=True)
     return simulation.apply_requests()
 
 
@@ -39,7 +39,7 @@ def test_an_amended_world_is_where_it_would_have_come_with_those_requests():
     gesture = other.requests.gesture
     for frame in range(10, 90):
         if frame == 30:
-            other.requests.submit(later, topic='t')
+            other.requests.submit(later, Origin('t'))
         other.advance_frame()
 
     amend(other, [gesture], [ball])
@@ -62,8 +62,8 @@ def test_the_amended_gesture_is_undone_as_one():
 def test_what_the_amended_past_refuses_later_is_dropped():
     simulation = begun()
     gesture = simulation.requests.gesture
-    simulation.requests.submit(Delete(name='t/0'), topic='t')
-    simulation.requests.submit(Configure(changes={'damping': 0.5}), topic='t')
+    simulation.requests.submit(Delete(name='t/0'), Origin('t'))
+    simulation.requests.submit(Configure(changes={'damping': 0.5}), Origin('t'))
     simulation.advance_frame()
 
     amend(simulation, [gesture], [spawning('t/1', DISC)])
@@ -85,7 +85,7 @@ def test_a_refused_request_is_answered_and_the_others_hold():
 def test_several_gestures_become_one():
     simulation = begun()
     first = simulation.requests.gesture
-    simulation.requests.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), topic='t')
+    simulation.requests.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), Origin('t'))
     second = simulation.requests.gesture
     simulation.advance_frame()
 
@@ -174,10 +174,10 @@ def test_a_reading_that_would_take_long_to_replace_stays(monkeypatch):
 
 def test_commands_that_joined_a_gesture_are_not_taken_back_with_it():
     simulation = world_after(ANNA)
-    simulation.requests.submit(spawning('c/0', BOX, (0.0, 3.0, 0.0)), topic='t', author='Anna')
+    simulation.requests.submit(spawning('c/0', BOX, (0.0, 3.0, 0.0)), Origin('t', author='Anna'))
     # As commands of robots do.
     later = spawning('d/0', BOX, (6.0, 3.0, 0.0))
-    simulation.requests.submit(later, topic='t', joined=True)
+    simulation.requests.submit(later, Origin('t'), joined=True)
     simulation.advance_frame()
 
     take_back(simulation, 'Anna')
@@ -189,10 +189,10 @@ def test_a_later_moment_of_a_gesture_leaves_the_gestures_between_alone():
     simulation = world_after(ANNA)
     gesture = simulation.requests.gesture
     queue = simulation.requests
-    queue.submit(spawning('b/0', BOX, RIGHT), topic='t', author='Ben')
+    queue.submit(spawning('b/0', BOX, RIGHT), Origin('t', author='Ben'))
     between = queue.gesture
     late = spawning('a/1', DISC, (0.0, 9.0, 0.0))
-    queue.submit(late, topic='t', gesture=gesture, author='Anna')
+    queue.submit(late, Origin('t', author='Anna'), gesture=gesture)
     simulation.advance_frame()
     assert queue.gesture == between
 
@@ -212,7 +212,7 @@ def test_what_a_person_has_added_and_is_still_there_is_told():
 def test_what_a_person_added_is_what_was_added_last_by_them():
     again = (30, 'Ben', spawning('a/0', DISC, LEFT))
     simulation = world_after(ANNA, BEN, (25, 'Anna', Delete(name='a/0')), again)
-    simulation.requests.submit(Axle(point=LEFT[:2]), topic='t', author='Anna')
+    simulation.requests.submit(Axle(point=LEFT[:2]), Origin('t', author='Anna'))
     simulation.advance_frame()
 
     assert simulation.past.added_by('Ben') == (('b/0', 'a/0'), ())
@@ -259,7 +259,7 @@ def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_we
 
     with monkeypatch.context() as patch:
         patch.setattr(Cursor, 'advance', fail)
-        simulation.requests.submit(change, topic='t', author='Anna')
+        simulation.requests.submit(change, Origin('t', author='Anna'))
         frame = simulation.apply_requests()
 
     assert [each.code for each in frame.answers] == ['failed']

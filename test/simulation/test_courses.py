@@ -10,6 +10,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Delete, Request
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past.tree import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
@@ -223,7 +224,7 @@ def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off
 def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_there():
     sim = Simulation()
     assert sim.apply_requests() is not None
-    sim.requests.submit(spawning('a/0', BOX, anchored=True), topic='')
+    sim.requests.submit(spawning('a/0', BOX, anchored=True), Origin(''))
     sim.advance_frame()
     # Frames back to the checkpoint after the request are made again, from its step on.
     sim.speed = -0.3

@@ -12,6 +12,7 @@ from physsim_ros.model.settings import MOST_HANDS, WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -162,13 +163,13 @@ def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs():
     # In a paused world no hand lets go since it is silent.
     for hand in ('h', 'k'):
         sim.perform(spawning('a/0', DISC))
-        sim.requests.submit(Grab(hand=hand, point=(0.0, 0.0)), topic=TOPIC)
+        sim.requests.submit(Grab(hand=hand, point=(0.0, 0.0)), Origin(TOPIC))
         sim.apply_requests()
         before = sim.world.grips
         sim.perform(Delete(name='a/0'))
         assert [grip.hand for grip in before] == [hand]
     sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='l', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='l', point=(0.0, 0.0)), Origin(TOPIC))
     sim.apply_requests()
 
     hands = sim.requests.hands
@@ -209,13 +210,13 @@ def test_a_sleeping_body_wakes_and_the_hand_keeps_it_awake():
 def test_a_hand_loses_a_body_that_it_can_move_no_more(request_):
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), Origin(TOPIC))
     sim.advance_frame()
     sim.perform(request_)
 
     assert sim.advance_frame().snapshot.grips == ()
     for request in (MoveHand(hand='h', point=(1.0, 1.0)), LetGo(hand='h')):
-        sim.requests.submit(request, topic=TOPIC)
+        sim.requests.submit(request, Origin(TOPIC))
     assert sim.advance_frame().answers == (Answer(topic=TOPIC, message='h holds no body'),)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from physsim_ros.model.requests import Configure, Grab, HandRequest, LetGo, MoveHand, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Compound, Disc
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -22,7 +23,7 @@ TOPIC = '~/drag/feedback'
 def use(sim: Simulation, *requests: HandRequest) -> None:
     """Submit requests of hands."""
     for request in requests:
-        sim.requests.submit(request, topic=TOPIC)
+        sim.requests.submit(request, Origin(TOPIC))
 
 
 def holding() -> Simulation:

@@ -6,7 +6,7 @@
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Amend, TakeBack, Unread, Wait
+from physsim_ros.simulation.entries import Amend, Origin, TakeBack, Unread, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -23,7 +23,7 @@ def simulation() -> Simulation:
     simulation = Simulation(settings=FLOOR)
     for number in range(4):
         disc = spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0))
-        simulation.requests.submit(disc, topic='')
+        simulation.requests.submit(disc, Origin(''))
     return simulation
 
 
@@ -58,7 +58,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(simulation, digests
 
 def test_requests_wait_for_the_end_of_a_seek_and_apply_there(simulation, digests):
     simulation.seek(SECOND)
-    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
     _, frame = ticks_to_a_frame(simulation, 0)
     assert [answer.subject for answer in frame.answers if answer.topic == '~/spawn'] == ['late/0']
     assert frame.snapshot.step == 240
@@ -70,10 +70,10 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(
 ):
     simulation.past.frames.drop_from(0)
     simulation.speed = speed
-    simulation.requests.submit_seek(2 * SECOND, topic='~/seek')
-    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
-    simulation.requests.submit_seek(SECOND, topic='~/seek')
-    simulation.requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    simulation.requests.submit_seek(2 * SECOND, Origin('~/seek'))
+    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
+    simulation.requests.submit_seek(SECOND, Origin('~/seek'))
+    simulation.requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
     # Up to the first seek, and to the second, which begins when the first is done.
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 150
@@ -96,9 +96,9 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulatio
         saved.append(simulation.save())
         return [Answer(topic='~/clear', message=simulation.perform(DeleteAll()))]
 
-    requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
     requests.submit_call(clear, Wait.FOR_SEEK)
-    requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), topic='~/spawn')
+    requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), Origin('~/spawn'))
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 50
     assert len(saved[0].bodies) == 5
@@ -115,13 +115,13 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulatio
 def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
     simulation.seek(SECOND)
     queue = simulation.requests
-    queue.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn', author='Anna')
+    queue.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn', author='Anna'))
 
     def deletion() -> DeleteBodies:
         names, joints = simulation.past.added_by('Anna')
         return DeleteBodies(names=names, joints=joints)
 
-    queue.submit(Unread('', deletion), topic='~/command')
+    queue.submit(Unread('', deletion), Origin('~/command'))
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 50
     assert [answer.message for answer in frame.answers if answer.topic == '~/command'] == [
@@ -133,7 +133,7 @@ def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
 def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
     amend = Amend((4,), (spawning('other/0', DISC, (5.0, 1.0, 0.0)),))
-    simulation.requests.submit(amend, topic='~/stroke', joined=True)
+    simulation.requests.submit(amend, Origin('~/stroke'), joined=True)
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 100
     assert [answer.subject for answer in frame.answers if answer.topic == '~/stroke'] == [
@@ -188,13 +188,13 @@ def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_plac
     simulation, digests, other
 ):
     simulation.past.frames.drop_from(0)
-    simulation.requests.submit_seek(2 * SECOND, topic='~/seek', asker='1')
+    simulation.requests.submit_seek(2 * SECOND, Origin('~/seek', asker='1'))
     for tick in range(50):
         assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
         assert not told_of_seeks(simulation)
     match other:
         case 'seek':
-            simulation.requests.submit_seek(SECOND, topic='~/seek', asker='2')
+            simulation.requests.submit_seek(SECOND, Origin('~/seek', asker='2'))
             assert not simulation.apply_up_to_seek()
             assert told_of_seeks(simulation) == [('1', 'superseded by a seek to 1.000 s')]
         case 'undo':
@@ -216,7 +216,7 @@ def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewher
 ):
     for number in range(2):
         late = spawning(f'late/{number}', DISC, (5.0 + number, 1.0, 0.0))
-        simulation.requests.submit(late, topic='~/spawn')
+        simulation.requests.submit(late, Origin('~/spawn'))
     simulation.apply_requests()
     told: list[str] = []
 
@@ -233,7 +233,7 @@ def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewher
         assert not simulation.requests.take_answers()
     match ends_by:
         case 'seek':
-            simulation.requests.submit_seek(SECOND, topic='~/seek')
+            simulation.requests.submit_seek(SECOND, Origin('~/seek'))
         case 'another undo':
             undo('second')
     simulation.apply_up_to_seek()
@@ -268,10 +268,10 @@ def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, di
 def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     simulation.reports_contacts = True
-    simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), topic='')
+    simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), Origin(''))
     shown = [simulation.advance_frame() for _ in range(60)]
     # It belongs to the step at which it is applied, though no frame came before the next seek.
-    simulation.requests.submit(spawning('disc/1', DISC, (3.0, 1.0, 0.0)), topic='')
+    simulation.requests.submit(spawning('disc/1', DISC, (3.0, 1.0, 0.0)), Origin(''))
     middle, end = shown[29], shown[-1]
     simulation.seek(middle.snapshot.stamp)
     again = simulation.apply_requests()
@@ -296,9 +296,8 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(simulation, digests):
 def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     for number in range(40):
-        simulation.requests.submit(
-            spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0)), topic=''
-        )
+        disc = spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0))
+        simulation.requests.submit(disc, Origin(''))
         if number == 38:
             simulation.apply_requests()
             digest = simulation.world.digest()
@@ -337,8 +336,8 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
     take_back(other, 'Anna')
     step = simulation.step
     queue = simulation.requests
-    queue.submit(TakeBack(), topic='~/undo', author='Anna', asker='anna')
-    queue.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    queue.submit(TakeBack(), Origin('~/undo', author='Anna', asker='anna'))
+    queue.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
     for tick in range(400):
         steps.clear()
         assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
@@ -361,7 +360,7 @@ def test_a_refused_amendment_goes_back_bit_by_bit(steps):
     simulation.perform(MoveBodies(names=('Anna/0',), by=(1.0, 0.0)))
     simulation.run(2.0)
     before = simulation.world.digest()
-    simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
+    simulation.requests.submit(TakeBack(), Origin('~/undo', author='Anna'))
     for tick in range(1000):
         steps.clear()
         frames = simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
@@ -375,7 +374,7 @@ def test_a_refused_amendment_goes_back_bit_by_bit(steps):
 @pytest.mark.parametrize('way', ['seek', 'undo', 'queued', 'contacts', 'begin', 'reader'])
 def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
     simulation = of_anna_and_ben(seconds=2)
-    simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
+    simulation.requests.submit(TakeBack(), Origin('~/undo', author='Anna'))
     for tick in range(20):
         assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
     assert simulation.past.cursor.is_amending
@@ -385,7 +384,7 @@ def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
         case 'undo':
             simulation.undo()
         case 'queued':
-            simulation.requests.submit_seek(SECOND, topic='~/seek')
+            simulation.requests.submit_seek(SECOND, Origin('~/seek'))
             assert not simulation.apply_up_to_seek()
             assert simulation.past.cursor.is_amending
         case 'contacts':

@@ -9,9 +9,9 @@ from physsim_ros.model.errors import Malformed
 from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation import request_queue
-from physsim_ros.simulation.entries import size_of
-from physsim_ros.simulation.request_queue import RequestQueue, Wait
+from physsim_ros.simulation import waiting_entries
+from physsim_ros.simulation.entries import Origin, size_of, Wait
+from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -21,7 +21,7 @@ SPAWN = Spawn(name='a/0', shape=Disc(radius=0.2), pose=(0.0, 9.0, 0.0))
 
 def spawn(sim: Simulation, number: int) -> None:
     request = Spawn(name=f'a/{number}', shape=Disc(radius=0.2), pose=(number, 9.0, 0.0))
-    sim.requests.submit(request, topic='~/spawn')
+    sim.requests.submit(request, Origin('~/spawn'))
 
 
 def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered():
@@ -31,7 +31,7 @@ def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered():
     for _ in range(120):
         sim.advance_frame()
     for number in range(1000):
-        sim.requests.submit_seek(round((0.2 + number / 1000) * SECOND), topic='~/seek')
+        sim.requests.submit_seek(round((0.2 + number / 1000) * SECOND), Origin('~/seek'))
 
     frame = sim.apply_requests()
 
@@ -45,10 +45,10 @@ def test_a_request_between_two_seeks_is_made_where_the_first_one_goes():
     sim = Simulation(speed=0.0)
     for _ in range(120):
         sim.advance_frame()
-    sim.requests.submit_seek(SECOND, topic='~/seek')
+    sim.requests.submit_seek(SECOND, Origin('~/seek'))
     spawn(sim, 7)
-    sim.requests.submit_seek(9 * SECOND, topic='~/seek')
-    sim.requests.submit_seek(SECOND // 2, topic='~/seek')
+    sim.requests.submit_seek(9 * SECOND, Origin('~/seek'))
+    sim.requests.submit_seek(SECOND // 2, Origin('~/seek'))
 
     frame = sim.apply_requests()
 
@@ -64,7 +64,7 @@ def test_a_request_between_two_seeks_is_made_where_the_first_one_goes():
 def test_a_seek_to_where_nothing_is_kept_is_refused():
     sim = Simulation(speed=0.0)
     sim.apply_requests()
-    sim.requests.submit_seek(9 * SECOND, topic='~/seek')
+    sim.requests.submit_seek(9 * SECOND, Origin('~/seek'))
 
     assert sim.apply_requests() is None
     (answer,) = sim.requests.take_answers()
@@ -75,7 +75,7 @@ def test_a_seek_to_where_nothing_is_kept_is_refused():
 def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(bound, monkeypatch):
     sim = Simulation(speed=0.0)
     size = size_of(SPAWN)
-    monkeypatch.setattr(request_queue, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
+    monkeypatch.setattr(waiting_entries, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
     for _ in range(2):
         for number in range(7):
             spawn(sim, number)
@@ -104,15 +104,15 @@ def applied(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out(applied):
     queue = Simulation().requests
     move, other = MoveHand(hand='h', point=(1.0, 1.0)), MoveHand(hand='h', point=(9.0, 9.0))
-    queue.submit(move, topic='~/drag/feedback')
-    queue.submit_seek(1, topic='~/seek')
+    queue.submit(move, Origin('~/drag/feedback'))
+    queue.submit_seek(1, Origin('~/seek'))
     queue.tell(Answer(topic='~/speed', message='speed 1'))
-    queue.submit_seek(2, topic='~/seek')
-    queue.submit(move, topic='~/drag/feedback')
-    queue.submit(other, topic='~/drag/feedback')
+    queue.submit_seek(2, Origin('~/seek'))
+    queue.submit(move, Origin('~/drag/feedback'))
+    queue.submit(other, Origin('~/drag/feedback'))
     queue.submit_call(lambda: applied.append('call') or [], Wait.FOR_SEEK)
-    queue.submit(move, topic='~/drag/feedback')
-    queue.submit_seek(3, topic='~/seek')
+    queue.submit(move, Origin('~/drag/feedback'))
+    queue.submit_seek(3, Origin('~/seek'))
 
     queue.apply_waiting()
 
@@ -125,7 +125,7 @@ def test_a_move_of_a_hand_overtakes_nothing_but_moves(applied):
     third, other = MoveHand(hand='h', point=(3.0, 1.0)), MoveHand(hand='i', point=(9.0, 9.0))
     delete, keep = Delete(name='a/0'), KeepHand(hand='h')
     for request in (first, other, keep, second, delete, third):
-        queue.submit(request, topic='~/drag/feedback')
+        queue.submit(request, Origin('~/drag/feedback'))
 
     queue.apply_waiting()
 
@@ -133,12 +133,12 @@ def test_a_move_of_a_hand_overtakes_nothing_but_moves(applied):
 
 
 def test_answers_that_are_too_many_are_counted(monkeypatch, applied):
-    monkeypatch.setattr(request_queue, 'MOST_WAITING', 5)
+    monkeypatch.setattr(waiting_entries, 'MOST_WAITING', 5)
     queue = Simulation().requests
-    queue.submit(SPAWN, topic='~/spawn')
+    queue.submit(SPAWN, Origin('~/spawn'))
     for stamp in range(100):
-        queue.refuse(Malformed('no'), topic='~/spawn', subject='')
-        queue.submit_seek(stamp, topic='~/seek')
+        queue.refuse(Malformed('no'), Origin('~/spawn'))
+        queue.submit_seek(stamp, Origin('~/seek'))
 
     queue.apply_waiting()
     answers = queue.take_answers()
@@ -149,6 +149,6 @@ def test_answers_that_are_too_many_are_counted(monkeypatch, applied):
     assert answers[-1].code == 'busy'
     assert answers[-1].message.startswith('191 more')
     # The next are told again.
-    queue.refuse(Malformed('no'), topic='~/spawn', subject='')
+    queue.refuse(Malformed('no'), Origin('~/spawn'))
     queue.apply_waiting()
     assert [each.code for each in queue.take_answers()] == ['malformed']

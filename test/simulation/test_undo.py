@@ -22,6 +22,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -302,8 +303,7 @@ def test_the_joints_of_a_namespace_are_named_by_it(sim):
 def test_requests_of_one_gesture_are_counted():
     sim = Simulation(speed=0.0)
     for number in range(3):
-        sim.requests.submit(
-            spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0
-        )
+        box = spawning(f'a/{number}', BOX, (2.0 * number, 0, 0))
+        sim.requests.submit(box, Origin(''), joined=number > 0)
     sim.apply_requests()
     assert sim.status.undo == 'undo spawn a/0 and 2 more'

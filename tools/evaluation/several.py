@@ -18,6 +18,7 @@ import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Spawn
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 
 from . import figures
@@ -41,7 +42,7 @@ class Sheet:
     def __init__(self, under: Sequence[Spawn] = ()) -> None:
         self.simulation = Simulation(speed=0.0)
         for request in under:
-            self.simulation.requests.submit(request, topic='')
+            self.simulation.requests.submit(request, Origin(''))
         self.session = DrawingSession(DrawingSettings())
         self.frame = self.simulation.advance_frame()
         self.frame = self.simulation.apply_requests() or self.frame
@@ -55,7 +56,7 @@ class Sheet:
             reading = self.session.stroke(samples, '', self.frame.snapshot, began=began)
         except Refusal:
             return ''
-        submit_reading(self.simulation, self.session, reading, topic='~/stroke')
+        submit_reading(self.simulation, self.session, reading, Origin('~/stroke'))
         self.frame = self.simulation.apply_requests() or self.frame
         return reading.meaning
 

@@ -22,7 +22,7 @@ from physsim_ros.model.texts import abbreviated, message_text, nearest_name
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.parameters.table import Type
 from physsim_ros.ros.requests.services import ServiceCalls
-from physsim_ros.simulation.request_queue import Wait
+from physsim_ros.simulation.entries import Wait
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import (

@@ -23,7 +23,8 @@ from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests import conversions
-from physsim_ros.simulation.request_queue import RequestQueue, Unread
+from physsim_ros.simulation.entries import Origin, Unread
+from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
@@ -92,7 +93,7 @@ class RequestTopics:
                 with self._boundary.message(topic):
                     callback(self._decoded(data, kind))
             except Refusal as refusal:
-                self._requests.refuse(refusal, topic=topic, subject='')
+                self._requests.refuse(refusal, Origin(topic))
 
         self._node.create_subscription(kind, topic, receive, LOSSLESS, raw=True)
 
@@ -114,14 +115,14 @@ class RequestTopics:
 
     def _submit(self, topic: str, convert: _Conversion, message: Any) -> None:
         """Submit the request of a message, or the refusal of the message."""
-        field = 'point' if isinstance(message, PointStamped) else ''
+        origin = Origin(topic, 'point' if isinstance(message, PointStamped) else '')
         try:
             request = convert(message, frame_id=self._frame_id)
         except Refusal as refusal:
             subject = conversions.subject_of(message, joint=topic == '~/join')
-            self._requests.refuse(refusal, topic=topic, subject=subject)
+            self._requests.refuse(refusal, origin, subject=subject)
         else:
-            self._requests.submit(request, topic=topic, field=field)
+            self._requests.submit(request, origin)
 
     def _spawn_array(self, message: MarkerArray) -> None:
         """Submit the markers of an array as one gesture; each is converted in its turn."""
@@ -135,9 +136,9 @@ class RequestTopics:
 
         for number, marker in enumerate(message.markers):
             unread = Unread(conversions.name_of(marker), partial(convert, marker))
-            self._requests.submit(unread, topic=topic, joined=number > 0)
+            self._requests.submit(unread, Origin(topic), joined=number > 0)
 
     def _make_walls(self, message: OccupancyGrid) -> None:
         requests = conversions.walls_requests(message, frame_id=self._frame_id)
         for number, request in enumerate(requests):
-            self._requests.submit(request, topic='~/walls', joined=number > 0)
+            self._requests.submit(request, Origin('~/walls'), joined=number > 0)

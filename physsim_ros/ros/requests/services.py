@@ -17,8 +17,9 @@ from typing import Any, NamedTuple
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import at_once, in_parts, Parted, Parts
-from physsim_ros.simulation.request_queue import RequestQueue, Wait
+from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 import rclpy.service

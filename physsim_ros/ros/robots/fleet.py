@@ -31,6 +31,7 @@ from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
@@ -132,11 +133,11 @@ class Fleet:
                 raise InPast(_IN_PAST)
         except Refusal as refusal:
             if commands.note_refused(refusal.code):
-                self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
+                self._refuse(body, refusal, topic)
         else:
             commands.note_carried_out()
             # Undone together with what was asked before it: nobody undoes a tick.
-            self._requests.submit(request, topic=topic, joined=True)
+            self._requests.submit(request, Origin(topic), joined=True)
 
     @property
     def _commands(self) -> list[Commands]:
@@ -161,7 +162,7 @@ class Fleet:
                 self.match_publishers()
 
     def _refuse(self, body: str, refusal: Refusal, topic: str) -> None:
-        self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
+        self._requests.refuse(refusal, Origin(topic), subject=body, joined=True)
 
     @property
     def in_lockstep(self) -> bool:

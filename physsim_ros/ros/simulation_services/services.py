@@ -18,8 +18,8 @@ from physsim_ros.ros.simulation_services.results import CodedRefusal, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.parts import at_once, in_parts, Parts
-from physsim_ros.simulation.request_queue import Wait
 from rclpy.action import ActionServer
 from rclpy.node import Node
 from rclpy.task import Future

@@ -153,10 +153,11 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
                 field='joint',
             )
     for command in request.commands:
-        properties = live.space.joints.by_name[command.joint].joint.properties
+        joints = live.space.joints
+        properties = joints.by_name[command.joint].joint.properties
         latency, rate = properties.latency or (0.0, 0.0), properties.command_rate or 0.0
-        begun = live.begin_of_command(command.joint, latency, rate)
-        if begun == live.step_count and not live.space.joints.coming.of(command.joint):
+        begun, is_at_once = live.begin_of_command(joints.coming, command.joint, latency, rate)
+        if is_at_once:
             live.space.command_motor(command, begun)
         else:
             live.space.command_motor_later(command, begun)

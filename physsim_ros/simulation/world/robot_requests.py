@@ -36,10 +36,12 @@ def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     if robot.drive is None:
         raise BadProperty(f'{request.name} has no drive', field='name')
     timeout = robot.drive.timeout if request.timeout is None else request.timeout
-    begun = live.begin_of_command(request.name, robot.drive.latency, robot.drive.command_rate)
+    begun, is_at_once = live.begin_of_command(
+        live.space.coming, request.name, robot.drive.latency, robot.drive.command_rate
+    )
     end = live.step_after(timeout)
     until = NEVER if end is None else end + begun - live.step_count
-    if begun == live.step_count and not live.space.coming.of(request.name):
+    if is_at_once:
         live.space.drive(rigid, request.velocity, until)
     else:
         aim = robot.drive.aim(request.velocity)

@@ -35,7 +35,8 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, Pose, REST, Twist
-from physsim_ros.sketchpad.message import message, Optional, Origin
+from physsim_ros.simulation.entries import Origin
+from physsim_ros.sketchpad.message import message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
@@ -135,7 +136,7 @@ def watch(page: PageSession, origin: Origin, name: str, *, forces: bool = False)
 
     :param forces: whether the forces on it are sent, too
     """
-    page.shared.pasts.ask(page.number, name, origin.request)
+    page.shared.pasts.ask(page.number, name, request_of(origin))
     if name and forces:
         page.shared.past_contacts.ask_forces(page.number, name)
 

@@ -11,8 +11,8 @@ import re
 from physsim_ros.model.checks import flag, Whole
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies
-from physsim_ros.simulation.request_queue import TakeBack, Unread
-from physsim_ros.sketchpad.message import message, Origin
+from physsim_ros.simulation.entries import Origin, TakeBack, Unread
+from physsim_ros.sketchpad.message import message
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import author_of, PageSession, TEACHER, UNNAMED
@@ -89,11 +89,10 @@ def take_back(page: PageSession, origin: Origin) -> None:
     """Undo the last gesture of the person at this page, where it stands alone; time stays."""
     # The last one may wait.
     page.world.current_snapshot()
-    simulation, author = page.world.simulation, page.author
-    last = simulation.past.tree.last_gesture_of(author)
+    simulation = page.world.simulation
+    last = simulation.past.tree.last_gesture_of(origin.author)
     page.check_taken_back(() if last is None else (last.gesture,))
-    queue = simulation.requests
-    queue.submit(TakeBack(), topic=origin.topic, asker=origin.asker, author=author)
+    simulation.requests.submit(TakeBack(), origin)
 
 
 @message('freeze', 'page', Right.TEACH, frozen=flag)
@@ -123,5 +122,4 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
         return DeleteBodies(names=bodies, joints=joints)
 
     # Requests that wait may add some.
-    queue = page.world.simulation.requests
-    queue.submit(Unread('', deletion), topic=origin.topic, asker=origin.asker, author=page.author)
+    page.world.simulation.requests.submit(Unread('', deletion), origin)

@@ -20,7 +20,8 @@ from physsim_ros.model.errors import BadProperty, Malformed, NotRecognised
 from physsim_ros.model.requests import Grab, LetGo, MoveHand
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.transform import Point
-from physsim_ros.sketchpad.message import message, Optional, Origin
+from physsim_ros.simulation.entries import Origin
+from physsim_ros.sketchpad.message import message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
@@ -94,15 +95,7 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> N
     outline = reading.outline.tolist()
     page.send(_reading_content(origin, reading.values, outline=outline, built=True))
     reading = replace(reading, requests=page.with_material(reading.requests))
-    simulation, asker = page.world.simulation, origin.asker
-    submit_reading(
-        simulation,
-        page.drawing,
-        reading,
-        topic=origin.topic,
-        asker=asker,
-        author=page.author,
-    )
+    submit_reading(page.world.simulation, page.drawing, reading, origin)
 
 
 def _reading_content(
@@ -117,7 +110,7 @@ def _reading_content(
     (meaning, confidence), (second, second_confidence) = [*guesses, ('', 0.0), ('', 0.0)][:2]
     return {
         'type': 'reading',
-        'request': origin.request,
+        'request': request_of(origin),
         'meaning': meaning,
         'confidence': confidence,
         'runner_up': second,

@@ -15,9 +15,9 @@ from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.parts import in_parts, Parted
-from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
+from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession
@@ -96,7 +96,7 @@ def set_speed(page: PageSession, origin: Origin, speed: float) -> None:
 @message('seek', '~/seek', time=_stamp)
 def seek(page: PageSession, origin: Origin, time: int) -> None:
     """Go to a simulation time, which a message has in [s] and the function in [ns]."""
-    page.world.submit_seek(time, topic=origin.topic, asker=origin.asker)
+    page.world.submit_seek(time, origin)
 
 
 @message('course', '~/timeline', course=Whole(0, 2**31))
@@ -225,4 +225,4 @@ def _text_content(
         answer = Answer.refused(refusal, topic='page')
     else:
         answer = Answer(topic='page', message='the world as text', values=(('yaml', text),))
-    return answer_content(answer, origin.request)
+    return answer_content(answer, request_of(origin))

@@ -12,7 +12,7 @@ from geometry_msgs.msg import TwistStamped
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.ros.robots import Fleet
-from physsim_ros.simulation.request_queue import TakeBack
+from physsim_ros.simulation.entries import Origin, TakeBack
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.time import Time as SimulationTime
@@ -139,10 +139,10 @@ def test_a_past_that_is_simulated_again_is_no_row_of_frames_for_controllers(
 ) -> None:
     simulation = flat.node.simulation
     spawn = Spawn(name='a/0', shape=Disc(radius=0.1))
-    simulation.requests.submit(spawn, topic='~/spawn', author='Anna')
+    simulation.requests.submit(spawn, Origin('~/spawn', author='Anna'))
     flat.run(10.0)
     monkeypatch.setattr(Fleet, 'in_lockstep', True)
-    simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
+    simulation.requests.submit(TakeBack(), Origin('~/undo', author='Anna'))
     ticks = 0
     while simulation.past.cursor.is_amending or len(simulation.world):
         flat.node.loop.tick(ticks * SECOND // 60)
