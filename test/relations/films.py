@@ -100,19 +100,20 @@ def unaccounted(sim, seconds):
     """
     Return the change of velocity that gravity, contacts and joints do not account for [m/s].
 
-    It is the greatest of all bodies and steps, for all steps until then.
+    It is the greatest of all bodies and steps, for all steps since the first one, which begins
+    with a jump of the engine's velocity (`half_step.c`).
 
     :param sim: one that publishes each step
     """
     sim.reports_contacts = True
-    first = sim.world.snapshot()
+    first = sim.advance_frame().snapshot
     scene, gravity = first.scene, np.array(first.scene.settings.gravity)
     row_of = {name: row for row, name in enumerate(scene.names)}
     moves = np.array([body.dynamic for body in scene.bodies])
     # The last row is that of the background.
     impulses = np.zeros((len(scene.names) + 1, 2))
     most = 0.0
-    for step in range(1, round(seconds * RATE) + 1):
+    for step in range(1, round(seconds * RATE)):
         frame = sim.advance_frame()
         now, contacts = frame.snapshot, frame.contacts
         np.add.at(impulses, contacts.pairs[:, 0], -contacts.impulses)

@@ -166,7 +166,8 @@ static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) 
         pair->places = add(pair->places, scaled(place, 0.5));
         pair->points++;
     }
-    pair->impulse = add(pair->impulse, scaled(impulse, sign));
+    double share = reported_share(body_of(arbiter->body_a), body_of(arbiter->body_b), impulse);
+    pair->impulse = add(pair->impulse, scaled(impulse, sign * share));
 }
 
 // Sensors, and kinematic bodies among themselves, overlap without points; Chipmunk lists them only here.

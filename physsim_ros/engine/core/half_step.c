@@ -16,13 +16,13 @@
 // Method: bodies that contacts or joints tie to nothing that stands are in free fall as one, without the impulses of
 // the step before; a search for that moment only.
 //
-// First forces.
-// Problem: what carries a body that was put at rest takes back its lead, too, and would give half a sub-step of weight
-// too much.
-// Method: a body whose velocity was set begins its flight in the first sub-step that it makes: after its move, the
-// lead is taken back, and it gets it again if nothing else has changed its velocity.
+// Reports.
 // Law: the impulses of contacts and joints, with gravity, are what changes the momentum of a body, but for m times a
-// lead: a body whose contact is lost flies without a jump of the engine's velocity.
+// lead: a body whose contact is lost flies without a jump of the engine's velocity, and lands without one.
+// Problem: a body whose velocity was set begins with such a jump, and what carries it takes that back: a body that is
+// put at rest on a floor would press with half a sub-step of weight too much.
+// Method: of an impulse in the first sub-step of such a body that share is reported with which the true velocity goes
+// into the velocity of the engine, along the impulse; at most the momenta of both leads are taken off.
 //
 // Cost: a comparison of velocities before and after each step.
 
@@ -171,16 +171,31 @@ void begin_half_step(World *world) {
     }
 }
 
-void take_back_leads(World *world) {
-    for (int number = 0; number < active_count(world); number++) {
-        Body *body = active_at(world, number);
-        if (body->scratch.thrown && body->state.free) {
-            body->scratch.taken = body->state.lead;
-            set_twist(body->engine, with_lead(body, false));
-            body->scratch.twist = twist_of(body->engine);
-            body->state.free = false;
+static bool begins_to_fly(const Body *body) {
+    return body->scratch.thrown && body->state.free && body->dynamic;
+}
+
+double reported_share(const Body *a, const Body *b, Vec impulse) {
+    const Body *bodies[2] = {a, b};
+    double load = 0.0, all = 0.0, taken_back = 0.0, size = length(impulse);
+    for (int end = 0; end < 2; end++) {
+        const Body *body = bodies[end], *other = bodies[1 - end];
+        if (begins_to_fly(body) && size > 0.0) {
+            Vec against = begins_to_fly(other) ? vec(0.0, 0.0) : other->scratch.twist.v;
+            // Without the impulse, the true velocity and that of the engine would be these.
+            Vec true_end = add(body->scratch.twist.v, body->state.lead.v),
+                engine_end = add(true_end, body->state.lead.v);
+            double lead = body->scratch.parts ? 0.0 : fabs(dot(body->state.lead.v, impulse)) / size;
+            load += fabs(dot(sub(lead > 0.0 ? true_end : engine_end, against), impulse));
+            all += fabs(dot(sub(engine_end, against), impulse));
+            taken_back += body->engine->m * lead;
         }
     }
+    if (taken_back == 0.0 || all == 0.0) {
+        return 1.0;
+    }
+    // Bodies that part are slower in the engine than in truth, so that the share would exceed 1.
+    return least(greatest(load / all, 1.0 - taken_back / size), 1.0);
 }
 
 void find_free(World *world) {
@@ -198,9 +213,6 @@ void find_free(World *world) {
         body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
                            fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
                            fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));
-        if (body->state.free) {
-            set_twist(body->engine, twist_sum(after, body->scratch.taken, 1.0));
-        }
     }
 }
 

@@ -186,7 +186,9 @@ static bool is_linear(const Part *part) {
 
 // An impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
 static Vec pull_of(const World *world, const Joint *joint, const Part *part, Vec impulse) {
-    return is_axial(part) ? scaled(line_of(world, joint, part), impulse.x) : impulse;
+    impulse = is_axial(part) ? scaled(line_of(world, joint, part), impulse.x) : impulse;
+    const Body *a = world->bodies + joint->a, *b = world->bodies + joint->b;
+    return is_linear(part) ? scaled(impulse, reported_share(a, b, impulse)) : impulse;
 }
 
 void begin_totals(World *world) {

@@ -94,8 +94,8 @@ void find_broken(World *world);
 
 // Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).
 void find_free(World *world);
-// Take back the lead of bodies whose velocity was set, until `find_free` (`half_step.c`).
-void take_back_leads(World *world);
+// The share of an impulse on two bodies in this sub-step that does not take back a half-step lead; before `find_free`.
+double reported_share(const Body *a, const Body *b, Vec impulse);
 void forgive_trembling(World *world);
 void keep_awake(World *world);
 

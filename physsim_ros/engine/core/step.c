@@ -10,7 +10,7 @@ static void begin_body(Body *body) {
     assert(body_of(body->engine) == body);
     body->scratch.begin = pose_of(body->engine);
     body->scratch.twist = twist_of(body->engine);
-    body->scratch.carried = body->scratch.rest = body->scratch.taken = (Twist){0};
+    body->scratch.carried = body->scratch.rest = (Twist){0};
     body->scratch.left = body->scratch.since = 0.0;
     body->scratch.parts = body->scratch.rests = false;
     body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
@@ -62,7 +62,6 @@ static void find_lost(World *world) {
 static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
-    take_back_leads(world);
     move_belts(world);
     correct_first_touches(world);
     order_points(world);
