@@ -107,11 +107,11 @@ class DrawingSession:
         :raises Refusal: the gesture cannot be drawn
         """
         try:
-            step = self._gesture.click(point, frame, self._query(snapshot), self.settings)
+            result = self._gesture.click(point, frame, self._query(snapshot), self.settings)
         finally:
             self.preview = self._gesture.preview(self.settings)
-        self._reserve_names(step.requests)
-        return step
+        self._reserve_names(result.requests)
+        return result
 
     def stroke(
         self, samples: Floats, frame: str, snapshot: Snapshot, *, began: float = -math.inf
