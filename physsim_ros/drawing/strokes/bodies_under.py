@@ -22,7 +22,7 @@ from physsim_ros.drawing.strokes.meanings import Context, End
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
-from physsim_ros.model.transform import norms, Point
+from physsim_ros.model.transform import dots, norms, Point
 
 # The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25
@@ -100,7 +100,7 @@ def hangs_from(name: str, way: tuple[Point, Point], scene: SceneQuery, snap: flo
 def _downward(start: Point, end: Point, scene: SceneQuery) -> float:
     """Return the cosine of the angle between gravity and a way; 0 without gravity."""
     way, gravity = np.subtract(end, start), np.array(scene.settings.gravity)
-    return float(way @ gravity) / max(float(norms(way) * norms(gravity)), 1e-300)
+    return float(dots(way, gravity)) / max(float(norms(way) * norms(gravity)), 1e-300)
 
 
 def wheels_passed(
