@@ -32,6 +32,8 @@ endif
 # The core of the engine, and how it is compiled where only mistakes are looked for.
 CORE := $(wildcard physsim_ros/engine/core/*.[ch])
 BUILT := $(VENV)/.core-is-built
+# Python writes into it when the core is first loaded: the folder of the core would then look changed.
+CACHE := physsim_ros/engine/core/__pycache__
 # What the tests and tools need beside it.
 TOOLS := $(VENV)/.with-tools
 # Of the C library, which clang-tidy wants and a machine without a compiler has not.
@@ -185,7 +187,7 @@ $(STAMP): setup.py
 	@echo '2 of 2: packages into it, some 130, of which Rerun is the largest (170 MB); a minute or two the first time.'
 	@$(PIP) 'setuptools>=70.1,<80' 'cffi>=1.17' $(if $(COMPILER),,ziglang) | $(PROGRESS)
 	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS)]' | $(PROGRESS)
-	@touch $@ $(BUILT)
+	@mkdir -p $(CACHE) && touch $@ $(BUILT)
 
 # What the package needs to run: the environment, and the core as its sources are now. The folder is newer where one was
 # renamed or is no more. pip has just compiled the core where it has made the environment: make does not look again.

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import ast
+import doctest
 import importlib
 import re
 
@@ -35,6 +36,14 @@ def test_the_page_prints_what_it_says_and_imports_no_ros() -> None:
     )
     assert told == ''.join(printed)
     assert ast.literal_eval(imported) == ['numpy', 'pymunk', 'yaml']
+
+
+@pytest.mark.parametrize('module', ['simulation.simulation', 'simulation.robot', 'sweeps.sweep'])
+def test_the_examples_of_docstrings_print_what_they_say(module: str) -> None:
+    results = doctest.testmod(importlib.import_module(f'physsim_ros.{module}'))
+
+    assert results.failed == 0
+    assert results.attempted > 0
 
 
 def test_the_page_names_all_names() -> None:

@@ -29,8 +29,8 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Command, Join, Request, Spawn
 from physsim_ros.model.scene import Body, Joint
-from physsim_ros.model.shapes import Box, Chain, contains_each, Disc, Polygon, Shape
-from physsim_ros.model.transform import Point, Pose, rotated_each
+from physsim_ros.model.shapes import Box, Chain, contains, Disc, Polygon, Shape
+from physsim_ros.model.transform import Point, Pose, world_to_local
 
 # Kinds of joints whose end on the background is a point that a body can cover, as is that of those
 # along a line.
@@ -233,18 +233,16 @@ def _joins_of(body: Spawn, scene: SceneQuery, snap: float) -> Iterator[Join]:
         and split_name(joint.name)[0] == DRAWN
         and not _holds_two(joint, scene, snap)
     ]
-    if not waiting:
-        return
-    x, y, yaw = body.pose
-    ends = np.array([(joint.seat.bx, joint.seat.by) for joint in waiting])
-    local = rotated_each(ends - (x, y), -yaw)
-    covered = contains_each(body.shape.form, local[:, 0], local[:, 1])
-    for number in np.flatnonzero(covered):
-        joint = waiting[number]
+    for joint in waiting:
+        end = joint.seat.bx, joint.seat.by
+        # The wheel of an axle may stand half below its chassis.
+        slack = snap if joint.kind is JointKind.AXLE else 0.0
+        if not contains(body.shape.form.pieces, *world_to_local(end, body.pose), slack):
+            continue
         yield Join(
             name=joint.name,
             kind=joint.kind,
-            points=_points(joint, (joint.seat.bx, joint.seat.by), scene),
+            points=_points(joint, end, scene),
             a=joint.a,
             b=body.name,
         )

@@ -9,9 +9,10 @@ Law: queries read a snapshot, past or present, and need neither engine nor clock
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 from functools import cached_property
-from itertools import count
+from itertools import count, islice
 import math
 
 import numpy as np
@@ -31,6 +32,7 @@ from physsim_ros.model.transform import (
     norms,
     Point,
     Pose,
+    REST,
     rotated_each,
     Twist,
     world_to_local,
@@ -208,6 +210,27 @@ class SceneQuery:
         if frame not in self._rows:
             raise no_frame(frame, self._rows)
         return self.in_world(frame, point)
+
+    def with_body(
+        self, body: Body, pose: Pose, *, without: Collection[str] = (), joints: int = 0
+    ) -> SceneQuery:
+        """
+        Return queries on a snapshot with one more body at rest, and without some others.
+
+        :param without: names of bodies that have no joints
+        :param joints: number of drawn joints of which the names are taken
+        """
+        snapshot, scene = self.snapshot, self.snapshot.scene
+        rows = [row for row, name in enumerate(self.names) if name not in without]
+        bodies = *(scene.bodies[row] for row in rows), body
+        changed = replace(
+            snapshot,
+            scene=replace(scene, bodies=bodies),
+            poses=np.vstack((snapshot.poses[rows], pose)),
+            twists=np.vstack((snapshot.twists[rows], REST)),
+        )
+        _, free = split_name(next(islice(self.new_joints(), joints, None)))
+        return SceneQuery(changed, first=self._first, first_joint=free)
 
     def gravity_strength(self) -> float:
         """

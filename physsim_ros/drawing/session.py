@@ -36,6 +36,7 @@ from physsim_ros.drawing.strokes.reading import (
     reading_of,
 )
 from physsim_ros.drawing.strokes.stroke import resample_stroke
+from physsim_ros.drawing.strokes.waiting import outcomes_over
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
@@ -76,6 +77,8 @@ class DrawingSession:
         self._gesture = Gesture(tool)
         # The last figures, the earliest first.
         self._figures: deque[Figure] = deque(maxlen=MOST_STROKES)
+        # The mark on the last figure.
+        self._marks: tuple[Figure, ...] = ()
         # The lowest numbers that this session has not yet given to a body or joint.
         self._next_body = self._next_joint = 0
 
@@ -105,11 +108,11 @@ class DrawingSession:
         :raises Refusal: the gesture cannot be drawn
         """
         try:
-            step = self._gesture.click(point, frame, self._query(snapshot), self.settings)
+            result = self._gesture.click(point, frame, self._query(snapshot), self.settings)
         finally:
             self.preview = self._gesture.preview(self.settings)
-        self._reserve_names(step.requests)
-        return step
+        self._reserve_names(result.requests)
+        return result
 
     def stroke(
         self, samples: Floats, frame: str, snapshot: Snapshot, *, began: float = -math.inf
@@ -136,9 +139,13 @@ class DrawingSession:
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
         )
-        if marked_solid(self._figures, figure, self.settings):
+        if not self._marks and marked_solid(self._figures, figure, self.settings):
             # The solid stays the last figure: another reading of it may follow.
+            self._marks = (figure,)
             return self._shown(_mark_reading(figure))
+        # A second line may make an x of a mark.
+        self._figures.extend(self._marks)
+        self._marks = ()
         group = likeliest_group(self._figures, figure, self.settings, self._clock)
         if group is not None:
             figure = group
@@ -169,7 +176,11 @@ class DrawingSession:
 
     def note_gesture(self, gesture: int) -> None:
         """Note the number of the gesture with which the last reading was submitted."""
-        self._figures[-1].gestures = (gesture,)
+        last = self._figures[-1]
+        for each in self._figures:
+            # Strokes that the reading amends belong to its gesture now.
+            if each is last or (each.gestures and {*each.gestures} <= {*last.gestures}):
+                each.gestures = (gesture,)
 
     def _build(self, figure: Figure, number: int) -> Reading:
         """
@@ -181,7 +192,13 @@ class DrawingSession:
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
         requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
         figure.requests = requests
-        return replace(reading, requests=requests)
+        if not figure.is_solid:
+            return replace(reading, requests=requests)
+        earlier = [each for each in self._figures if each is not figure]
+        over = list(outcomes_over(figure, earlier, self.settings))
+        figure.requests = requests = sum((each.requests for each in over), requests)
+        message = '; '.join((reading.message, *(each.message for each in over)))
+        return replace(reading, requests=requests, message=message)
 
     def _shown(self, reading: Reading) -> Reading:
         """Return a reading after its preview is made and its names are reserved."""

@@ -370,10 +370,10 @@ class Gesture:
         clicks = (*self._clicks, Click.at_point(scene, in_world))
         # The gesture is over, refused or not, unless the tool needs more clicks.
         self._clicks = ()
-        step = TOOLS[self.tool](clicks, scene, settings)
-        if not step.requests:
+        result = TOOLS[self.tool](clicks, scene, settings)
+        if not result.requests:
             self._clicks = clicks
-        return step
+        return result
 
     def preview(self, settings: DrawingSettings) -> Preview:
         """Return the preview of the clicks so far."""

@@ -30,8 +30,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
     """
     Return the checkpoint of a space, which stays as it is.
 
-    Sleeping bodies have no velocity in it; in a space that is built
-    from it all bodies are awake.
+    Sleeping bodies have no velocity in it; in a space that is built from it all bodies are awake.
 
     :param step: steps that the world has made
     """
@@ -70,7 +69,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         robots=table.robot_states,
         coming=tuple(
             (table.columns.rows[name], coming)
-            for name, coming in space.coming.in_order(space.bodies.by_name)
+            for name, coming in space.commands.coming.in_order(space.bodies.by_name)
         ),
         actors=table.actor_states,
     )
@@ -86,13 +85,12 @@ def restore_checkpoint(
     :param dt: of a sub-step [s]
     :param pool: bodies built beforehand, by name
     """
-    scene, first = checkpoint.scene, checkpoint.memory.walls
-    space = Space(scene.settings, dt, first_shape=first, lesson=scene.lesson)
-    rigids = [_rigid_body(body, pool or {}) for body in checkpoint.scene.bodies]
-    for rigid, first, state in zip(
-        rigids, checkpoint.memory.ids.tolist(), _body_states(checkpoint), strict=True
-    ):
-        rigid.first_shape, rigid.state = first, state
+    scene, memory = checkpoint.scene, checkpoint.memory
+    space = Space(scene.settings, dt, first_shape=memory.walls, lesson=scene.lesson)
+    rigids = [_rigid_body(body, pool or {}) for body in scene.bodies]
+    states = _body_states(checkpoint)
+    for rigid, first_shape, state in zip(rigids, memory.ids.tolist(), states, strict=True):
+        rigid.first_shape, rigid.state = first_shape, state
     for row, driven in zip(scene.robot_rows.tolist(), checkpoint.robots, strict=True):
         rigids[row].driven = driven
     for row, acting in zip(scene.actor_rows.tolist(), checkpoint.actors, strict=True):
@@ -101,7 +99,7 @@ def restore_checkpoint(
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
-        space.coming.put(rigids[row].body.name, coming)
+        space.commands.coming.put(rigids[row].body.name, coming)
     space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
@@ -110,17 +108,16 @@ def restore_checkpoint(
         (rigids[row].first_shape, rigids[row].pm_body.shapes)
         for row in sorted(range(len(rigids)), key=_scattered)
     )
-    write_impulses(space.pm_space, space.shapes, checkpoint.memory, dt)
+    write_impulses(space.pm_space, space.shapes, memory, dt)
     space.core.write_state(checkpoint.state)
     for joint in scene.joints:
         space.joints.add(joint)
-    for command in checkpoint.commands:
-        space.joints.put_command(command, checkpoint.step)
+    space.joints.set_commands(checkpoint.commands, checkpoint.step)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()
-    space.joints.set_impulses(checkpoint.memory.joints)
-    space.joints.set_totals(checkpoint.memory.totals)
+    space.joints.set_impulses(memory.joints)
+    space.joints.set_totals(memory.totals)
     for grip in checkpoint.grips:
         space.grips.put(grip)
     return space

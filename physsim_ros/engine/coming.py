@@ -9,9 +9,9 @@ from collections.abc import Iterable
 from typing import cast, Generic, TypeVar
 
 from physsim_ros.model.motor_command import TimedCommand
-from physsim_ros.model.states import ComingCommand
+from physsim_ros.model.states import DriveCommand
 
-_Command = TypeVar('_Command', bound=ComingCommand | TimedCommand)
+_Command = TypeVar('_Command', bound=DriveCommand | TimedCommand)
 
 
 class ComingCommands(Generic[_Command]):

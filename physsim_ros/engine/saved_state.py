@@ -51,7 +51,7 @@ def saved_state(checkpoint: Checkpoint, dt: float) -> WorldState:
     driven = dict(zip(robots, states_in(checkpoint.robots, RobotState), strict=True))
     acting = dict(zip(actors, states_in(checkpoint.actors, ActorState), strict=True))
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
-    leads = _leads_of(checkpoint)
+    leads, commands = _leads_of(checkpoint), space.commands.coming
     _, twists = space.core.observe()
     rigids = enumerate(space.bodies.by_name.values())
     for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
@@ -68,7 +68,7 @@ def saved_state(checkpoint: Checkpoint, dt: float) -> WorldState:
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
                 driven=driven[row].shifted(-step) if row in driven else None,
-                coming=tuple(each.shifted(-step) for each in space.coming.of(rigid.body.name)),
+                coming=tuple(each.shifted(-step) for each in commands.of(rigid.body.name)),
                 acting=acting[row].shifted(-step) if row in acting else None,
             )
         )
@@ -127,10 +127,9 @@ def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
-        space.coming.put(rigids[row].body.name, coming)
+        space.commands.coming.put(rigids[row].body.name, coming)
     space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
-    for command in checkpoint.commands:
-        space.joints.put_command(command, checkpoint.step)
+    space.joints.set_commands(checkpoint.commands, checkpoint.step)
     return checkpoint
 
 

@@ -11,7 +11,6 @@ a wrench changes.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 import math
 
 from physsim_ros.engine.bodies import (
@@ -23,7 +22,7 @@ from physsim_ros.engine.bodies import (
 )
 from physsim_ros.engine.body_table import BodyTable, check_columns, check_floor, columns_of
 from physsim_ros.engine.boundary import Boundary
-from physsim_ros.engine.coming import ComingCommands
+from physsim_ros.engine.commands import Commands
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
@@ -31,12 +30,9 @@ from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.motor_command import CommandPoint, MotorCommand, TimedCommand
-from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
-from physsim_ros.model.states import ComingCommand
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
 
@@ -52,10 +48,10 @@ class Space:
     :ivar pm_space: Pymunk's space
     :ivar bodies: in it
     :ivar joints: between them
+    :ivar commands: of their motors, and of the drives of robots
     :ivar grips: of hands on them
     :ivar broken: joints that have broken, with the force at which each did [N]; its reader empties
         it
-    :ivar changes: count of changes other than steps
     """
 
     def __init__(
@@ -75,9 +71,9 @@ class Space:
         self.boundary = Boundary(self.pm_space, self.shapes)
         self._core = CoreWorld(self.pm_space, dt)
         self.joints = JointSet(self.pm_space, self.bodies.by_name, self._core, dt)
+        self.commands = Commands(self.bodies, self.joints, dt)
         self.broken: list[tuple[str, float]] = []
-        self.changes = 0
-        self._age = 0
+        self._changes = self._age = 0
         self._table: BodyTable | None = None
         # Row of the background in the last table; -1 if there was none.
         self._background = -1
@@ -85,7 +81,6 @@ class Space:
         self._fields: tuple[object, ...] | None = None
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
-        self.coming: ComingCommands[ComingCommand] = ComingCommands()
         self.grips = GripSet()
         self._settings = WorldSettings(gravity=(0.0, 0.0))
         self.configure(settings)
@@ -94,6 +89,11 @@ class Space:
     def settings(self) -> WorldSettings:
         """Return the settings of the world."""
         return self._settings
+
+    @property
+    def changes(self) -> int:
+        """Return the count of changes other than steps."""
+        return self._changes + self.commands.changes
 
     @property
     def age(self) -> int:
@@ -134,7 +134,7 @@ class Space:
             robots=table.robots,
             actors=table.actors,
         )
-        self._core.use_fields(self._settings, act=table.has_fields)
+        self._core.use_settings(self._settings, has_fields=table.has_fields)
         self._background = len(rigids)
         self.grips.is_told = False
         for row, rigid in enumerate(rigids):
@@ -174,7 +174,7 @@ class Space:
         check_floor(self._scene, settings, self.dt)
         self._drop_table()
         old, self._settings = self._settings, settings
-        self.changes += old != settings
+        self._changes += old != settings
         if old.gravity != settings.gravity:
             self._change_gravity(old.gravity, settings.gravity)
         self.pm_space.damping = 1.0 - settings.damping
@@ -198,10 +198,10 @@ class Space:
         check_columns(body, self._settings, self.dt)
         if same_in_engine(old.body, body):
             self._drop_table()
-            self.changes += body != old.body
+            self._changes += body != old.body
             old.take_over_roles(old, body)
             old.body = body
-            self._keep_coming(body, self.coming.of(body.name))
+            self.commands.drop_without_drive(body)
             if pose != old.pose:
                 self.set_pose(old, pose)
             if twist != self.twist_of(old):
@@ -212,7 +212,6 @@ class Space:
         rigid.row = old.row
         pose = self.joints.with_turns(old, pose)
         touching = self.bodies.touching(old.pm_body)
-        coming = self.coming.of(body.name)
         self.joints.detach(body.name)
         self._take_out(old)
         self._insert(rigid, pose, twist)
@@ -221,7 +220,7 @@ class Space:
         if not body.dynamic:
             self.grips.remove_from(body.name)
         rigid.take_over_roles(old, body)
-        self._keep_coming(body, coming)
+        self.commands.drop_without_drive(body)
         self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
@@ -234,6 +233,7 @@ class Space:
             self.unjoin(joint)
         self._take_out(rigid)
         self.grips.remove_from(name)
+        self.commands.coming.put(name, ())
         del self.bodies.by_name[name]
         self._release(touching)
 
@@ -251,7 +251,7 @@ class Space:
         for each in self.bodies.by_name.values() if attracting else (rigid,):
             each.begin_fields()
         self._release(touching)
-        self.changes += 1
+        self._changes += 1
 
     def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
         """Set the velocity of a body, which is in free flight then unless it has joints."""
@@ -260,7 +260,7 @@ class Space:
         if not rigid.body.anchored:
             rigid.state['thrown'] = True
         rigid.begin_fields()
-        self.changes += 1
+        self._changes += 1
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
         """Set the wrench on a body until a step; None is for ever."""
@@ -272,7 +272,7 @@ class Space:
             self._table.records['wrench'][rigid.row] = wrench
         if free:
             self.set_twist(rigid, twist)
-        self.changes += 1
+        self._changes += 1
 
     def put_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
         """Set the wrench of a body that is in no table yet."""
@@ -287,68 +287,6 @@ class Space:
         rows = self.table.columns.rows
         return sorted(self._wrenched.values(), key=lambda rigid: rows[rigid.body.name])
 
-    # Motors and robots
-
-    def command_motor_later(self, command: MotorCommand, step: int) -> None:
-        """Have the motor of a joint obey a command from a step to come on, in their order."""
-        self.joints.coming.add(command.joint, TimedCommand(command, step))
-        self.changes += 1
-
-    def command_motor(self, command: MotorCommand, step: int) -> None:
-        """
-        Have the motor of a joint obey a command; a trajectory begins where the joint is.
-
-        :param step: count of steps that the world has made
-        """
-        joint = self.joints.by_name[command.joint].joint
-        first = command.points[0]
-        if command.mode == 'position' and first.time > 0.0:
-            now, then = (self._position_after(joint, time) for time in (0.0, self.dt))
-            rate = math.nan if math.isnan(first.rate) else (then - now) / self.dt
-            start = CommandPoint(0.0, now, rate)
-            command = replace(command, points=(start, *command.points))
-        self.changes += self.joints.commands.get(command.joint) != (command, step)
-        self.joints.command(command, step)
-        for end in (joint.a, joint.b):
-            if end != WORLD:
-                self.bodies.by_name[end].pm_body.activate()
-
-    def _position_after(self, joint: Joint, seconds: float) -> float:
-        ends = (end for end in (joint.a, joint.b) if end != WORLD)
-        return joint.position({end: self.bodies.by_name[end].pose_after(seconds) for end in ends})
-
-    def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
-        """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
-        robot = rigid.body.robot
-        drive = None if robot is None else robot.drive
-        assert drive is not None  # noqa: S101 - its caller refuses other bodies
-        aim = drive.aim(velocity)
-        self.changes += self._obeyed_by(rigid) != (aim, until)
-        rigid.driven['aim'], rigid.driven['until'] = aim, until
-        rigid.pm_body.activate()
-
-    def drive_later(self, rigid: RigidBody, command: ComingCommand) -> None:
-        """Have a robot drive from a step to come on; commands are obeyed in their order."""
-        self.coming.add(rigid.body.name, command)
-        self.changes += 1
-
-    def _keep_coming(self, body: Body, coming: tuple[ComingCommand, ...]) -> None:
-        """Set the commands to come after a change of a body, none where it has no drive."""
-        has_drive = body.robot is not None and body.robot.drive is not None
-        self.coming.put(body.name, coming if has_drive else ())
-
-    def drive_of(self, rigid: RigidBody) -> tuple[Twist, int]:
-        """Return the velocity of the last command [m/s, rad/s], and the step at which it ends."""
-        if coming := self.coming.of(rigid.body.name):
-            return coming[-1].aim, coming[-1].until
-        return self._obeyed_by(rigid)
-
-    @staticmethod
-    def _obeyed_by(rigid: RigidBody) -> tuple[Twist, int]:
-        """Return velocity [m/s, rad/s] and end of the command that the drive of a robot obeys."""
-        ahead, aside, turn = rigid.driven['aim'].tolist()
-        return (ahead, aside, turn), int(rigid.driven['until'])
-
     # Grips
 
     def set_grip(self, grip: Grip) -> None:
@@ -356,7 +294,7 @@ class Space:
         old = self.grips.of(grip.hand)
         if old is not None and old.body != grip.body:
             self.remove_grip(grip.hand)
-        self.changes += old != grip
+        self._changes += old != grip
         self.grips.put(grip)
 
     def remove_grip(self, hand: str) -> None:
@@ -365,7 +303,7 @@ class Space:
         if grip is not None:
             self.grips.remove(hand)
             self._release([self.bodies.by_name[grip.body]])
-            self.changes += 1
+            self._changes += 1
 
     # Contacts
 
@@ -383,14 +321,14 @@ class Space:
     def join(self, joint: Joint) -> None:
         """Add a joint; it replaces one of that name in its place."""
         self._drop_table()
-        self.changes += 1
+        self._changes += 1
         self.joints.add(joint)
         self.joints.check([joint.name])
 
     def unjoin(self, name: str) -> None:
         """Remove a joint."""
         self._drop_table()
-        self.changes += 1
+        self._changes += 1
         joint, bodies = self.joints.by_name[name].joint, self.bodies.by_name
         self.joints.remove(name)
         self._release(bodies[end] for end in joint.bodies if end in bodies)
@@ -410,8 +348,8 @@ class Space:
         """
         if self._wrenched:
             self._end_wrenches(number)
-        if self.coming or self.joints.coming:
-            self._begin_commands(number)
+        if self.commands.are_coming:
+            self.commands.begin(number)
         table, core, made = self.table, self.core, self._steps_until_event(number, count)
         if table.columns.moving:
             if not self.grips.is_told:
@@ -422,7 +360,6 @@ class Space:
                 made,
                 number=number,
                 age=self._age,
-                drag_force=self._settings.drag_force * self._settings.reference_gravity,
                 reports_contacts=reports_contacts,
             )
         self._age += made
@@ -451,25 +388,18 @@ class Space:
             if rigid.wrench_until is not None and rigid.wrench_until <= number:
                 self.set_wrench(rigid, NO_WRENCH, None)
 
-    def _begin_commands(self, number: int) -> None:
-        """Have drives and motors obey the commands that begin at a step, or have begun."""
-        for name, command in self.coming.take(number, self.bodies.by_name):
-            self.drive(self.bodies.by_name[name], command.aim, command.until)
-        for _, motor in self.joints.coming.take(number, self.joints.by_name):
-            self.command_motor(motor.command, number)
-
     def _steps_until_event(self, number: int, count: int) -> int:
         """Return how many of some steps follow each other without anything between them."""
-        coming = *self.coming.steps, *self.joints.coming.steps
-        if not (self._wrenched or coming or self.table.columns.expiries):
+        expiries = self.table.columns.expiries
+        if not (self._wrenched or self.commands.are_coming or expiries):
             return count
-        ends = (rigid.wrench_until for rigid in self._wrenched.values())
         events = (
-            *self.table.columns.expiries,
-            *(end for end in ends if end is not None),
-            *coming,
+            *expiries,
+            *(rigid.wrench_until for rigid in self._wrenched.values()),
+            *self.commands.steps,
         )
-        return min([count, *(event - number for event in events if event > number)])
+        ahead = (event - number for event in events if event is not None and event > number)
+        return min([count, *ahead])
 
     # Inside
 
@@ -506,7 +436,7 @@ class Space:
 
     def _insert(self, rigid: RigidBody, pose: Pose, twist: Twist) -> None:
         self._drop_table()
-        self.changes += 1
+        self._changes += 1
         rigid.pose = pose
         # At rest: see `core/tight_boxes.c`.
         self.bodies.add(rigid)
@@ -514,10 +444,9 @@ class Space:
 
     def _take_out(self, rigid: RigidBody) -> None:
         self._drop_table()
-        self.changes += 1
+        self._changes += 1
         self.bodies.take_out(rigid)
         self._wrenched.pop(rigid.body.name, None)
-        self.coming.put(rigid.body.name, ())
 
     def _drop_table(self) -> None:
         """Drop the table, before a body or joint is added, removed or changed."""

@@ -28,8 +28,8 @@ from physsim_ros.model.requests import Command
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.states import (
     ActorState,
-    ComingCommand,
     Covariance,
+    DriveCommand,
     NEVER,
     RobotState,
     SPAWNED,
@@ -69,7 +69,7 @@ class _Wrench(Checked):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Coming(Checked):
-    """A command that a drive does not obey yet, as of `ComingCommand`."""
+    """A command that a drive does not obey yet, as of `DriveCommand`."""
 
     begins: Annotated[float, Within(0.0, LONGEST, 's'), 'until the drive obeys it']
     aim: Annotated[Pose, _POSE, 'commanded velocity'] = ORIGIN
@@ -152,7 +152,7 @@ def _step_in(seconds: float | None, physics_rate: float) -> int:
     return NEVER if seconds is None else round(seconds * physics_rate)
 
 
-def _coming_entry(coming: tuple[ComingCommand, ...], physics_rate: float) -> dict[str, object]:
+def _coming_entry(coming: tuple[DriveCommand, ...], physics_rate: float) -> dict[str, object]:
     """Return the key of the commands that a drive does not obey yet; nothing where none is."""
     commands = [
         {
@@ -167,14 +167,14 @@ def _coming_entry(coming: tuple[ComingCommand, ...], physics_rate: float) -> dic
 
 def _coming(
     robot: Robot, commands: tuple[_Coming, ...], physics_rate: float
-) -> tuple[ComingCommand, ...]:
+) -> tuple[DriveCommand, ...]:
     """
     Return the commands that the drive of a robot does not obey yet.
 
     :raises BadProperty: it has no drive, or they are out of order
     """
     coming = tuple(
-        ComingCommand(
+        DriveCommand(
             round(each.begins * physics_rate), each.aim, _step_in(each.seconds, physics_rate)
         )
         for each in commands

@@ -34,10 +34,10 @@ _RENDER_MODE = OneOf(('rgb_array',))
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SavedEpisode:
     """
-    A moment of an episode; it pickles.
+    A moment of an episode, which can be pickled.
 
-    :param moment: of the world
-    :param steps: since the episode began
+    :param moment: saved moment of the world
+    :param steps: number of steps since the episode began
     :param random: state of the generator that draws the seeds of the next episodes
     """
 
@@ -75,16 +75,18 @@ def _robot_of(task: Task) -> Robot:
 
 class RobotEnv(Env[Observation, Action]):
     """
-    One world in which an agent has a task. A copy, and a pickle, is the saved moment of it.
+    One world in which an agent has a task: a Gymnasium environment.
 
-    :param task: of the agent
-    :param render_mode: 'rgb_array' has `render` return pictures; None none
-    :raises BadProperty: there is no such render mode, or the period of the task does not divide
-        into steps of its physics rate
-    :raises UnknownBody: its robot is not in its world
+    A copy or a pickle of an environment continues from its present moment.
 
-    :ivar task: of the agent
-    :ivar robot: that it drives; `robot.simulation` is its world
+    :param task: the task
+    :param render_mode: with 'rgb_array', `render` returns pictures; None is no pictures
+    :raises BadProperty: the render mode is unknown, or the period of the task is not a whole
+        number of physics steps
+    :raises UnknownBody: the robot is not in the world of the task
+
+    :ivar task: the task
+    :ivar robot: the robot that the agent drives; `robot.simulation` is its world
     """
 
     # Gymnasium's own name and type.
@@ -121,9 +123,9 @@ class RobotEnv(Env[Observation, Action]):
         """
         Begin an episode.
 
-        :param seed: of this episode and those after it; None is the next one
-        :param options: none is known
-        :return: the first observation, and under `seed` the seed of the episode's noise
+        :param seed: seed of this episode and those after it; None continues the sequence
+        :param options: not used
+        :return: the first observation, and a mapping with the `seed` of the episode's noise
         """
         super().reset(seed=seed, options=options)
         of_episode = int(self.np_random.integers(_SEEDS))
@@ -139,10 +141,9 @@ class RobotEnv(Env[Observation, Action]):
         self, action: Action
     ) -> tuple[Observation, SupportsFloat, bool, bool, dict[str, Any]]:
         """
-        Act for a period.
+        Perform an action for one period of the task.
 
-        :return: observation, reward, whether the episode is over, whether it is cut off, and
-            nothing more
+        :return: observation, reward, terminated, truncated, and an empty mapping
         """
         task, robot = self.task, self.robot
         task.act(robot, action)
@@ -153,9 +154,10 @@ class RobotEnv(Env[Observation, Action]):
 
     def save(self) -> SavedEpisode:
         """
-        Return this moment of the episode, from which it continues to the bit.
+        Return this moment of the episode, for `restore`.
 
-        This environment continues in the same way; see `Simulation.checkpoint`.
+        This environment and all that restore the moment continue with the same bits; see
+        `Simulation.checkpoint`.
         """
         return SavedEpisode(
             moment=self.robot.simulation.checkpoint(),
@@ -165,9 +167,9 @@ class RobotEnv(Env[Observation, Action]):
 
     def restore(self, saved: SavedEpisode) -> Observation:
         """
-        Continue from a saved moment; return what is observed then.
+        Continue from a saved moment, and return the observation there.
 
-        :raises Malformed: it is no saved episode
+        :raises Malformed: the value is not a saved episode
         """
         check_episode(saved)
         self.robot.simulation.restore(saved.moment)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A task: a world with a robot, what the agent sees and does, and what it is rewarded for.
+A task: a world with a robot, and functions for observation, action, reward and end.
 
-All is given by functions of the robot. A function that is defined in a module, and has no state,
-makes a task pickle, and an episode the same whenever it is repeated.
+If these functions are defined in a module and have no state, a task can be pickled, and an episode
+with the same seed and actions repeats to the bit.
 """
 
 from collections.abc import Callable
@@ -67,16 +67,16 @@ class Task(Checked):
     """
     What an agent is to do with a robot.
 
-    :param world: with the robot; an episode begins with it, and with noise of its own seed
-    :param reward: of a robot after a step, for the action of that step
-    :param robot: name of its body
-    :param begin: changes the world at the beginning of an episode, by random numbers of its seed,
-        as by `robot.place`; None leaves it as it is
-    :param act: has the robot do an action until the next step
-    :param action_space: of the actions
-    :param observe: what the agent sees
-    :param observation_space: of that; None is that of `observe_scan`
-    :param is_over: whether an episode has ended, well or badly (Gymnasium: terminated)
+    :param world: state with the robot, with which each episode begins; each has its own noise
+    :param reward: returns the reward after a step, from the robot and the action of that step
+    :param robot: name of the robot's body
+    :param begin: changes the world when an episode begins, by a random generator of its seed, such
+        as with `robot.place`; None changes nothing
+    :param act: performs an action, which lasts until the next step
+    :param action_space: space of the actions
+    :param observe: returns the observation
+    :param observation_space: space of the observations; None is that of `observe_scan`
+    :param is_over: returns whether an episode has ended, well or badly (Gymnasium: terminated)
     :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
     :raises BadProperty: a time is out of range
     """
@@ -102,7 +102,7 @@ class Task(Checked):
         """
         Return the space of the observations.
 
-        :raises BadProperty: none is given, and the robot has no laser
+        :raises BadProperty: the task has no space, and the robot has no laser
         """
         if self.observation_space is not None:
             return self.observation_space

@@ -22,15 +22,14 @@ _COUNT = Whole(1, 10_000)
 
 class RobotVectorEnv(SyncVectorEnv):
     """
-    Many worlds of one task, stepped one after the other, by Gymnasium's own `SyncVectorEnv`.
+    Many worlds of one task in one process: Gymnasium's `SyncVectorEnv` with saved moments.
 
-    A copy, a shallow one too, and a pickle have worlds of their own.
+    A copy, also a shallow one, and a pickle have worlds of their own. After a reset with a seed,
+    world k has the episodes of a `RobotEnv` reset with seed + k.
 
-    World k of a reset with a seed has the episodes of a `RobotEnv` that is reset with seed + k.
-
-    :param task: of the agent
+    :param task: the task
     :param num_envs: number of worlds
-    :param render_mode: 'rgb_array' has `render` return a picture of each; None none
+    :param render_mode: with 'rgb_array', `render` returns a picture of each; None is no pictures
     :param autoreset_mode: an episode that has ended begins anew in the next step, whose action is
         ignored; in the same step; or (disabled) by a reset with a mask
     :raises BadProperty: the number is out of range, or there is no such render mode

@@ -23,7 +23,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.states import (
     ActorState,
-    ComingCommand,
+    DriveCommand,
     NO_ACTORS,
     NO_ROBOTS,
     Records,
@@ -74,7 +74,7 @@ class BodyState:
     wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
     driven: RobotState | None = None
-    coming: tuple[ComingCommand, ...] = ()
+    coming: tuple[DriveCommand, ...] = ()
     acting: ActorState | None = None
 
 
@@ -181,7 +181,7 @@ class Checkpoint:
     commands: Commands = ()
     bounds: Mapping[str, NDArray[np.void]] = field(default_factory=dict)
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
-    coming: tuple[tuple[int, tuple[ComingCommand, ...]], ...] = ()
+    coming: tuple[tuple[int, tuple[DriveCommand, ...]], ...] = ()
     actors: Records = field(default_factory=lambda: NO_ACTORS)
 
     @property

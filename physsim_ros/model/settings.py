@@ -65,7 +65,7 @@ class WorldSettings(Checked):
         -STANDARD_GRAVITY,
     )
     damping: Annotated[
-        float, Within(0.0, 1.0), 'share of velocity lost to the air each second'
+        float, Within(0.0, 1.0), 'share of its velocity that each body loses per second'
     ] = 0.0
     iterations: Annotated[
         int,
@@ -79,10 +79,20 @@ class WorldSettings(Checked):
         'walls around the world: xmin, ymin, xmax, ymax, each '
         f'{-LARGEST:g} .. {LARGEST:g} [m]; empty is no walls',
     ] = None
-    density: Annotated[float, Within(LIGHTEST, HEAVIEST, 'kg/m²'), 'default of new bodies'] = 1.0
-    friction: Annotated[float, Within(0.0, 10.0), 'default coefficient of new bodies'] = 0.5
+    density: Annotated[
+        float,
+        Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+        'density of new bodies, unless they have their own',
+    ] = 1.0
+    friction: Annotated[
+        float,
+        Within(0.0, 10.0),
+        'coefficient of friction of new bodies, unless they have their own',
+    ] = 0.5
     elasticity: Annotated[
-        float, Within(0.0, 1.0), 'default coefficient of restitution of new bodies'
+        float,
+        Within(0.0, 1.0),
+        'coefficient of restitution of new bodies, unless they have their own',
     ] = 0.5
     # Not part of the text, so that older digests stay valid.
     floor_friction: Annotated[
@@ -97,17 +107,17 @@ class WorldSettings(Checked):
     air_density: Annotated[
         float,
         FLUID_DENSITY,
-        'of the air, which fills the world where no body has a `medium`; it buoys bodies up, and '
-        'resists them by v²',
+        'density of the air, which fills the world outside of bodies with a `medium`: it buoys '
+        'bodies up, and resists them by v²',
         OF_WORLD,
     ] = field(default=0.0, repr=False)
     air_viscosity: Annotated[
         float,
         VISCOSITY,
-        'of the air, which resists bodies by v as well (Stokes)',
+        'viscosity of the air, which resists bodies by v (Stokes)',
         OF_WORLD,
     ] = field(default=0.0, repr=False)
-    air_drag: Annotated[float, DRAG, 'coefficient of the drag by v²', OF_WORLD] = field(
+    air_drag: Annotated[float, DRAG, 'coefficient of the drag of the air by v²', OF_WORLD] = field(
         default=1.0, repr=False
     )
     wind: Annotated[Point, VELOCITY, 'velocity of the air', OF_WORLD] = field(
@@ -116,7 +126,7 @@ class WorldSettings(Checked):
     gusts: Annotated[
         float,
         GUSTS,
-        'root mean square of the gusts of the wind, in x and in y; by `seed`',
+        'root mean square of the gusts of the wind, in x and in y; they depend on `seed`',
         OF_WORLD,
     ] = field(default=0.0, repr=False)
     gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next', OF_WORLD] = (
@@ -125,34 +135,34 @@ class WorldSettings(Checked):
     gravitation: Annotated[
         float,
         Within(0.0, HEAVIEST, 'N m²/kg²'),
-        'G of the attraction G m m / r² between all bodies but sensors; the unit follows '
-        '`attraction_power`',
+        'constant G of the attraction G m m / r² between all bodies except sensors; its unit '
+        'depends on `attraction_power`',
         OF_WORLD,
     ] = field(default=0.0, repr=False)
     coulomb: Annotated[
         float,
         Within(0.0, HEAVIEST, 'N m²/C²'),
-        'k of the force k q q / r² between bodies with a `charge`; the unit follows '
+        'constant k of the force k q q / r² between bodies with a `charge`; its unit depends on '
         '`attraction_power`',
         OF_WORLD,
     ] = field(default=0.0, repr=False)
     attraction_power: Annotated[
         float,
         Within(-1.0, 4.0),
-        'power p of the distance, in 1 / r^p, of both: 2 as on earth, 1 in a flat world',
+        'exponent p of the distance, 1 / r^p, in both forces: 2 as in space, 1 in a flat world',
         OF_WORLD,
     ] = field(default=2.0, repr=False)
     softening: Annotated[
         float,
         Within(0.0, 1000.0, 'm'),
-        'length ε that bounds both where two bodies pass each other: r² is r² + ε²',
+        'length ε that limits both forces at small distances: r² becomes r² + ε²',
         OF_WORLD,
     ] = field(default=0.001, repr=False)
     datum: Annotated[
         Point | None,
         Row((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),
         'latitude and longitude of the origin, -90 .. 90 and -180 .. 180 [deg], for receivers of '
-        'satellite navigation: x points east, y north; without a datum they have no fix',
+        'satellite navigation; x points east, y north. Without a datum they have no fix',
     ] = field(default=None, repr=False)
     command_timeout: Annotated[
         float,
@@ -160,28 +170,28 @@ class WorldSettings(Checked):
         'simulation time for which a commanded wrench acts; 0 is no limit',
     ] = 0.5
     drag_force: Annotated[
-        float, Within(0.0, 1000.0), 'greatest force of a hand, in weights of the body'
+        float,
+        Within(0.0, 1000.0),
+        'greatest force of a hand, as a multiple of the weight of the body',
     ] = 10.0
-    max_bodies: Annotated[
-        int, Whole(0, 1_000_000), 'most bodies; a request beyond it is refused', LIMIT
-    ] = 20000
+    max_bodies: Annotated[int, Whole(0, 1_000_000), 'greatest number of bodies', LIMIT] = 20000
     max_shapes: Annotated[
         int,
         Whole(0, 1_000_000),
-        'most convex pieces of all bodies; a request beyond it is refused',
+        'greatest number of convex pieces of all bodies',
         LIMIT,
     ] = 50000
     # 10,000,000 contacts take a minute a step.
     max_overlaps: Annotated[
         int,
         Whole(0, 10_000_000),
-        'most pairs of pieces that overlap at once; a request beyond it is refused',
+        'greatest number of pairs of pieces that overlap at once',
         LIMIT,
     ] = 20000
     max_joints: Annotated[
         int,
         Whole(0, 1_000_000),
-        f'most joints, of which {MOST_JOINTS_ON_BODY} on one body; a joint beyond it is refused',
+        f'greatest number of joints; at most {MOST_JOINTS_ON_BODY} can be on one body',
         LIMIT,
     ] = 20000
 

@@ -58,7 +58,7 @@ class RobotState(NamedTuple):
         return self._replace(until=max(self.until + steps, 0))
 
 
-class ComingCommand(NamedTuple):
+class DriveCommand(NamedTuple):
     """
     A command that a robot has received, and that its drive does not obey yet.
 

@@ -34,15 +34,27 @@ from physsim_ros.simulation.world.robot_requests import robot_of_name
 
 class Robot:
     """
-    A robot of a simulation, which reports contacts from now on, for `bumped`.
+    A robot of a simulation: a program drives it, and reads its sensors.
 
-    :param simulation: that it is in
-    :param name: of its body
-    :raises UnknownBody: there is no such body
-    :raises BadProperty: it is no robot
+    The simulation reports contacts from then on, for `bumped`.
 
-    :ivar simulation: that it is in
-    :ivar name: of its body
+    >>> from physsim_ros import find_world, load_world, Robot, Simulation
+    >>> simulation = Simulation()
+    >>> simulation.load(load_world(find_world('burger')))
+    'loaded 4 bodies'
+    >>> robot = Robot(simulation, 'burger/0')
+    >>> robot.drive(0.2)  # m/s
+    >>> simulation.run(1.0)
+    >>> robot.bumped, len(robot.scan()), round(float(robot.truth().twist[0]), 3)
+    (False, 360, 0.2)
+
+    :param simulation: simulation that the robot is in
+    :param name: name of the robot's body
+    :raises UnknownBody: no body has that name
+    :raises BadProperty: the body is not a robot
+
+    :ivar simulation: simulation that the robot is in
+    :ivar name: name of the robot's body
     """
 
     def __init__(self, simulation: Simulation, name: str) -> None:
@@ -56,9 +68,9 @@ class Robot:
     @property
     def description(self) -> RobotDescription:
         """
-        Return its drive, odometry and sensors.
+        Return the description of its drive, odometry, sensors and parts.
 
-        :raises UnknownBody: it is no longer there
+        :raises UnknownBody: the robot was deleted
         """
         view, row = self._seen
         robot = view.snapshot.scene.bodies[row].robot
@@ -67,14 +79,14 @@ class Robot:
 
     def drive(self, speed: float, turn: float = 0.0, *, sideways: float = 0.0) -> None:
         """
-        Drive from the next step on, until told otherwise.
+        Drive from the next step on, until the next call.
 
-        A reset, a seek and another world end it. The drive does what it can: a velocity beyond
-        its limits is cut off.
+        A reset, a seek and another world end the command. The drive cuts off a velocity beyond its
+        limits.
 
-        :param speed: forward [m/s]
-        :param turn: counter-clockwise [rad/s]
-        :param sideways: to the left, of an omnidirectional drive [m/s]
+        :param speed: forward speed [m/s]
+        :param turn: turn rate, counter-clockwise [rad/s]
+        :param sideways: speed to the left, for an omnidirectional drive [m/s]
         :raises Malformed: a number is not finite
         """
         command = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
@@ -82,8 +94,11 @@ class Robot:
 
     def place(self, x: float, y: float, yaw: float = 0.0) -> None:
         """
-        Put it at a pose in the world [m, m, rad], at rest; its odometry does not note it.
+        Put the robot at a pose in the world, at rest, without a change of its odometry.
 
+        :param x: x of its origin [m]
+        :param y: y of its origin [m]
+        :param yaw: its heading, counter-clockwise [rad]
         :raises Malformed: a number is not finite
         """
         self.simulation.place(self.name, x, y, yaw)
@@ -92,10 +107,11 @@ class Robot:
         """
         Return (beams,) float64: the ranges of a laser [m], by the conventions of REP 117.
 
-        Infinity is nothing within its greatest range, minus infinity nearer than its least one.
+        A beam without an echo is infinity, one below the least range minus infinity, and a
+        blind one NaN.
 
-        :param sensor: its name; '' is the first laser
-        :raises BadProperty: there is no such sensor
+        :param sensor: name of the laser; '' is the first one
+        :raises BadProperty: the robot has no such sensor
         """
         if sensor:
             ranges: Floats = self.read(sensor)
@@ -108,8 +124,8 @@ class Robot:
         """
         Return the reading of a sensor: what the function of its kind in `sensing` returns.
 
-        :param sensor: its name
-        :raises BadProperty: there is no such sensor
+        :param sensor: name of the sensor
+        :raises BadProperty: the robot has no such sensor
         """
         sensors = self.description.sensors
         for each in sensors:
@@ -121,26 +137,27 @@ class Robot:
         raise BadProperty(message, field='sensors')
 
     def odom(self) -> OdometryReading:
-        """Return where its wheels and its gyroscope tell that it is, and how it moves."""
+        """Return the pose [m, m, rad] and twist [m/s, m/s, rad/s] by its wheels and gyroscope."""
         view, row = self._seen
         return read_odometry(view.snapshot, row)
 
     def truth(self) -> OdometryReading:
-        """Return where it is, and how it moves."""
+        """Return the true pose [m, m, rad] and twist [m/s, m/s, rad/s]."""
         view, row = self._seen
         return true_motion(view.snapshot, row)
 
     def battery(self) -> BatteryReading | None:
-        """Return the state of its battery; None where it has none."""
+        """Return the state of its battery; None if it has no battery."""
         view, row = self._seen
         return read_battery(view.snapshot, row)
 
     @property
     def bumped(self) -> bool:
         """
-        Whether it has touched something since the frame before: within its bumpers, if any.
+        Whether the robot has touched something since the frame before.
 
-        It is false where contacts are not reported any more.
+        If it has bumpers, only what they touched counts. False if the simulation no longer reports
+        contacts.
         """
         view, row = self._seen
         return is_bumped(view.snapshot, view.contacts, row, self.description)
@@ -160,7 +177,7 @@ class Robot:
         """
         Return its first laser.
 
-        :raises BadProperty: it has none
+        :raises BadProperty: the robot has no laser
         """
         for each in self.description.sensors:
             if isinstance(each, Laser):

@@ -27,7 +27,7 @@ from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.world import Beginning, forces_now, loaded
+from physsim_ros.simulation.world import Beginning, forces_now, load_message
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -38,13 +38,15 @@ _RATE = Within(1.0, 1e4, 'Hz')
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SavedMoment:
     """
-    A moment of a simulation, from which it and others continue with the same bits; it pickles.
+    A moment of a simulation, from which it and others continue with the same bits.
 
-    :param checkpoint: of the world
-    :param loaded: the state that was loaded last, to which `reset` returns
-    :param frame: that is shown
-    :param before: the last snapshot of another time, which was shown before it; None is none
-    :param driving: the commands with which robots drive on
+    A saved moment can be pickled.
+
+    :param checkpoint: checkpoint of the world
+    :param loaded: state that was loaded last, to which `reset` returns
+    :param frame: frame that is shown
+    :param before: snapshot of another time that was shown before it; None if there is none
+    :param driving: commands that robots obey
     """
 
     checkpoint: Checkpoint
@@ -58,16 +60,27 @@ class Simulation(FrameMaker):
     """
     A world and its time.
 
-    :param physics_rate: steps a second of simulation time [Hz], a multiple of publish_rate
-    :param publish_rate: frames a second of simulation time at speed 1 [Hz]
-    :param settings: of the empty world at the start
-    :param speed: simulation seconds a second; 0 is paused, negative goes back
-    :param history: length of the past that is kept [s of simulation time]; 0 caches no frame
-    :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
-    :param checkpoints: from one checkpoint to the next [s]
-    :param boundary: of the requests; None lets unexpected errors pass
+    Requests change the world, and `advance_frame` or `run` advances it. A disc falls for a second:
+
+    >>> from physsim_ros import Disc, Simulation, Spawn
+    >>> simulation = Simulation()
+    >>> simulation.perform(Spawn(name='ball/0', shape=Disc(radius=0.5), pose=(0.0, 9.0, 0.0)))
+    'spawned ball/0'
+    >>> simulation.run(1.0)
+    >>> snapshot = simulation.frame.snapshot
+    >>> round(float(snapshot.poses[snapshot.row('ball/0')][1]), 3)  # y [m]
+    4.095
+
+    :param physics_rate: steps per second of simulation time [Hz], a multiple of publish_rate
+    :param publish_rate: frames per second of simulation time at speed 1 [Hz]
+    :param settings: settings of the empty world at the start
+    :param speed: simulation time per wall time; 0 is paused, negative goes back
+    :param history: length of the past that is kept [s of simulation time]; 0 caches no frames
+    :param history_memory: memory of the past [MB]; when it is full, the oldest data is dropped
+    :param checkpoints: simulation time from one checkpoint to the next [s]
+    :param boundary: catches unexpected errors of requests; None lets them pass
     :raises BadProperty: a number is out of range, or publish_rate does not divide physics_rate
-    :raises Malformed: a number is not finite, or a value of another type
+    :raises Malformed: a number is not finite, or a value has another type
     """
 
     def __init__(
@@ -161,8 +174,8 @@ class Simulation(FrameMaker):
         """
         Apply a request now, after those that wait, and return a message about it.
 
-        :param gesture: its gesture; None is a new one
-        :raises Refusal: and nothing is changed
+        :param gesture: number of the gesture that it belongs to; None begins a new one
+        :raises Refusal: the request is refused, and has changed nothing
         """
         OfClass(Request)(request, 'request')
         self.at_shown_moment()
@@ -173,9 +186,12 @@ class Simulation(FrameMaker):
 
     def place(self, name: str, x: float, y: float, yaw: float = 0.0) -> None:
         """
-        Put a body at a pose in the world [m, m, rad], at rest unless it is anchored.
+        Put a body at a pose in the world, at rest.
 
-        :raises UnknownBody: there is no such body
+        :param x: x of its origin [m]
+        :param y: y of its origin [m]
+        :param yaw: its angle, counter-clockwise [rad]
+        :raises UnknownBody: no body has that name
         :raises Malformed: a number is not finite
         """
         rigid = self.at_shown_moment().cursor.world.space.bodies.by_name.get(name)
@@ -198,8 +214,8 @@ class Simulation(FrameMaker):
         """
         Replace the world by a state, to which `reset` returns; time goes on. Return a message.
 
-        :param world: the state, or its beginning, as any thread makes it
-        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        :param world: a state from `load_world` or `save`, or its beginning, which any thread makes
+        :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
         self.stop_driving()
         return self.perform(Restore(state=self._put_ahead(world)))
@@ -215,9 +231,9 @@ class Simulation(FrameMaker):
         """
         Return the state of the world, to the bit; nothing is changed.
 
-        All worlds that begin with the state have the same bits ever after. This world has them up
-        to its next impact: the engine solves contacts in the order in which it found them, which
-        is not in a state.
+        All worlds that begin with the state continue with the same bits. This world has these bits
+        only up to its next impact, because the engine solves contacts in the order in which it
+        found them, and a state does not contain that order.
         """
         return self.saver()()
 
@@ -227,9 +243,9 @@ class Simulation(FrameMaker):
 
     def saver_of_run(self) -> Callable[[], WorldState]:
         """
-        As `saver`, of the state with which this run began: that after the last request.
+        Return a function like that of `saver`, for the state after the last request.
 
-        A world that begins with it, and is left alone, does the same ever after.
+        A world that begins with this state, and gets no request, repeats the run.
         """
         return self.at_shown_moment().frames.saver_of_run()
 
@@ -250,10 +266,9 @@ class Simulation(FrameMaker):
         """
         Return this moment, to the bit, for `restore`.
 
-        Requests that wait are applied before, and hands let go.
-
-        This world continues from it as all do that restore it: it, too, moves into a space that
-        is built from the checkpoint. Without the call its later bits may be others.
+        Requests that wait are applied before, and hands let go. This world then continues with the
+        same bits as all worlds that restore the moment, because it too moves into a space that is
+        built from the checkpoint. Without the call, its later bits may differ.
 
         :raises InPast: the past is shown
         """
@@ -274,9 +289,10 @@ class Simulation(FrameMaker):
 
     def restore(self, saved: SavedMoment) -> None:
         """
-        Continue from a moment, at its time and without a past.
+        Continue from a saved moment, at its time and without a past.
 
-        :raises Malformed: it is none
+        :param saved: what `checkpoint` returned, also in another simulation or process
+        :raises Malformed: the value is not a saved moment
         """
         OfClass(SavedMoment)(saved, 'saved')
         self.past.restore(saved.checkpoint, saved.loaded)
@@ -289,7 +305,7 @@ class Simulation(FrameMaker):
         """
         Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message.
 
-        :param seed: of all noise from then on; None is that of the state
+        :param seed: seed of all noise from then on; None is that of the state
         :raises BadProperty: the seed is out of range
         """
         with self._jump() as past:
@@ -302,21 +318,21 @@ class Simulation(FrameMaker):
         """
         Begin with another state, at time 0; `undo` reverts it. Return a message.
 
-        :param world: the state, or its beginning, as any thread makes it
-        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        :param world: the state, or its beginning, which any thread makes
+        :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
         with self._jump() as past:
             state = self._put_ahead(world)
             past.open_world(state)
             self.requests.hands.clear()
             self.stop_driving()
-        return loaded(state)
+        return load_message(state)
 
     def undo(self) -> str:
         """
         Go back to before the last gesture that changed the world; return a message about it.
 
-        :raises OutOfHistory: there is none that is kept
+        :raises OutOfHistory: no gesture is left to undo
         """
         with self._jump() as past:
             undone = past.undo()
@@ -336,7 +352,7 @@ class Simulation(FrameMaker):
         """
         Return to a course, at the time that is shown or its last one; return a message.
 
-        :param number: of the course
+                :param number: number of the course
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
         with self._jump() as past:
@@ -346,11 +362,12 @@ class Simulation(FrameMaker):
 
     def seek(self, stamp: int) -> str:
         """
-        Go to a simulation time [ns], and return a message about it.
+        Go to a simulation time, exactly, and return a message about it.
 
+        :param stamp: the time [ns], a whole number like `snapshot.stamp`
         :raises OutOfHistory: the time is no longer kept, or in the future
-        :raises BadProperty: it is no whole number, as of seconds
-        :raises Malformed: it is beyond all numbers
+        :raises BadProperty: the time is not a whole number
+        :raises Malformed: the time is not a finite number
         """
         if not isinstance(stamp, Integral):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')

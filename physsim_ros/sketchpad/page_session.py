@@ -9,7 +9,7 @@ Law: a session changes nothing itself; it submits requests, and every message ha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 import time
@@ -31,13 +31,7 @@ from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts
 from physsim_ros.sketchpad.results import Result, Results
-from physsim_ros.sketchpad.rights import (
-    check_locked,
-    check_moment,
-    check_right,
-    check_taken_back,
-    Role,
-)
+from physsim_ros.sketchpad.rights import check_locked, check_right, Role
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
@@ -177,7 +171,7 @@ class PageSession:
         :raises Frozen: one of them concerns a locked body; none is submitted
         """
         requests = tuple(requests)
-        self.check_locked(requests)
+        check_locked(self.role, requests, self.world)
         queue = self.world.simulation.requests
         if message:
             topic, asker = origin.topic, origin.asker
@@ -195,30 +189,6 @@ class PageSession:
         """
         self.submit(origin, (request,))
         self._hand_used = None if isinstance(request, LetGo) else time.monotonic()
-
-    def check_locked(self, requests: Iterable[Request]) -> None:
-        """
-        Refuse what concerns locked bodies and is not submitted by `submit`, but for a teacher.
-
-        :raises Frozen: a request concerns one
-        """
-        check_locked(self.role, requests, self.world)
-
-    def check_moment(self) -> None:
-        """
-        Refuse what replaces all bodies, by those of another moment or world, but for a teacher.
-
-        :raises Frozen: a body is locked
-        """
-        check_moment(self.role, self.world)
-
-    def check_taken_back(self, gestures: Collection[int]) -> None:
-        """
-        Refuse to take back gestures, by their numbers, that concern locked bodies.
-
-        :raises Frozen: one of them does, and the page is no teacher's
-        """
-        check_taken_back(self.role, gestures, self.world)
 
     def with_material(self, requests: Iterable[Request]) -> tuple[Request, ...]:
         """Return the requests of a drawing, with the page's material for the bodies they add."""

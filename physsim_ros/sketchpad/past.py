@@ -15,16 +15,20 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 from itertools import groupby
+import math
 from operator import attrgetter
 import time
 from typing import Any, NamedTuple
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.rope_path import spans
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
-from physsim_ros.model.transform import rotated_each
+from physsim_ros.model.transform import local_to_world, rotated_each
 from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.contacts import touches_content
@@ -232,7 +236,7 @@ def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[s
         along = (acting * contacts.normals).sum(axis=1, keepdims=True) * contacts.normals
         pulls = np.zeros((1, 2))
         if len(snapshot.pulls) == len(snapshot.scene.joints):
-            pulls = snapshot.pulls * _sides(snapshot.scene.joint_rows, row)[:, None]
+            pulls = _pulls(snapshot, name, row)
         times.append(snapshot.stamp * 1e-9)
         fields = snapshot.fields[[row]] if len(snapshot.fields) else np.zeros((1, 2))
         forces = along, acting - along, pulls, fields
@@ -240,6 +244,33 @@ def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[s
     columns = np.array(rows).reshape(-1, 8)
     kinds = dict(zip(PAST_KINDS, np.hsplit(columns, 4), strict=True))
     return {'time': times, **{kind: forces.tolist() for kind, forces in kinds.items()}}
+
+
+def _pulls(snapshot: Snapshot, name: str, row: int) -> Floats:
+    """Return (j, 2) float64: the force of each joint on a body, world axes [N]."""
+    scene, poses = snapshot.scene, snapshot.poses
+    pulls: Floats = snapshot.pulls * _sides(scene.joint_rows, row)[:, None]
+    for number, joint in enumerate(scene.joints):
+        names = (joint.a, *(guide.body for guide in joint.guides), joint.b)
+        if joint.kind is not JointKind.ROPE or not joint.guides or name not in names:
+            continue
+        seat = joint.seat
+        passed = [
+            (seat.ax, seat.ay),
+            *((x, y) for _, x, y, *_ in joint.guides),
+            (seat.bx, seat.by),
+        ]
+        places = [
+            (x, y) if body == WORLD else local_to_world((x, y), tuple(poses[scene.row_of[body]]))
+            for body, (x, y) in zip(names, passed, strict=True)
+        ]
+        radii = (0.0, *(guide.radius for guide in joint.guides), 0.0)
+        headings = np.array([span.heading for span in spans(places, radii)])
+        along = np.stack((np.cos(headings), np.sin(headings)), axis=1)
+        ends = np.array([each == name for each in names], dtype=float)
+        # The tension is the same in all spans, and draws the ends of each to one another.
+        pulls[number] = math.hypot(*snapshot.pulls[number]) * (ends[:-1] - ends[1:]) @ along
+    return pulls
 
 
 def _sides(pairs: Ints, row: int) -> Floats:

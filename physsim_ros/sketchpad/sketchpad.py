@@ -31,7 +31,7 @@ from physsim_ros.sketchpad.results import Results, results_file
 from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
 from physsim_ros.sketchpad.server.server import Server
-from physsim_ros.sketchpad.world_control import opened, WorldControl
+from physsim_ros.sketchpad.world_control import open_content, WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
 # some 3 ms.
@@ -240,7 +240,7 @@ class Sketchpad:
         simulation = self._simulation
 
         async def answers() -> tuple[Answer]:
-            load = partial(opened, simulation, upload.content)
+            load = partial(open_content, simulation, upload.content)
             (answer,) = await answers_of(origin, load, self._boundary)
             upload.reply(answer)
             return (answer,)

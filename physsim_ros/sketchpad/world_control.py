@@ -113,7 +113,7 @@ class WorldControl(Protocol):
         """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
 
 
-async def opened(simulation: Simulation, content: Mapping[str, Any]) -> str:
+async def open_content(simulation: Simulation, content: Mapping[str, Any]) -> str:
     """
     Begin with a world at time 0, which undo reverts, and return a message about it.
 

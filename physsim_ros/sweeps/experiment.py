@@ -38,8 +38,8 @@ class Case:
     """
     A case of an experiment.
 
-    :param seed: of all noise, and of what `begin` draws
-    :param parameters: of the controller, by name
+    :param seed: seed of all noise, and of the random numbers of `begin`
+    :param parameters: parameters of the controller, by name
     """
 
     seed: int = 0
@@ -49,15 +49,15 @@ class Case:
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Run:
     """
-    What came of a case.
+    The result of a case.
 
-    :param case: that was run
-    :param failure: why it failed; '' if it did not
-    :param seconds: simulation time until then, or until the end [s]
+    :param case: the case
+    :param failure: reason of the failure; '' if the run succeeded
+    :param seconds: simulation time until the failure, or until the end [s]
     :param way: (k, 2) float64: positions of the robot at the controller's periods, world [m]
-    :param score: of the robot at the end; NaN without a function for it
-    :param before: the world shortly before a failure; None without one
-    :param physics_rate: steps a second of the world [Hz]
+    :param score: score of the robot at the end; NaN if the experiment has no score
+    :param before: state of the world shortly before the failure; None if the run succeeded
+    :param physics_rate: steps of the world per second of simulation time [Hz]
     """
 
     case: Case
@@ -70,7 +70,7 @@ class Run:
 
     @property
     def length(self) -> float:
-        """Return the length of its way [m]."""
+        """Return the length of the robot's way [m]."""
         steps = np.diff(self.way, axis=0)
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
@@ -103,22 +103,23 @@ def _unheard(_: int) -> None:
 
 
 def has_bumped(robot: Robot) -> str:
-    """Return a failure where a robot has touched something."""
+    """Return the failure `crashed` if a robot has touched something, else ''."""
     return 'crashed' if robot.bumped else ''
 
 
 @dataclass(frozen=True, kw_only=True)
 class Experiment(Checked):
     """
-    A controller in a world.
+    A controller in a world, to be run with many seeds and parameters.
 
-    :param world: with the robot; a run begins with it, and with noise of its own seed
-    :param controller: makes the controller of a case, of its parameters by keyword; that is called
-        with the robot once in a period, and has it drive
-    :param robot: name of its body
-    :param begin: changes the world at the beginning, by random numbers of the seed; None does not
-    :param failure: why a robot has failed since the last period, or ''
-    :param score: of the robot at the end of a run; None is none
+    :param world: state with the robot, with which each run begins; each has its own noise
+    :param controller: creates the controller of a case from its parameters, by keyword; the
+        controller is called with the robot once in each period, and drives it
+    :param robot: name of the robot's body
+    :param begin: changes the world when a run begins, by a random generator of its seed; None
+        changes nothing
+    :param failure: returns why the robot has failed since the last period, or ''
+    :param score: returns a number for the robot at the end of a run; None is no score
     :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
     :raises BadProperty: a time is out of range
     """
@@ -151,8 +152,8 @@ class Experiment(Checked):
         """
         Refuse a case whose parameters are not those of the controller.
 
-        :raises UnknownProperty: the controller has no such parameter; the nearest one is named
-        :raises BadProperty: one that the controller needs is missing
+        :raises UnknownProperty: the controller lacks the parameter; the message names the nearest
+        :raises BadProperty: a parameter that the controller requires is missing
         """
         try:
             known = signature(self.controller).parameters.values()
@@ -173,11 +174,11 @@ class Experiment(Checked):
 
     def run(self, case: Case) -> Run:
         """
-        Run a case in this process.
+        Run a case in this process, and return its result.
 
-        An error of `begin` or of the controller is the failure of its run, and so is an exit.
+        If `begin` or the controller raises an error or exits, the run has failed.
 
-        :raises Refusal: the world cannot be simulated, or has no such robot; and as `check`
+        :raises Refusal: the world cannot be simulated, or has no such robot; also as `check`
         """
         return self.attempt(case)
 

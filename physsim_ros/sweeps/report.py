@@ -26,11 +26,11 @@ _LONGEST_REASON = 80
 
 def table_of_runs(runs: Iterable[Run]) -> str:
     """
-    Return a table: for each combination of parameters how many runs failed, and why.
+    Return a table with a row for each combination of parameters.
 
-    Its columns are the parameters, runs, failures, mean time [s] and mean way [m] until failure or
-    end, the mean score where there are scores, and the reasons of failures with the seeds of the
-    runs, the most frequent reason first.
+    Its columns are the parameters, the number of runs and of failures, the mean time [s] and mean
+    way [m] until failure or end, the mean score if the experiment has a score, and the reasons of
+    failures with the seeds of the runs, the most frequent reason first.
     """
     groups: dict[str, list[Run]] = {}
     for run in runs:
@@ -77,10 +77,10 @@ def picture_of_runs(
     experiment: Experiment, runs: Iterable[Run], width: int = 960
 ) -> NDArray[np.uint8]:
     """
-    Return a picture of the world with the ways of all runs, red those that failed.
+    Return a picture of the world with the ways of all runs; failed runs are red.
 
-    :param experiment: of the runs
-    :param width: of the picture [pixels]
+    :param experiment: experiment of the runs
+    :param width: width of the picture [pixels]
     :return: (height, width, 3) uint8; `PIL.Image.fromarray(picture).save('runs.png')` writes it
     """
     simulation = Simulation(physics_rate=experiment.physics_rate, publish_rate=1.0)
@@ -94,11 +94,11 @@ def picture_of_runs(
 
 def save_failures(runs: Iterable[Run], folder: Path) -> list[Path]:
     """
-    Write the world of each failed run, shortly before its failure; return the paths.
+    Write the world of each failed run shortly before its failure, and return the paths.
 
     The page opens them, as with `physsim --ros-args -p world_file:=failures/run_3_seed_3.yaml`.
 
-    :param folder: for the files; it is made where it is not there
+    :param folder: folder of the files, created if it does not exist
     :raises BadWorldFile: a file cannot be written
     """
     saved = (save_failure(number, run, folder) for number, run in enumerate(runs))

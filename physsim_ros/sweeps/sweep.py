@@ -52,7 +52,10 @@ def cases_of(seeds: Iterable[int], **parameters: Sequence[Any]) -> list[Case]:
     """
     Return a case for each seed and each combination of parameters.
 
-    :param seeds: of the noise
+    >>> [(case.seed, case.parameters) for case in cases_of(seeds=[0, 1], gain=[2.0])]
+    [(0, {'gain': 2.0}), (1, {'gain': 2.0})]
+
+    :param seeds: seeds of the noise
     :param parameters: values of each parameter, by its name
     """
     seeds = list(seeds)
@@ -72,16 +75,16 @@ def runs_of(
     folder: Path | None = None,
 ) -> Iterator[tuple[int, Run]]:
     """
-    Run all cases; yield the number of each case with its run, as soon as that has ended.
+    Run all cases, and yield the number and the run of each case as soon as it ends.
 
-    :param experiment: that is run
-    :param cases: of it, as by `cases_of`
-    :param spread: has others run the cases, as those of a Dask cluster; None is this machine
-    :param processes: of this machine, greatest number that run at once
-    :param folder: for the runs as they come, and the worlds of failures; the runs that it has are
-        yielded first, and not run again. None is none
-    :raises Refusal: before the first run, as `Experiment.check`; the number of processes is out
-        of range; the folder has the runs of another experiment; and as `Experiment.run`
+    :param experiment: the experiment
+    :param cases: its cases, as `cases_of` returns them
+    :param spread: runs the cases elsewhere, such as on a Dask cluster; None is this machine
+    :param processes: greatest number of processes at once on this machine
+    :param folder: folder in which runs and worlds of failures are written; runs that it already
+        has are yielded first, and not run again. None writes nothing
+    :raises Refusal: before the first run, as `Experiment.check`; the number of processes is out of
+        range; the folder has the runs of another experiment; also as `Experiment.run`
     """
     numbered = [*enumerate(cases)]
     for _, case in numbered:
@@ -120,9 +123,9 @@ def sweep(
     folder: Path | None = None,
 ) -> list[Run]:
     """
-    Run all cases, and return what came of them, in their order.
+    Run all cases, and return their runs in the order of the cases.
 
-    Parameters and refusals are those of `runs_of`, which yields runs as they end.
+    Parameters and refusals are those of `runs_of`.
     """
     ended = dict(runs_of(experiment, cases, spread, processes=processes, folder=folder))
     return [ended[number] for number in sorted(ended)]

@@ -281,9 +281,9 @@ class PhysSim(ChangedWorld):
 @contextmanager
 def own_world(**parameters: Unpack[Parameters]) -> Iterator[PhysSim]:
     """
-    Yield a world with its own context and domain, where the fixture is one for the whole test.
+    Yield a world with its own context and domain, such as one with other parameters.
 
-    :param parameters: of its node
+    :param parameters: parameters of its node
     :raises PhysSimError: a parameter is unknown, or its value is refused
     """
     with (

@@ -6,6 +6,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+import itertools
 import math
 
 import numpy as np
@@ -15,6 +16,7 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Command, Delete, Join, Request, Spawn
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import rotated_each
 from physsim_ros.simulation.entries import Origin
@@ -176,6 +178,16 @@ RELATIONS['reversed'] = each_stroke(backwards)
 
 def readings(drawn: Drawn) -> str:
     """Return the meaning of the last stroke, and what it concerns; '' where it is refused."""
+    meaning, _ = drawn_into_a_world(drawn, _PAUSE)
+    return meaning
+
+
+def drawn_into_a_world(drawn: Drawn, pause: float) -> tuple[str, Scene]:
+    """
+    Return the meaning of the last stroke, '' where it is refused, and the scene after it.
+
+    :param pause: between strokes [s]
+    """
     before, strokes = drawn
     simulation = Simulation(speed=0.0)
     for request in before:
@@ -184,7 +196,7 @@ def readings(drawn: Drawn) -> str:
     frame = simulation.apply_requests() or frame
     session, now, meaning = DrawingSession(DrawingSettings()), 0.0, ''
     for samples in strokes:
-        began, now = now + _PAUSE, now + _PAUSE + float(np.ptp(samples[:, 2]))
+        began, now = now + pause, now + pause + float(np.ptp(samples[:, 2]))
         try:
             reading = session.stroke(samples, '', frame.snapshot, began=began)
         except Refusal:
@@ -192,8 +204,9 @@ def readings(drawn: Drawn) -> str:
             continue
         submit_reading(simulation, session, reading, Origin(''))
         frame = simulation.apply_requests() or frame
+        assert all(answer.code == '' for answer in frame.answers), frame.answers
         meaning = ' '.join((reading.meaning, *concerned(reading.requests)))
-    return meaning
+    return meaning, frame.snapshot.scene
 
 
 def concerned(requests: Sequence[Request]) -> list[str]:
@@ -218,3 +231,75 @@ def test_a_reading_stays_the_same(thing: str, relation: str) -> None:
     drawn: Drawn = before, [along(way) for way in ways]
 
     assert readings(RELATIONS[relation](drawn) if relation else drawn) == meaning
+
+
+def at(x: float, y: float, way: Floats) -> Floats:
+    return way + np.array((x, y))
+
+
+X = np.array([(-0.4, 0.35), (0.4, -0.35), (0.36, 0.33), (-0.4, -0.32)])
+BOARD = np.array([(-1.5, -0.2), (1.5, -0.19), (1.48, 0.2), (-1.5, 0.19), (-1.5, -0.19)])
+BOB, UP = 0.4 * OVAL, [(0.0, 3.0), (0.1, 0.05)]
+CAR = [
+    BOARD * (1.4, 2.5), at(-1.3, -0.5, 0.6 * OVAL), at(1.3, -0.5, 0.6 * OVAL),
+    at(-1.3, -0.5, 0.15 * OVAL), at(1.3, -0.5, 0.15 * OVAL),
+]  # fmt: skip
+# Strokes, and the world that they make in any order: bodies, anchored ones with an !, and joints.
+IN_ANY_ORDER: dict[str, tuple[Sequence[Way | Floats], str]] = {
+    'rod, bob': ([UP, BOB], 'Disc, rod Disc world'),
+    'rod to the rim, bob': ([[UP[0], (0.05, 0.3)], BOB], 'Disc, rod Disc world'),
+    'rope, bob': ([SAG, at(4.5, 0.0, BOB)], 'Disc, rope Disc world'),
+    'spring, mass': ([zigzag((0.0, 3.0), (0.0, 0.1)), BOARD], 'Box, spring Box world'),
+    'rod between two': ([[(0, 0), (3, 0.1)], BOB, at(3, 0, BOARD)], 'Box Disc, rod Box Disc'),
+    'swing': ([[(-1, 3), (-1, 0)], [(1, 3), (1, 0)], BOARD], 'Box, rod Box world, rod Box world'),
+    'two pendulums in a row': (
+        [UP, BOB, [(0.1, 0.0), (1.5, -1.5)], at(1.5, -1.5, BOB)],
+        'Disc Disc, rod Disc Disc, rod Disc world',
+    ),
+    'wheel and axle': ([OVAL, 0.2 * OVAL], 'Disc, axle Disc world'),
+    'seesaw': ([BOARD, 0.1 * OVAL], 'Box, axle Box world'),
+    'hinge': ([BOARD, at(2.5, 0.0, BOARD), at(1.25, 0.0, 0.1 * OVAL)], 'Box Box, axle Box Box'),
+    'weld': ([BOARD, at(2.5, 0.0, BOARD), square(1.25, 0.0, 0.1)], 'Box Box, pin Box Box'),
+    'car': (CAR, 'Box Disc Disc, axle Box Disc, axle Box Disc'),
+    'body and x': ([BOARD * (1.0, 4.0), X], 'Box!'),
+    'body and x of two lines': ([BOARD * (1.0, 5.0), *CROSSED], 'Box!'),
+    'ball and ramp': ([[(-2, 1.5), (2, 0)], at(-1.5, 1.68, 0.32 * OVAL)], 'Chain! Disc'),
+    'ball and the end of its ramp': (
+        [[(-2, 1.5), (2, 0)], at(-1.85, 1.75, 0.32 * OVAL)], 'Chain! Disc',
+    ),
+    'box and the end of its floor': ([[(-3, 0), (1, 0)], at(1.0, 0.17, BOARD)], 'Box Chain!'),
+    'ball and post': ([[(0, -2), (0, -0.35)], BOB], 'Chain! Disc'),
+    'board and two posts': (
+        [[(-1, -2), (-1, -0.17)], [(1, -2), (1, -0.17)], BOARD], 'Box Chain! Chain!',
+    ),
+    'dominoes': (
+        [[(-1, 0), (3, 0)], *(BOARD[:, ::-1] + (0.8 * n, 1.52) for n in range(3))],
+        'Box Box Box Chain!',
+    ),
+    'walls that cross': ([[(-2, -1), (2, 1)], [(-2, 1), (2, -1)]], 'Chain! Chain!'),
+}  # fmt: skip
+# A solid between the two lines of an x parts these.
+PARTED = {'body and x of two lines': [(1, 0, 2), (2, 0, 1)]}
+
+
+def described(scene: Scene) -> str:
+    """Return the shapes of bodies, anchored ones with an !, and joints with these, sorted."""
+    names = {
+        each.name: type(each.shape).__name__ + '!' * each.anchored for each in scene.bodies
+    } | {WORLD: WORLD}
+    joints = (
+        f'{each.kind} {" ".join(sorted((names[each.a], names[each.b])))}' for each in scene.joints
+    )
+    return ', '.join((' '.join(sorted(names[each] for each in scene.names)), *sorted(joints)))
+
+
+@pytest.mark.parametrize('pause', [0.4, 1.5])
+@pytest.mark.parametrize('thing', IN_ANY_ORDER)
+def test_strokes_in_any_order_make_the_same_world(thing: str, pause: float) -> None:
+    ways, world = IN_ANY_ORDER[thing]
+    orders = list(itertools.permutations(range(len(ways))))
+    # Of more than six orders, six that begin with each stroke.
+    for order in orders[:: -(-len(orders) // 6)]:
+        drawn: Drawn = [], [along(ways[number]) for number in order]
+        if order not in PARTED.get(thing, []):
+            assert described(drawn_into_a_world(drawn, pause)[1]) == world, order

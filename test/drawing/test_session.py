@@ -21,7 +21,7 @@ from physsim_ros.model.requests import Command, Configure, Join, MoveBodies, Req
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -99,6 +99,7 @@ SQUARE = [
     [(0.0, 2.0), (0.03, 0.03)],
 ]
 CIRCLE, DIAMETER = circle(0.0, 0.0, 1.0), [(-1.1, 0.0), (1.1, 0.0)]
+PLATE = Box(width=6.0, height=4.0)
 
 
 def off_by(share: float) -> list[Floats]:
@@ -177,6 +178,66 @@ def test_four_lines_are_undone_as_one_gesture() -> None:
 
     desk.simulation.undo()
     assert desk.shapes == []
+
+
+ARROW = [[(0.2, 0.0), (2.0, 0.1)], [(1.5, 0.5), (2.0, 0.1), (1.5, -0.4)]]
+# Strokes on a plate of 6 m by 4 m or a disc, slowly one after the other, and what the last one is.
+SLOWLY: dict[str, tuple[Shape, Sequence[Way], str]] = {
+    'lines that cross': (PLATE, [[(-1, -1), (1, 1)], [(-1, 1), (1, -1)]], 'anchor'),
+    'lines side by side': (PLATE, [[(-1, -1), (1, 1)], [(0, -1), (2, 1)]], 'hatching'),
+    'hatching crosswise': (
+        PLATE, [[(-1, -1), (1, 1)], [(0, -1), (2, 1)], [(0, 1), (2, -1)]], 'hatching',
+    ),
+    'an arrow': (Disc(radius=0.5), ARROW, 'velocity'),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize('after', [0.3, 3.0])
+@pytest.mark.parametrize(('shape', 'ways', 'meaning'), SLOWLY.values(), ids=SLOWLY)
+def test_signs_on_a_body_may_be_drawn_slowly(
+    shape: Shape, ways: Sequence[Way], meaning: str, after: float
+) -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', shape))
+    for way in ways:
+        last = desk.draw(way, after=after)
+
+    assert last.meaning == meaning
+    assert desk.shapes == [type(shape).__name__]
+
+
+def test_an_x_at_once_after_its_solid_is_no_mark() -> None:
+    desk = Desk()
+    desk.draw(2.0 * CIRCLE)
+    mark = desk.draw(SLOWLY['lines that cross'][1][0])
+    last = desk.draw(SLOWLY['lines that cross'][1][1])
+
+    assert (mark.meaning, last.meaning) == ('mark', 'anchor')
+
+
+def test_a_rod_before_its_bob_is_undone_and_read_anew_with_it() -> None:
+    desk = Desk()
+    desk.draw([(0.0, 3.0), (0.0, 0.0)])
+    reading = desk.draw(CIRCLE * (0.4, 0.25), after=3.0)
+    joined = [str(each.kind) for each in desk.scene.joints]
+    desk.instead('polygon')
+    again = [str(each.kind) for each in desk.scene.joints], desk.shapes
+    desk.simulation.undo()
+
+    assert joined == ['rod']
+    assert reading.message.endswith('; a rod from drawn/1 to world')
+    assert again == (['rod'], ['Polygon'])
+    assert desk.shapes == ['Chain']
+
+
+@pytest.mark.parametrize('on_it', [(0.5, 0.25, 0.0), (0.5, -3.0, 0.0)])
+def test_a_wall_that_bears_something_is_no_rod(on_it: tuple[float, float, float]) -> None:
+    desk = Desk()
+    desk.draw([(-3.0, 0.0), (3.0, 0.0)])
+    desk.spawn(spawning('a/0', Box(width=0.4, height=0.4), on_it))
+    desk.draw(circle(3.0, 0.0, 0.5), after=3.0)
+
+    assert desk.shapes[0] == ('Chain' if on_it[1] > 0.0 else 'Box')
 
 
 @pytest.mark.parametrize(('settings', 'after'), [({}, 1.0), ({'regroup': 0.0}, 0.3)])

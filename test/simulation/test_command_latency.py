@@ -7,7 +7,7 @@ import numpy as np
 from physsim_ros.files import robot_spawn
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.motor_command import MotorCommand
+from physsim_ros.model.motor_command import MotorCommand, TimedCommand
 from physsim_ros.model.requests import (
     ChangeBody,
     CommandMotors,
@@ -23,6 +23,7 @@ from physsim_ros.simulation.world import World
 import pytest
 
 from .driven import body_request, changing, put, refusal_of_file, seen_from_above, twins
+from ..building import check_begins_alike
 
 
 def driven_world(**drive: object) -> World:
@@ -109,6 +110,7 @@ def test_a_drive_looks_for_commands_at_its_rate():
 
 def assert_goes_on_alike(world, tmp_path):
     """Expect a world to go on to the bit from its file, and restored at another moment."""
+    check_begins_alike(world.save(), world.physics_rate)
     one, other = twins(world, tmp_path)
     later = seen_from_above()
     later.step(100)
@@ -243,7 +245,7 @@ def test_a_motor_obeys_after_the_latency_as_it_would_have_at_once(points):
     bend(late, *points)
     late.step(24 + 120)
     prompt.step(48)
-    prompt.space.command_motor(motor_command(points), 48)
+    prompt.space.commands.command_motor(TimedCommand(motor_command(points), 48), 48)
     prompt.step(120)
     # A path begins where the joint is when the command arrives.
     assert np.array_equal(late.snapshot().poses[:, 2], prompt.snapshot().poses[:, 2])

@@ -30,7 +30,7 @@ SEEN = {
     'pendulum': (3.2, 'bob/0'),
     'spring_energy': (0.7, 'block/0'),
     'floating': (2.0, 'block/0'),
-    'terminal_speed': (5.0, 'ball/0'),
+    'terminal_speed': (2.4, 'ball/0'),
     'orbit': (8.0, 'planet/0'),
     'pulley': (1.0, 'load/0'),
     'belt': (1.75, 'parcel/0'),

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from physsim_ros.files import shipped_lessons
 import pytest
 
 from .chromium import NOTE_TEXTS, Sheet, started_world
@@ -235,5 +236,23 @@ bodies:
     told = sheet.page.evaluate('window.texts.filter((text) => text.endsWith("N m s"))')
     # It lies in the air for less than a frame.
     assert float(told[0].split()[0]) == pytest.approx(torque * time, rel=0.05)
+    sheet.close()
+    program.interrupt()
+
+
+def test_each_strand_of_a_rope_bears_its_share_of_a_load(chromium: Any, outside: Outside) -> None:
+    program, address = started_world(
+        outside, world=(shipped_lessons() / 'pulley.yaml').read_text()
+    )
+    sheet = Sheet(chromium, address)
+    sheet.begin(3)
+    sheet.press('Show forces')
+    sheet.play_until(1.0)
+    sheet.until(lambda: 'sum' in numbers_on(sheet, 'load/0'), 'the forces on the load')
+    drawn = sheet.page.evaluate('physsim.forces')
+    strands = [e for e in drawn if e['name'] == 'load/0' and e['kind'] == 'joint']
+    assert [e['size'] for e in strands] == ['98.1 N'] * 4
+    assert all(e['force'] == pytest.approx((0.0, 10.0 * G), abs=0.05) for e in strands)
+    assert numbers_on(sheet, 'load/0')['sum'] == '0 N'
     sheet.close()
     program.interrupt()

@@ -14,8 +14,10 @@ import time
 from typing import Any
 
 import numpy as np
-from physsim_ros.files import text_of
+from physsim_ros.files import load_world, text_of
 from physsim_ros.model.snapshot import Answer, Grip
+from physsim_ros.simulation.past.line import CachedFrame
+from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import past, Role
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
@@ -230,6 +232,12 @@ def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
     assert [body['density'] for body in scene['bodies']] == [7.0, 1.0, 7.0]
     assert scene['bodies'][0]['color'] == [1.0, 0.0, 0.0, 1.0] == scene['bodies'][2]['color']
     assert [physsim.twist(name).vx for name in physsim.names] == [2.0, 0.0, 0.0]
+    # The pieces of a cut are of the material of their body.
+    page.send('click', tool='knife', point=[3.0, 9.0])
+    assert page.ask('click', tool='knife', point=[3.0, 1.0])['ok']
+    page.until(lambda: len(page.of_type('scene')[-1]['bodies']) == 4)
+    densities = [body['density'] for body in page.of_type('scene')[-1]['bodies']]
+    assert sorted(densities) == [1.0, 1.0, 7.0, 7.0]
 
 
 def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) -> None:
@@ -375,6 +383,31 @@ def test_the_forces_of_a_past_in_water_give_the_acceleration(browser: Browser) -
     middle = (forces[1:] + forces[:-1]) / 2
     assert np.abs(expected).max() > 10.0
     assert middle == pytest.approx(expected[1:], abs=0.1)
+
+
+@pytest.mark.parametrize('over', ['ring/0', 'wheel/0'])
+def test_the_force_of_a_rope_in_a_past_is_its_tension_along_each_strand(
+    tmp_path: Path, over: str
+) -> None:
+    path = tmp_path / 'ropes.yaml'
+    path.write_text("""
+    format: 1
+    gravity: [0, -9.81]
+    bodies:
+      - {name: beam/0, box: {width: 8, height: 1}, at: [2, 5.5], anchored: true}
+      - {name: ring/0, box: {width: 1, height: 1}, at: [0, 2], mass: 3}
+      - {name: wheel/0, circle: {radius: 0.5}, at: [4, 2], mass: 3}
+    joints:
+      - {name: r/0, kind: rope, a: beam/0, points: [[-0.5, 5], [0, 2], [0.5, 5]], over: [ring/0]}
+      - {name: r/1, kind: rope, a: beam/0, points: [[3.5, 5], [4, 2], [4.5, 5]], over: [wheel/0]}
+    """)
+    simulation = Simulation()
+    simulation.begin(load_world(path))
+    simulation.reports_contacts = True
+    frames = [simulation.advance_frame() for _ in range(60)]
+    cached = [CachedFrame(frame.snapshot, frame.contacts) for frame in frames]
+    told = past.past_forces(cached, over, 240.0)
+    assert told['joint'][-1] == pytest.approx((0.0, 3.0 * 9.81), abs=0.05)
 
 
 def test_pasts_are_told_one_after_the_other_of_each_page_the_last_that_it_asked_for(

@@ -192,8 +192,9 @@ pytestmark = pytest.mark.linter
 OF_DOCUMENTS = {
     # Files that the reader makes, and one of another project.
     *('conftest.py', 'damper.py', 'fall.py', 'first.py', 'follower.py', 'parser.py', 'stopper.py'),
-    *('test_crash.py', 'test_fall.py', 'test_stopper.py', 'test_tracker.py', 'tracker.py'),
-    *('test_wall_follower.py', 'wall_follower.py', 'wall_task.py', 'ament_add_pytest_test'),
+    *('path.py', 'test_cradle.py', 'test_crash.py', 'test_fall.py', 'test_stopper.py'),
+    *('test_tracker.py', 'tracker.py', 'test_wall_follower.py', 'wall_follower.py'),
+    *('wall_task.py', 'ament_add_pytest_test'),
     # Fields of messages, names and parameters of Nav2.
     *('values.body', 'values.yaml', 'enable_stamped_cmd_vel', 'map_server'),
     *('controller_frequency', 'expected_update_rate', 'odom_frame_id'),

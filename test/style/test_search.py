@@ -71,6 +71,17 @@ WORDS = {
     'domain': 'installation',
     'tiled': 'convert',
     'reinforcement learning': 'learning',
+    'homework': 'lessons',
+    'inclined plane': 'worlds lessons',
+    'print': 'cheat_sheet',
+    'teleop': 'robots',
+    'servo': 'robots',
+    'noise': 'interface/properties',
+    'launch file': 'installation',
+    'line follower': 'worlds',
+    'rubber': 'interface/properties',
+    'explosion': 'questions',
+    'upgrade': 'changelog',
 }
 
 

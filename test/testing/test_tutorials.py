@@ -37,6 +37,7 @@ def page(name: str) -> str:
         ('tutorials/test_your_robot', 3),
         ('tutorials/rewind_to_the_crash', 1),
         ('tutorials/teach_free_fall', 1),
+        ('tutorials/record_and_look', 1),
         ('another_process', 2),
     ],
 )
@@ -60,6 +61,30 @@ def test_free_fall_is_measured_again_and_again(outside: Outside) -> None:
                 fall.wait_for(printed.splitlines()[-1].partition('  ')[0])
                 assert fall.finish() == 0, ''.join(fall.lines)
         assert world.interrupt() == 0
+
+
+@pytest.mark.slow
+def test_the_path_of_a_body_is_written_as_a_table(outside: Outside) -> None:
+    program = outside.directory / 'path.py'
+    program.write_text(dict(FILE.findall(page('tutorials/record_and_look')))['path.py'], 'utf-8')
+    with (
+        outside.start_world(gravity='[0.0, 0.0]') as world,
+        outside.start(sys.executable, program, 'my/1') as path,
+    ):
+        path.wait_for('t [s],x [m],y [m],vx [m/s],vy [m/s]')
+        # The body of README, which flies straight where there is no gravity.
+        (first,) = (block for block in blocks_of('README.md', 'python') if 'create_node' in block)
+        (outside.directory / 'first.py').write_text(first, 'utf-8')
+        with outside.start(sys.executable, outside.directory / 'first.py') as ball:
+            assert ball.finish() == 0, ''.join(ball.lines)
+        rows = [[float(word) for word in path.wait_for(',').split(',')] for _ in range(9)]
+        assert path.interrupt() == 0, ''.join(path.lines)
+        assert world.interrupt() == 0
+    for time, *place in rows:
+        passed = time - rows[0][0]
+        expected = [rows[0][1] - 3.0 * passed, rows[0][2] + 2.0 * passed, -3.0, 2.0]
+        # Stamps have nanoseconds.
+        assert place == pytest.approx(expected, abs=1e-8)
 
 
 @pytest.mark.slow

@@ -107,7 +107,7 @@ def floating() -> float:
 
 
 def terminal_speed() -> float:
-    film = Film(simulation('terminal_speed'), 4.0)
+    film = Film(simulation('terminal_speed'), 2.4)
     return -film.twist('ball/0')[-1, 1]
 
 

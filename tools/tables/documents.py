@@ -141,7 +141,7 @@ def _joint_default(each: Declaration) -> str:
 
 
 def _robot_keys() -> str:
-    drive = [('`kind`', 'needed', '', f'one of {_list(DRIVES)}')]
+    drive = [('`kind`', 'required', '', f'one of {_list(DRIVES)}')]
     for each, kinds in _by_kinds(DRIVES):
         key, default, span, meaning = _row(each)
         of = f'of {_list(kinds)}: ' if len(kinds) < len(DRIVES) else ''
@@ -207,7 +207,7 @@ def _row_of_python(each: Declaration) -> tuple[str, str, str]:
     """Return a row with the default as a program has it."""
     is_plain = isinstance(each.default, str | int | float | tuple | None)
     default = f'`{each.default!r}`' if is_plain else ''
-    return f'`{each.name}`', 'needed' if each.default is MISSING else default, each.sentence
+    return f'`{each.name}`', 'required' if each.default is MISSING else default, each.sentence
 
 
 def _by_kinds(
@@ -258,7 +258,7 @@ def _row(each: Declaration) -> tuple[str, str, str, str]:
 def _value(value: object) -> str:
     """Return a default as people write it in YAML; '' for none, or for a mapping."""
     if value is MISSING:
-        return 'needed'
+        return 'required'
     if isinstance(value, Checked) or value in (None, (), ''):
         return ''
     if isinstance(value, bool):

@@ -17,7 +17,7 @@ WORDS: dict[tuple[str, str], str] = {
         'Gazebo, flatland, Stage, ir-sim, MVSim, Algodoo, PhET, turtlesim, Pymunk, Box2D, '
         'alternatives'
     ),
-    ('cheat_sheet', ''): 'keyboard, keys, shortcuts, shortcut, hotkeys, gestures, strokes',
+    ('cheat_sheet', ''): 'keyboard, keys, shortcuts, shortcut, hotkeys, gestures, strokes, print',
     ('classroom', ''): 'class, pupils, students, teacher, school, freeze, lock, QR code',
     ('classroom', 'In the language of the class'): 'language, German, translation',
     ('convert', ''): 'convert, import, Tiled, RUBE, SDF, URDF, XML, migrate',
@@ -30,6 +30,7 @@ WORDS: dict[tuple[str, str], str] = {
     ('installation', ''): (
         'install, pip, colcon, rosdep, wheel, requirements, uninstall, disk space'
     ),
+    ('installation', 'In a workspace'): 'launch, launch file, workspace',
     ('installation', 'In a container'): 'Docker, podman, container, devcontainer',
     ('installation', 'Many people on one network'): 'ROS_DOMAIN_ID, domain, network',
     ('interface', 'Several worlds'): 'namespace, remap',
@@ -40,14 +41,15 @@ WORDS: dict[tuple[str, str], str] = {
     ('interface/properties', 'A body from a marker'): (
         'mass, density, friction, elasticity, restitution, bounce, bouncy, bounciness, '
         'force, thruster, collision group, sensor, conveyor, belt, one-way, platform, shape, '
-        'rolling resistance, water, fluid, buoyancy, float, drag, wind, medium, charge, attraction'
+        'rolling resistance, water, fluid, buoyancy, float, drag, wind, medium, charge, '
+        'attraction, material, rubber'
     ),
     ('interface/properties', 'A joint from a marker'): (
         'joint, spring, motor, hinge, axle, rod, rope, gear, slider, pin, weld, damper, pulley, '
         'constraint, winch, block and tackle, rack, pinion, ratchet, torsion spring'
     ),
     ('interface/properties', 'Sensors of a robot'): (
-        'laser, lidar, scan, IMU, GPS, bumper, range finder, line sensor, encoder'
+        'laser, lidar, scan, IMU, GPS, bumper, range finder, line sensor, encoder, noise'
     ),
     ('interface/simulation_interfaces', ''): (
         'simulation_interfaces, spawn_entity, standard services'
@@ -58,18 +60,23 @@ WORDS: dict[tuple[str, str], str] = {
     ('interface/world_files', 'Maps'): 'map_server, occupancy grid',
     ('learning', ''): 'Gymnasium, gym, reinforcement learning, RL, PPO, environment',
     ('learning', 'A sweep'): 'sweep, experiment, Dask, parallel, Monte Carlo',
-    ('lessons', ''): 'lesson, exercise, free fall, question, curriculum',
+    ('lessons', ''): (
+        'lesson, exercise, free fall, question, curriculum, homework, quiz, worksheet, experiment'
+    ),
     ('physics', ''): 'accuracy, tolerance, law, energy, momentum, solver',
     ('physics', 'Limits'): 'limits, limitations, mass ratio, stack',
     ('physics', 'The same bits'): 'deterministic, determinism, reproducible, bit',
     ('python', ''): 'Python, library, Simulation, without ROS, script',
     ('questions', ''): 'problem, trouble, troubleshooting, help, FAQ, does not move, stuck, slow',
+    ('questions', 'How do I make stacks or joints stiffer?'): 'unstable, explosion, jitter, stiff',
     ('robots', ''): 'robot, differential drive, odometry, Ackermann, car-like, wheel, slip',
     ('robots', 'Battery and docks'): 'battery, dock, charge of a robot',
     ('robots', 'Drive, floor and odometry'): 'latency, delay, traction',
     ('robots', 'Trailers'): 'trailer, hitch, tow',
-    ('robots', 'Arms and grippers'): 'arm, gripper, joint_command, trajectory',
-    ('robots', 'Topics'): 'cmd_vel, odom, twist, tf, robot_description, joint_states',
+    ('robots', 'Arms and grippers'): 'arm, gripper, joint_command, trajectory, servo',
+    ('robots', 'Topics'): (
+        'cmd_vel, odom, twist, tf, robot_description, joint_states, teleop, joystick, gamepad'
+    ),
     ('nav2', ''): 'Nav2, navigation, AMCL, SLAM, costmap',
     ('robots', 'A controller in another process'): 'lockstep, synchronous, control loop',
     ('robots', 'Maps'): 'map, walls',
@@ -90,7 +97,7 @@ WORDS: dict[tuple[str, str], str] = {
     ('viewers', 'RViz and Foxglove'): 'RViz, Foxglove, interactive markers',
     ('worlds', ''): (
         'world, example, pendulum, dominoes, bridge, catapult, crane, Galton, harbour, maze, '
-        'Newton, cradle, orbit, planets, demo'
+        'Newton, cradle, orbit, planets, demo, inclined plane, line follower'
     ),
     ('tutorials/record_and_look', 'Take the numbers out'): 'CSV, export, spreadsheet, log',
 }  # fmt: skip

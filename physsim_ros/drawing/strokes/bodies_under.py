@@ -36,6 +36,9 @@ _STRIDE = 3
 # The least angle about the middle of a wheel, and the least change of direction there, of a rope
 # that runs around it [rad].
 _AROUND, _BEND = math.radians(90.0), math.radians(45.0)
+# The greatest depth of the end of a line on which a body stands, in inner radii of the body, and
+# the cosine of the slope of a ramp that bears a ball: 45°.
+_SHALLOW, _SLOPE = 0.33, 0.7
 # The least share of a hatching line on its body: ends may cross the edge.
 _INSIDE = 0.95
 # Name of a body -> which of these points lie on it, (43,) bool.
@@ -68,6 +71,21 @@ def joint_ends(points: Floats, scene: SceneQuery, snap: float) -> tuple[End, End
 
 def _is_dynamic(name: str, scene: SceneQuery) -> bool:
     return name != WORLD and scene.body(name).dynamic
+
+
+def stands_on(name: str, end: Point, scene: SceneQuery, steepness: float = _SLOPE) -> bool:
+    """
+    Return whether a body stands on the end of a line: that lies little above its underside.
+
+    :param end: within the body [m]
+    :param steepness: least cosine of the angle between gravity and the surface of the body there
+    """
+    x, y = _surface(end, name, scene)
+    depth, reach = math.dist(end, (x, y)), scene.body(name).shape.form.inner
+    gx, gy = scene.settings.gravity
+    # The normal of the surface there, against gravity.
+    upward = gx * (x - end[0]) + gy * (y - end[1])
+    return depth < _SHALLOW * reach and upward > steepness * depth * math.hypot(gx, gy)
 
 
 def wheels_passed(
@@ -240,7 +258,7 @@ def _snapped(point: Point, name: str, scene: SceneQuery, snap: float) -> Point:
 
 
 def _surface(point: Point, name: str, scene: SceneQuery) -> Point:
-    """Return the point of a body that is nearest to a point outside it."""
+    """Return the point of the outlines of a body's pieces that is nearest to a point."""
     local = scene.local(name, point)
     pieces = scene.body(name).shape.form.pieces
     nearest = (near for piece in pieces for near in nearest_points(piece, local))

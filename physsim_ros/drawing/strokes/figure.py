@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
+import itertools
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
@@ -49,7 +50,7 @@ from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.requests import ChangeBody, Join, Request, Spawn
 from physsim_ros.model.transform import next_vertices
 
 # The greatest number of strokes of one figure.
@@ -63,6 +64,9 @@ _ARROWS = frozenset({GRAVITY, 'velocity'})
 # Meanings of the heads of arrows, closed and filled, without their shafts.
 _HEADS = frozenset({POLYGON, DELETION})
 _JOINED = CLOSED | _ARROWS | {'anchor', 'motor'}
+# Signs on a body that two strokes are however slowly they are drawn, and the longest pause between
+# these [s]: two lines across a body, and a rod with barbs at its free end, are nothing else.
+_ON_BODIES, _SLOWLY = frozenset({'anchor', 'velocity'}), 10.0
 # The least share of the middle half of a line that lies on a solid whose mark it is.
 _ON_SOLID = 0.6
 
@@ -166,11 +170,12 @@ def likeliest_group(
     :param clock: returns a time [s]; after `MOST_TIME` the stroke is read by itself
     """
     began = clock()
+    hatching = _is_hatching((*figures, last))
     for group in _groups(figures, last, settings):
         if clock() > began + MOST_TIME:
             return None
         whole = _as_one(group, settings)
-        if whole is not None:
+        if whole is not None and not (hatching and whole.meaning == 'anchor'):
             whole.gestures = tuple(number for figure in group for number in figure.gestures)
             return whole
     return None
@@ -208,16 +213,20 @@ def _contexts_together(
     """Yield what figures may be together, each in its scene with the meanings to look for."""
     scene = group[0].scene
     strokes = tuple(stroke for figure in group for stroke in figure.strokes)
-    cross = x.of_lines(strokes)
+    pairs = itertools.pairwise(group)
+    in_time = all(_follows(figure, later, settings) for figure, later in pairs)
+    cross = crossing_in(scene, strokes, settings)
     if cross is not None:
-        whole = _joined(joined_strokes(strokes))
-        yield in_scene(whole, scene, settings, lambda _: (cross,)), _JOINED
+        yield cross, _JOINED if in_time else _ON_BODIES
         return
     arrow = joined_arrow(strokes)
     if arrow is not None:
         # The looks of the way from the one part to the other tell nothing.
         whole = _joined(arrow)
-        yield in_scene(whole, scene, settings, lambda it: sign_forms(it, (ARROW,))[0]), _ARROWS
+        context = in_scene(whole, scene, settings, lambda it: sign_forms(it, (ARROW,))[0])
+        yield context, _ARROWS if in_time else _ON_BODIES
+    if not in_time:
+        return
     # A solid, or a scribble, is part of an arrow alone; several lines may be an arrow so far.
     *before, last = group
     if last.is_line and all(
@@ -225,6 +234,16 @@ def _contexts_together(
         for each in before
     ):
         yield in_scene(_joined(joined_strokes(strokes)), scene, settings), _JOINED
+
+
+def crossing_in(
+    scene: SceneQuery, strokes: Sequence[Floats], settings: DrawingSettings
+) -> Context | None:
+    """Return strokes in a scene if they are an x of two lines, else None."""
+    cross = x.of_lines(strokes)
+    if cross is None:
+        return None
+    return in_scene(_joined(joined_strokes(strokes)), scene, settings, lambda _: (cross,))
 
 
 def _joined(path: Floats) -> Stroke:
@@ -278,6 +297,8 @@ def _groups(
         if not part or count > MOST_STROKES or not _follows(figure, group[0], settings):
             break
         group.insert(0, figure)
+    if len(group) == 1 and figures and _follows_slowly(figures[-1], last, settings):
+        group.insert(0, figures[-1])
     meeting = touching([stroke for each in group for stroke in each.strokes], settings.snap)
     for first in range(len(group) - 1):
         before = sum(len(each.strokes) for each in group[:first])
@@ -287,6 +308,22 @@ def _groups(
 
 def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
     return 0.0 < settings.regroup >= later.began - figure.ended
+
+
+def _follows_slowly(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
+    """Return whether two strokes, later than `regroup`, may still be a sign on a body."""
+    part = figure.is_line and settings.regroup > 0.0
+    return part and later.began - figure.ended <= max(_SLOWLY, settings.regroup)
+
+
+def _is_hatching(figures: Sequence[Figure]) -> bool:
+    """Return whether both figures before the last one hatch one body: the last one does, too."""
+    hatched = [
+        {each.name for each in figure.requests if isinstance(each, ChangeBody)}
+        for figure in figures[-3:-1]
+        if figure.meaning == 'hatching'
+    ]
+    return len(hatched) == 2 and hatched[0] == hatched[1]
 
 
 def _leaves_its_bodies(figure: Figure, walls: AbstractSet[str]) -> bool:

@@ -10,12 +10,14 @@ make it heavier.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 import math
 
 import numpy as np
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes import bodies_under, outcomes
+from physsim_ros.drawing.strokes.bodies_under import stands_on
 from physsim_ros.drawing.strokes.evidence import Form, LEAST
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
@@ -25,7 +27,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
-from physsim_ros.model.transform import cross, norms
+from physsim_ros.model.transform import cross, norms, Point
 
 # The least straightness of a rod, and the greatest of a rope: the distance of the ends by the
 # length. An arc as high as a seventh of its chord has 0.95.
@@ -77,15 +79,22 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     start, end = point_of(drawn[0]), point_of(drawn[-1])
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
-    # A line beside a body that ends on no other is a wall.
-    at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
-    joins = between or (ends is not None and ends[0].body in at_ends)
+    joins = between or (ends is not None and _is_held(ends[0].body, (start, end), context.scene))
     if between and _is_toothed(context.features, points):
         return JointKind.SPRING, BETWEEN
     if joins and math.dist(start, end) < _STRAIGHT * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
     straight = math.dist(start, end) > _STRAIGHT * float(norms(sides).sum())
     return JointKind.ROD, BETWEEN if joins and straight else 0.0
+
+
+def _is_held(body: str, ends: Sequence[Point], scene: SceneQuery) -> bool:
+    """
+    Return whether a line that ends on one body alone holds it.
+
+    A line beside it is a wall, and so is one on whose end it stands.
+    """
+    return any(body in scene.bodies_at(end) and not stands_on(body, end, scene) for end in ends)
 
 
 def _is_toothed(features: Features, points: Floats) -> bool:

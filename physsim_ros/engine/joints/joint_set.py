@@ -196,16 +196,18 @@ class JointSet:
             for command in (*filter(None, [self.commands.get(name)]), *self.coming.of(name))
         )
 
-    def put_command(self, command: TimedCommand, step: int) -> None:
+    def set_commands(self, commands: Iterable[TimedCommand], step: int) -> None:
         """
-        Set a command that a motor obeys or, where it does not begin before a step, is to obey.
+        Set the commands that motors obey or, where they do not begin before a step, are to obey.
 
         :param step: count of steps that the world has made
         """
-        if command.begun < step:
-            self.command(*command)
-        else:
-            self.coming.add(command.command.joint, command)
+        self.coming = ComingCommands()
+        for command in commands:
+            if command.begun < step:
+                self.command(*command)
+            else:
+                self.coming.add(command.command.joint, command)
 
     def _drop_commands(self, name: str) -> None:
         self.commands.pop(name, None)

@@ -87,9 +87,9 @@ class Spawn(Request):
     :raises BadProperty: a pose, colour or lifetime is out of range
     """
 
-    name: Annotated[str, check_body_name, 'of the body']
+    name: Annotated[str, check_body_name, 'name of the body']
     shape: Annotated[Shape, OfClass(Shape), "geometry in the body's frame"]
-    pose: Annotated[Pose, check_pose, "of the body's origin"] = ORIGIN
+    pose: Annotated[Pose, check_pose, "pose of the body's origin: x, y [m], yaw [rad]"] = ORIGIN
     frame: Annotated[str, text, "'' for the world, or a body's name"] = ''
     color: Annotated[
         Color | None,
@@ -97,7 +97,7 @@ class Spawn(Request):
         'red, green, blue, alpha, each 0 .. 1; None is the default of the name',
     ] = None
     lifetime: Annotated[
-        float, _duration, 'simulation time after which the body is removed [s]; 0 is for ever'
+        float, _duration, 'simulation time after which the body is removed [s]; 0 is unlimited'
     ] = 0.0
     properties: Annotated[Properties, OfClass(Properties), 'material, velocity and role'] = field(
         default_factory=Properties
@@ -116,19 +116,21 @@ class ChangeBody(Request):
 
     VERB = 'change'
 
-    name: Annotated[str, text, 'of the body']
+    name: Annotated[str, text, 'name of the body']
     shape: Annotated[
         Shape | None, OfClass(Shape), 'geometry in the frame of the body; None keeps it'
     ] = None
-    properties: Annotated[Properties, OfClass(Properties), 'that are set'] = field(
+    properties: Annotated[Properties, OfClass(Properties), 'properties to set'] = field(
         default_factory=Properties
     )
     unset: Annotated[tuple[str, ...], _unset, UNSET] = ()
     color: Annotated[
         Color | None, check_color, 'red, green, blue, alpha, each 0 .. 1; None keeps it'
     ] = None
-    pose: Annotated[Pose | None, check_pose, "of the body's origin; None keeps it"] = None
-    frame: Annotated[str, text, "of the pose: '' for the world, or a body's name"] = ''
+    pose: Annotated[
+        Pose | None, check_pose, "pose of the body's origin: x, y [m], yaw [rad]; None keeps it"
+    ] = None
+    frame: Annotated[str, text, "frame of the pose: '' for the world, or a body's name"] = ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -161,7 +163,7 @@ class Release(AtPoint):
 class Delete(Request):
     """Remove the body of that name, and its joints."""
 
-    name: Annotated[str, text, 'of the body']
+    name: Annotated[str, text, 'name of the body']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -223,7 +225,7 @@ class Command(Request):
         '(n, 3) float64: fx, fy [N], torque [N m], world axes, or empty; they act at the centre '
         "of mass until the next one, at most for the world's `command_timeout`",
     ] = field(default_factory=no_rows)
-    frame: Annotated[str, text, "of the poses: '' for the world, or a body's name"] = ''
+    frame: Annotated[str, text, "frame of the poses: '' for the world, or a body's name"] = ''
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

@@ -36,7 +36,7 @@ class Grab(HandRequest):
     """
 
     point: Annotated[Point, as_field('mouse_point', check_point), 'position of the hand [m]']
-    frame: Annotated[str, text, "of the point: '' for the world, or a body's name"] = ''
+    frame: Annotated[str, text, "frame of the point: '' for the world, or a body's name"] = ''
     paused: Annotated[bool, OfClass(bool), 'whether the world is paused'] = False
 
     def phrase(self, subject: str) -> str:
@@ -58,7 +58,7 @@ class MoveHand(HandRequest):
         as_field('mouse_point', check_yaw),
         'of the body [rad], in a paused world; None keeps it',
     ] = None
-    frame: Annotated[str, text, "of the point and yaw: '' for the world, or a body's name"] = ''
+    frame: Annotated[str, text, "frame of both: '' for the world, or a body's name"] = ''
     paused: Annotated[bool, OfClass(bool), 'whether the world is paused'] = False
 
 

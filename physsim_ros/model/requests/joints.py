@@ -62,14 +62,14 @@ class Join(Request):
     :raises UnknownProperty: the kind of joint does not have a property
     """
 
-    name: Annotated[str, check_name, 'of the joint']
-    kind: Annotated[JointKind, lambda value, name: kind_from(text(value, name)), 'of joint']
+    name: Annotated[str, check_name, 'name of the joint']
+    kind: Annotated[JointKind, lambda value, name: kind_from(text(value, name)), 'kind of joint']
     points: Annotated[
         tuple[Point, ...],
         _points,
         'anchor points, one or two as the kind requires; a rope may have others between them [m]',
     ]
-    frame: Annotated[str, text, "of the points: '' for the world, or a body's name"] = ''
+    frame: Annotated[str, text, "frame of the points: '' for the world, or a body's name"] = ''
     a: Annotated[str, text, "name of a body; '' is the topmost one at the first point"] = ''
     b: Annotated[
         str,
@@ -77,7 +77,7 @@ class Join(Request):
         "name of a body, or 'world' for the background; '' is the next body at the point, or the "
         'topmost one at the second point, or the background if there is none',
     ] = ''
-    properties: Annotated[JointProperties, OfClass(JointProperties), 'of the kind'] = field(
+    properties: Annotated[JointProperties, OfClass(JointProperties), 'of the joint'] = field(
         default_factory=JointProperties
     )
     unset: Annotated[tuple[str, ...], texts, UNSET] = ()
@@ -132,7 +132,7 @@ class Axle(AtPoint):
 class Rejoin(Request):
     """Put a joint on pieces of its bodies: its points stay, and its limits count as before."""
 
-    name: Annotated[str, text, 'of the joint']
+    name: Annotated[str, text, 'name of the joint']
     a: Annotated[str, text, 'name of the piece of its body a']
     b: Annotated[str, text, "the same of b; 'world' for the background"]
 
@@ -171,7 +171,7 @@ class Unjoin(Request):
 
     VERB = 'delete joint'
 
-    name: Annotated[str, text, 'of the joint']
+    name: Annotated[str, text, 'name of the joint']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,7 +14,7 @@ from physsim_ros.model.errors import Malformed
 from physsim_ros.model.settings import check_setting
 from physsim_ros.model.transform import Point
 
-UNSET = 'names of the properties that get their defaults again'
+UNSET = 'names of properties to reset to their defaults'
 
 
 class Request(Checked):
@@ -68,8 +68,8 @@ def texts(value: object, name: str) -> tuple[str, ...]:
 class AtPoint(Request):
     """A request for the topmost bodies, or joints, at a point [m]."""
 
-    point: Annotated[Point, check_point, 'where they are [m]']
-    frame: Annotated[str, text, "of the point: '' for the world, or a body's name"] = ''
+    point: Annotated[Point, check_point, 'the point [m]']
+    frame: Annotated[str, text, "frame of the point: '' for the world, or a body's name"] = ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,7 +77,7 @@ class OfNamespace(Request):
     """A request for all bodies, or joints, of a namespace."""
 
     namespace: Annotated[
-        str | None, text, 'of their names, the part before the last slash; None is every one'
+        str | None, text, 'namespace, the part of a name before the last slash; None is all'
     ] = None
 
     def phrase(self, subject: str) -> str:

@@ -68,8 +68,8 @@ class NodeSettings(Checked):
         str,
         text,
         'world to load at the start and by `~/load_world`, and to write by `~/save_world`: a '
-        'path, or the name of a world or lesson in `world_dir` or, failing that, of a shipped '
-        'one. Paths are relative to `world_dir`; at the start, the working directory comes first',
+        'path, or the name of a world or lesson in `world_dir`, or else of a shipped one. Paths '
+        'are relative to `world_dir`; at the start, the working directory comes first',
     ] = ''
     world_dir: Annotated[
         str,
@@ -82,13 +82,13 @@ class NodeSettings(Checked):
     lesson_dir: Annotated[
         str,
         text,
-        'lessons are read in this directory, too; empty means `lessons` in `world_dir`',
+        'directory of your own lessons; empty means `lessons` in `world_dir`',
         READ_ONLY,
     ] = ''
     physics_rate: Annotated[
         float,
         Within(60.0, 10000.0, 'Hz'),
-        'fixed step of the physics',
+        'physics steps per second of simulation time',
         READ_ONLY,
     ] = 240.0
     publish_rate: Annotated[

@@ -19,6 +19,7 @@ import math
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.motor_command import TimedCommand
 from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.rope_path import arc, side, spans
@@ -153,14 +154,10 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
                 field='joint',
             )
     for command in request.commands:
-        joints = live.space.joints
-        properties = joints.by_name[command.joint].joint.properties
+        properties = live.space.joints.by_name[command.joint].joint.properties
         latency, rate = properties.latency or (0.0, 0.0), properties.command_rate or 0.0
-        begun, is_at_once = live.begin_of_command(joints.coming, command.joint, latency, rate)
-        if is_at_once:
-            live.space.command_motor(command, begun)
-        else:
-            live.space.command_motor_later(command, begun)
+        begun = live.begin_of_command(command.joint, latency, rate)
+        live.space.commands.command_motor(TimedCommand(command, begun), live.step_count)
     subject = names[0] if len(names) == 1 else ''
     return Answer(subject=subject, message=f'commanded {counted(len(names), "motor")}')
 

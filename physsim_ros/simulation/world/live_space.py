@@ -15,11 +15,10 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import partial
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.checkpoint import BodyPool, restore_checkpoint, take_checkpoint
-from physsim_ros.engine.coming import ComingCommands
 from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.saved_state import begin_at, checkpoint_of, saved_state
 from physsim_ros.engine.space import Space
@@ -63,17 +62,13 @@ class LiveSpace:
         """Return the settings of the world."""
         return self.space.settings
 
-    def begin_of_command(
-        self, coming: ComingCommands[Any], name: str, latency: Point, command_rate: float
-    ) -> tuple[int, bool]:
+    def begin_of_command(self, name: str, latency: Point, command_rate: float) -> int:
         """
-        Return when a drive or a motor obeys a command that is given now.
+        Return the step at which a drive or a motor obeys a command that is given now.
 
-        :param coming: commands on their way, of drives or of motors
         :param name: of its body or joint
         :param latency: least and greatest time that the command is on its way [s]
         :param command_rate: looks for a command in a second [Hz]; 0 is each step
-        :return: the step, and whether that is at once; a command waits for those before it
         """
         begun, rate = self.step_count, self.physics_rate
         seconds = delay(latency, self.space.settings.seed, f'command of {name}', begun)
@@ -83,7 +78,7 @@ class LiveSpace:
             # The first look at or after that step.
             look = math.ceil(begun * command_rate / rate - 1e-9)
             begun = math.ceil(look * rate / command_rate - 1e-9)
-        return begun, begun == self.step_count and not coming.of(name)
+        return begun
 
     def step_after(self, seconds: float) -> int | None:
         """Return the step at which a time from now on has passed [s]; None for 0: never."""

@@ -18,7 +18,7 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.model.states import ComingCommand, NEVER
+from physsim_ros.model.states import DriveCommand, NEVER
 from physsim_ros.simulation.world.live_space import LiveSpace
 
 # Number of robots that a refusal names.
@@ -36,16 +36,11 @@ def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     if robot.drive is None:
         raise BadProperty(f'{request.name} has no drive', field='name')
     timeout = robot.drive.timeout if request.timeout is None else request.timeout
-    begun, is_at_once = live.begin_of_command(
-        live.space.coming, request.name, robot.drive.latency, robot.drive.command_rate
-    )
+    begun = live.begin_of_command(request.name, robot.drive.latency, robot.drive.command_rate)
     end = live.step_after(timeout)
     until = NEVER if end is None else end + begun - live.step_count
-    if is_at_once:
-        live.space.drive(rigid, request.velocity, until)
-    else:
-        aim = robot.drive.aim(request.velocity)
-        live.space.drive_later(rigid, ComingCommand(begun, aim, until))
+    command = DriveCommand(begun, robot.drive.aim(request.velocity), until)
+    live.space.commands.drive(rigid, command, live.step_count)
     return Answer(subject=request.name, message=f'drives {request.name}')
 
 
@@ -76,7 +71,7 @@ def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
     drive = None if rigid is None or rigid.body.robot is None else rigid.body.robot.drive
     if rigid is None or drive is None:
         return True
-    aim, until = live.space.drive_of(rigid)
+    aim, until = live.space.commands.drive_of(rigid)
     if aim != drive.aim(request.velocity):
         return False
     # One that stands still does so after its timeout, too.

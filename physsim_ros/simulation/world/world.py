@@ -63,10 +63,10 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
     :raises BadProperty: springs are too stiff for the steps; nothing is changed
     """
     live.begin(request.state, live.step_count)
-    return Answer(message=loaded(request.state))
+    return Answer(message=load_message(request.state))
 
 
-def loaded(state: WorldState) -> str:
+def load_message(state: WorldState) -> str:
     """Return the message about a state that was loaded."""
     joints = f' and {counted(len(state.joints), "joint")}' if state.joints else ''
     return f'loaded {counted(len(state.bodies), "body")}{joints}'
@@ -186,7 +186,7 @@ class World(LiveSpace):
         digest.update(free.tobytes())
         for rigid in self.space.wrenched():
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
-        for name, coming in self.space.coming.in_order(self.space.bodies.by_name):
+        for name, coming in self.space.commands.coming.in_order(self.space.bodies.by_name):
             digest.update(f'{name} {coming!r}'.encode())
         for command in self.space.joints.all_commands:
             digest.update(repr(tuple(command)).encode())

@@ -16,7 +16,7 @@ from physsim_ros.sketchpad.message import message
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import author_of, PageSession, TEACHER, UNNAMED
-from physsim_ros.sketchpad.rights import locks_of, Right, Role
+from physsim_ros.sketchpad.rights import check_taken_back, locks_of, Right, Role
 
 # Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
 LONGEST_ANSWER, LONGEST_MESSAGE = 24, 200
@@ -91,7 +91,7 @@ def take_back(page: PageSession, origin: Origin) -> None:
     page.world.current_snapshot()
     simulation = page.world.simulation
     last = simulation.past.tree.last_gesture_of(origin.author)
-    page.check_taken_back(() if last is None else (last.gesture,))
+    check_taken_back(page.role, () if last is None else (last.gesture,), page.world)
     simulation.requests.submit(TakeBack(), origin)
 
 

@@ -24,7 +24,7 @@ from physsim_ros.simulation.entries import Origin
 from physsim_ros.sketchpad.message import message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
-from physsim_ros.sketchpad.rights import Right
+from physsim_ros.sketchpad.rights import check_locked, check_taken_back, Right
 
 
 def _samples(value: object, name: str) -> Floats:
@@ -90,8 +90,8 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> N
     except NotRecognised as refusal:
         page.send(_reading_content(origin, refusal.values, outline=[], built=False))
         raise
-    page.check_locked(reading.requests)
-    page.check_taken_back(reading.amends)
+    check_locked(page.role, reading.requests, page.world)
+    check_taken_back(page.role, reading.amends, page.world)
     outline = reading.outline.tolist()
     page.send(_reading_content(origin, reading.values, outline=outline, built=True))
     reading = replace(reading, requests=page.with_material(reading.requests))
@@ -139,9 +139,7 @@ def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
     page.drawing.tool = tool
     result = page.drawing.click(point, '', page.world.current_snapshot())
-    # Pieces are of the material of their body.
-    is_new = tool is not Tool.KNIFE
-    requests = page.with_material(result.requests) if is_new else result.requests
+    requests = page.with_material(result.requests)
     page.submit(origin, requests, message=result.message, values=result.values)
 
 

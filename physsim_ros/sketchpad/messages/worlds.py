@@ -21,8 +21,8 @@ from physsim_ros.sketchpad.message import answer_content, message, Optional, req
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession
-from physsim_ros.sketchpad.rights import Right
-from physsim_ros.sketchpad.world_control import opened
+from physsim_ros.sketchpad.rights import check_moment, Right
+from physsim_ros.sketchpad.world_control import open_content
 
 # Names of the services that a page may call.
 ACTIONS = (
@@ -78,7 +78,7 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
     """Perform the action of a service, on the world file of a name where one is given."""
     origin = origin._replace(topic=f'~/{name}')
     if name in ('clear', 'load_world', 'reset', 'undo', 'redo'):
-        page.check_moment()
+        check_moment(page.role, page.world)
     action, wait = page.world.service(name)
     if world:
         if name not in ('load_world', 'save_world'):
@@ -102,7 +102,7 @@ def seek(page: PageSession, origin: Origin, time: int) -> None:
 @message('course', '~/timeline', course=Whole(0, 2**31))
 def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
     """Return to a course of events that was left, by its number."""
-    page.check_moment()
+    check_moment(page.role, page.world)
     action = partial(page.world.simulation.return_to_course, course)
     page.perform(origin, action, Wait.BEHIND_REQUESTS)
 
@@ -113,7 +113,7 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 @message('open', '~/load_world', name=_world_name)
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
     """Begin with a world at time 0, which undo reverts."""
-    page.check_moment()
+    check_moment(page.role, page.world)
     page.perform(origin, partial(page.world.open_world, name), Wait.FOR_SEEK)
 
 
@@ -160,13 +160,6 @@ def put_back(page: PageSession, origin: Origin, name: str) -> None:
     _manage(page, origin, partial(page.shared.own_worlds.put_back, name), name)
 
 
-@message('list', 'page', Right.LOOK)
-def list_worlds(page: PageSession, origin: Origin) -> None:
-    """Send this page the list of worlds and lessons as their files are now."""
-    page.shared.list_worlds(page.number)
-    page.answer_page(origin, 'the list of worlds')
-
-
 @message('forget', 'page')
 def forget(page: PageSession, origin: Origin) -> None:
     """Delete the unsaved world of the last start."""
@@ -188,7 +181,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
 @message('open_text', '~/load_world', Right.TEACH, world=_world_text)
 def open_text(page: PageSession, origin: Origin, world: dict[str, Any]) -> None:
     """Begin with the world of a text, as that of a run, at time 0, which undo reverts."""
-    page.perform(origin, partial(opened, page.world.simulation, world), Wait.FOR_SEEK)
+    page.perform(origin, partial(open_content, page.world.simulation, world), Wait.FOR_SEEK)
 
 
 @message('share', '~/save_world', Right.DRAW, run=Optional(flag))

@@ -24,6 +24,13 @@ export class Words {
     this.known = /** @type {Map<string, string>[]} */ ([new Map(), new Map()]);
     /** @type {Body[]} of the last scene */
     this.bodies = [];
+    /** What worlds and lessons that can be opened are called, by their names. @type {Map<string, string>} */
+    this.titles = new Map();
+    connection.on('worlds', (/** @type {Record<'worlds' | 'lessons', {name: string, title: string, shipped: boolean}[]>} */ {worlds, lessons}) => {
+      this.titles = new Map();
+      for (const world of worlds) this.titles.set(world.name, headingOf(world));
+      for (const {name, title} of lessons) this.titles.set(name, t(title));
+    });
     connection.on('scene', ({bodies, lesson}) => {
       this.bodies = bodies;
       this.known = [new Map(lesson ? lessonWords(this.bodies) : []), this.known[0]];
@@ -88,7 +95,10 @@ export class Words {
     const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
     const joint = /^changed (axle|pin|spring|rod|rope|motor|slider|gear|rack) /.exec(message)?.[1];
     if (joint) return said('changed', capital(thingWord(joint)));
-    if (verb.startsWith('joined')) return said('spawned', capital(thingWord(/ by (\w+) /.exec(message)?.[1] ?? 'joint')));
+    const added = /^joined .* by (\w+) /.exec(message) ?? /^an? (\w+) (?:of|between|from|turns) (?!\d+ links)/.exec(message);
+    if (added) return said('spawned', capital(thingWord(added[1])));
+    const opened = /^loaded .* from (.+)\.yaml/.exec(message)?.[1];
+    if (opened) return t('Opened {name}', {name: this.titles.get(opened) ?? opened});
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
     if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
@@ -106,9 +116,9 @@ export class Words {
     const named = text.replace(JOINED, (_, before, kind) => `${before}join ${the(thingWord(kind))}`)
       .replace(/\S+/g, (name) => !isDrawn(name) && this.known[0].has(name) ? the(this.of(name)) : shorten(name))
       .replace(DRAWN, (_, kind, name) => the(kind ? thingWord(kind) : this.of(name)));
-    return named.replace(GESTURE, (_, before, verb, thing, more = '') => {
-      const others = more && ` ${t('and {count} more', {count: more.replace(/\D/g, '')})}`;
-      return before + filled(GESTURES.get(verb), (THINGS.get(thing) ?? thing) + others);
+    return named.replace(GESTURE, (_, before, verb, thing, more) => {
+      const told = more ? `several ${verb === 'join' ? 'joints' : 'bodies'}` : thing;
+      return before + filled(GESTURES.get(verb), THINGS.get(told) ?? told);
     }).replace(/(^|: )reset$/, `$1${t('Reset')}`).replace(/(^|: )open world$/, `$1${t('Open the world')}`);
   }
 }
@@ -149,6 +159,14 @@ export function isDrawn(name) {
 /** @param {string} name which may have 1,000 characters */
 function shorten(name) {
   return name.length > LONGEST ? `${name.slice(0, HEAD)}…${name.slice(-TAIL)}` : name;
+}
+
+/**
+ * @param {{name: string, shipped: boolean}} world
+ * @returns {string} what it is called
+ */
+export function headingOf({name, shipped}) {
+  return shipped ? t(capital(name.replaceAll('_', ' '))) : name;
 }
 
 /** @param {string} text */

@@ -30,14 +30,14 @@ export class Files {
    * Show the world that is being opened, as soon as it is.
    * @param {Promise<boolean>} opening whether it is open
    * @param {string} heading
-   * @param {string} name of an own world, under which it is saved again
+   * @param {{name?: string, unseen?: boolean}} how name: of an own world, under which it is saved again
    */
-  async follow(opening, heading, name = '') {
+  async follow(opening, heading, {name = '', unseen = false} = {}) {
     this.parts.dialog.close();
     if (!(await opening)) return;
     this.dismiss();
     this.parts.room.frameNext();
-    this.parts.notes.showMessage(t('Opened {name}', {name: heading}));
+    this.parts.notes.showMessage(t('Opened {name}', {name: heading}), {unseen});
     this.name = name;
   }
 

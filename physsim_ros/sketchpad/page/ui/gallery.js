@@ -3,7 +3,7 @@
 
 import {createElement, download, fieldForm, inRow, textButton} from '../dom.js';
 import {t} from '../strings.js';
-import {capital} from '../words.js';
+import {headingOf} from '../words.js';
 
 /** @import {Parts} from '../types.js' */
 /** @import {World} from './files.js' */
@@ -42,9 +42,9 @@ export class Gallery {
   }
 
   /** @param {World} world */
-  #card({name, title, picture, shipped}) {
-    const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
-    const open = () => this.parts.files.follow(this.parts.connection.openWorld(name), heading, shipped ? '' : name);
+  #card(world) {
+    const {name, title, picture, shipped} = world, heading = headingOf(world);
+    const open = () => this.parts.files.follow(this.parts.connection.openWorld(name), heading, {name: shipped ? '' : name});
     const card = createElement('button', {type: 'button', className: 'card', onclick: open},
       createElement('img', {src: picture, alt: '', loading: 'lazy'}),
       createElement('strong', {}, heading),

@@ -61,7 +61,8 @@ export class Lessons {
   /** @param {{name: string, title: string}} lesson */
   open({name, title}) {
     const {connection, files} = this.parts;
-    return files.follow(connection.openLesson(name), t(title));
+    // Its card is seen.
+    return files.follow(connection.openLesson(name), t(title), {unseen: true});
   }
 
   get isFolded() {
@@ -91,7 +92,7 @@ export class Lessons {
     card.hidden = !lesson;
     if (lesson) {
       card.replaceChildren(createElement('header', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`), this.more),
-        createElement('p', {className: 'question'}, t(lesson.question)), ...parts.people.viewOnly ? [] : this.#work(lesson));
+        createElement('p', {className: 'question'}, ...questionParts(t(lesson.question))), ...parts.people.viewOnly ? [] : this.#work(lesson));
     }
     this.#fold(false);
     this.settled = !lesson;
@@ -139,6 +140,16 @@ export class Lessons {
       createElement('div', {className: 'answer'}, form, result),
       createElement('div', {className: 'rest'}, folded(t('Hint'), t(hint)), solution, inRow(...buttons))];
   }
+}
+
+/**
+ * @param {string} text of a question
+ * @returns {(Node | string)[]} what is given, and what is asked: from its first sentence with a question mark on
+ */
+function questionParts(text) {
+  const sentences = text.split(/(?<=[.!?]) /), asked = sentences.findIndex((each) => each.endsWith('?'));
+  if (asked < 1) return [text];
+  return [createElement('span', {className: 'given'}, `${sentences.slice(0, asked).join(' ')} `), sentences.slice(asked).join(' ')];
 }
 
 /**

@@ -9,7 +9,7 @@ import {personWord} from '../people.js';
 
 const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
 /** Answers that are not shown: the clock and the hand show the same. */
-const SILENT = /^at [\d.]+ s$|^following |^grabbed |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
+export const SILENT = /^at [\d.]+ s$|^following |^grabbed |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
 const REST = /^and \d+ more answers$/; // of a frame, to a page that did not ask
 const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
 

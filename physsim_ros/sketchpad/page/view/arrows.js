@@ -28,9 +28,9 @@ const CORNERS = ['top-right', 'top-left', 'bottom-right', 'bottom-left']; // of 
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
 const ROUND = 30, INNER = 22, ARC = 130; // px: radius of the arrow of a torque, of an angular momentum, and the longest one
 const NO_TURN = 1e-3; // N m, N m s: below that, rounding of what does not turn
-/** Kinds of forces, and what they are called. @type {Record<Force['kind'] | 'torque', string>} */
+/** Kinds of forces, in the order of the legend, and what they are called, but for those of fields. @type {Record<string, string>} */
 const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'),
-  applied: t('applied force'), air: t('air, water, attraction'), sum: t('sum'), torque: t('torque')};
+  applied: t('applied force'), air: '', sum: t('sum'), torque: t('torque')};
 
 /**
  * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,
@@ -109,6 +109,16 @@ export class Arrows {
     this.parts.frames.want(this, {velocities: this.velocities || this.forces, contacts: this.forces});
   }
 
+  /**
+   * @param {string} kind
+   * @returns {string} what it is called; of fields, by those that this world has
+   */
+  #nameOf(kind) {
+    const {bodies, damping, air_density: air, air_viscosity: viscosity, gravitation, coulomb} = this.parts.world.scene;
+    const fields = [[t('air'), damping || air || viscosity], [t('water'), bodies.some(({medium}) => medium)], [t('attraction'), gravitation || coulomb]];
+    return NAMES[kind] || fields.filter(([, occurs]) => occurs).map(([name]) => name).join(', ');
+  }
+
   /** Show the legend of what is shown and occurs, with its switches. */
   showLegend() {
     const bar = (/** @type {string} */ unit, /** @type {string} */ kind) => {
@@ -125,8 +135,8 @@ export class Arrows {
         this.momenta = !this.momenta;
         this.showLegend();
       }), ...this.momenta ? [bar('N s', 'momentum'), bar('N m s', 'momentum')] : []] : [],
-      ...this.forces ? [bar('N', ''), ...this.kinds.has('torque') ? [bar('N m', '')] : [], ...Object.entries(NAMES).filter(([kind]) => this.kinds.has(kind)).map(([kind, name]) =>
-        part(name, kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
+      ...this.forces ? [bar('N', ''), ...this.kinds.has('torque') ? [bar('N m', '')] : [], ...Object.keys(NAMES).filter((kind) => this.kinds.has(kind)).map((kind) =>
+        part(this.#nameOf(kind), kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
       part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint, this.more);
   }
 
@@ -154,6 +164,8 @@ export class Arrows {
     this.#fitSpeeds(room);
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
     if (!this.legend.hidden && world.paused) this.#placeLegend(view);
+    const {left, top, right, bottom} = this.legend.getBoundingClientRect();
+    view.covered = [left, top, right, bottom];
     this.hint.textContent = '';
     if (!this.forces) drawApplied(this.parts, view);
     else if (world.count) this.#drawForces(view, room);
@@ -224,7 +236,7 @@ export class Arrows {
       Math.max(Math.hypot(x, y), -y * room / Math.max(below - camera.toPage(...at)[1], BAR / 2))), 0), room, world.paused);
     for (const force of shown) {
       const {kind, row, at, x, y} = force, named = some && isSelected(force), color = colorOf(kind, view.palette);
-      const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${NAMES[kind]} ${size}` : size;
+      const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${this.#nameOf(kind)} ${size}` : size;
       const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
       const to = this.#arrow(view, room, {from, x, y, scale: this.scales.N, color, text, width, unit: named || !some ? 'N' : '', named});
       // A number is told, whether or not its arrow is long enough to be drawn.

@@ -7,7 +7,8 @@
  * depend on how fast the world plays. Hands and commanded wrenches are not among them.
  */
 
-import {rotated} from '../vectors.js';
+import {ropeHeadings, ropeStops} from '../rope_path.js';
+import {polar, rotated} from '../vectors.js';
 
 /** @import {Body, Force, Point, Sample, Scene, WorldState} from '../types.js' */
 
@@ -49,10 +50,23 @@ export function forcesOf(world) {
       add('friction', row, at, sign * (x - px), sign * (y - py), by);
     }
   }
-  joints.forEach(({a, b, points}, i) => {
+  joints.forEach((joint, i) => {
     if (!pulls || i >= pulls.x.length) return;
-    add('joint', b, world.place(b, points[1]), pulls.x[i], pulls.y[i], a);
-    add('joint', a, world.place(a, points[0]), -pulls.x[i], -pulls.y[i], b);
+    const {kind, a, b, points: [p, q], guides = []} = joint, x = pulls.x[i], y = pulls.y[i];
+    const pull = (/** @type {number} */ one, /** @type {Point} */ from, /** @type {number} */ other, /** @type {Point} */ to, /** @type {Point} */ [dx, dy]) => {
+      add('joint', other, to, dx, dy, one);
+      add('joint', one, from, -dx, -dy, other);
+    };
+    if (kind !== 'rope' || !guides.length) {
+      pull(a, world.place(a, p), b, world.place(b, q), [x, y]);
+      return;
+    }
+    // Its tension is the same in all spans; one between two places of a body does not move that.
+    const stops = ropeStops(world, joint), rows = [a, ...guides.map(([row]) => row), b], tension = Math.hypot(x, y);
+    ropeHeadings(stops).forEach((heading, span) => {
+      const [one, other] = rows.slice(span);
+      if (one !== other) pull(one, stops[span].at, other, stops[span + 1].at, polar(-tension, heading));
+    });
   });
   return forces;
 }

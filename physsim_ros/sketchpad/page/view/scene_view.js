@@ -31,6 +31,8 @@ export class SceneView {
     this.overlays = [];
     /** @type {Numbered[]} of the arrows that were drawn */
     this.numbers = [];
+    /** Of the legend; no number is put there. @type {[left: number, top: number, right: number, bottom: number]} [px] */
+    this.covered = [0, 0, 0, 0];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
     this.ratio = 1; // pixels of the screen to one of the page
     this.dirty = true;

@@ -1,0 +1,139 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Strokes that wait for a body: the rod of a pendulum before its bob, the axle before its wheel.
+
+Law: a joint or an x that is drawn before its body is what it is when drawn after it. A stroke
+that has been a wall, a small solid or an x over nothing is read again, over the new body. A wall
+on which something lies, or whose end the new body only touches from above or beside, stays one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+import itertools
+import math
+
+from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.bodies_under import stands_on
+from physsim_ros.drawing.strokes.figure import crossing_in, Figure
+from physsim_ros.drawing.strokes.geometry import COUNT, few_points, point_of
+from physsim_ros.drawing.strokes.joining import joined_strokes
+from physsim_ros.drawing.strokes.meanings import Outcome
+from physsim_ros.drawing.strokes.reading import guesses_of, in_scene, is_likely
+from physsim_ros.drawing.strokes.stroke import resample_stroke
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.requests import Delete, Join, Spawn
+from physsim_ros.simulation.world.body_description import new_body
+
+# Meanings that a stroke has by the bodies under it.
+_BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'hatching'})
+# The cosine of the slope of a wall's end below which a body hangs from it: 135°.
+_HANGS = -0.7
+# Points of the middle half of a line, at which other bodies show that it is a wall.
+_MIDDLE = slice(COUNT // 4, COUNT - COUNT // 4, 4)
+
+
+def outcomes_over(
+    solid: Figure, figures: Sequence[Figure], settings: DrawingSettings
+) -> Iterator[Outcome]:
+    """
+    Yield what earlier strokes are over a new body, instead of what they have been.
+
+    :param solid: the new body
+    :param figures: drawn before, the earliest first
+    """
+    scene, undone = solid.scene, {*solid.gestures}
+    spawn = next(each for each in solid.requests if isinstance(each, Spawn))
+    body, _ = new_body(spawn, scene.settings, None)
+    groups = list(_waiting(figures, scene, settings.snap))
+    # A wall that is a rod itself is no end of another one.
+    walls = _names([each for each, *more in groups if each.meaning == 'wall' and not more])
+    done: set[str] = set()
+    joints = 0
+    for group in groups:
+        names = _names(group)
+        if names & done:
+            continue
+        over = scene.with_body(body, spawn.pose, without=names | walls | done, joints=joints)
+        outcome = _outcome_over(spawn.name, group, over, settings)
+        if outcome is None:
+            continue
+        done |= names
+        joints += sum(isinstance(each, Join) for each in outcome.requests)
+        left = _names([each for each in group if not undone & {*each.gestures}])
+        gone = (Delete(name=each) for each in sorted(left))
+        yield replace(outcome, requests=(*gone, *outcome.requests))
+
+
+def _waiting(
+    figures: Sequence[Figure], scene: SceneQuery, snap: float
+) -> Iterator[tuple[Figure, ...]]:
+    """Yield figures that wait: two walls, which may be an x, then each alone."""
+    there = [each for each in figures if _is_there(each, scene, snap)]
+    walls = [each for each in there if each.meaning == 'wall']
+    yield from itertools.pairwise(walls)
+    for each in there:
+        if each not in walls or not _bears(each, scene, snap):
+            yield (each,)
+    # Of a stroke that nothing is left of, a person has the last one in mind.
+    if figures and figures[-1].chosen is not None and not figures[-1].requests:
+        yield (figures[-1],)
+
+
+def _names(figures: Sequence[Figure]) -> set[str]:
+    """Return the names of the bodies that figures have become."""
+    requests = (each for figure in figures for each in figure.requests)
+    return {each.name for each in requests if isinstance(each, Spawn)}
+
+
+def _is_there(figure: Figure, scene: SceneQuery, snap: float) -> bool:
+    """Return whether a figure has become one body, which lies where it was drawn, unjoined."""
+    match figure.requests:
+        case (Spawn(name=name, pose=(x, y, _)),) if name in scene.names:
+            away = math.dist(scene.pose(name)[:2], (x, y))
+            return away <= snap and not any(name in (each.a, each.b) for each in scene.joints)
+    return False
+
+
+def _bears(wall: Figure, scene: SceneQuery, snap: float) -> bool:
+    """Return whether other bodies touch the middle of a wall: it is no rod."""
+    points = joined_strokes(wall.strokes)[_MIDDLE]
+    return any({*scene.bodies_at(point_of(each), snap)} - _names((wall,)) for each in points)
+
+
+def _outcome_over(
+    name: str, group: Sequence[Figure], scene: SceneQuery, settings: DrawingSettings
+) -> Outcome | None:
+    """Return what figures are that reach a new body of this name, or None where it is the same."""
+    strokes = [stroke for each in group for stroke in each.strokes]
+    path = joined_strokes(strokes)
+    if not scene.covers(name, few_points(path)).any():
+        return None
+    context = crossing_in(scene, strokes, settings)
+    if context is None and len(group) == 1:
+        context = in_scene(resample_stroke(path), scene, settings)
+    guesses = guesses_of(context) if context is not None else ()
+    if not is_likely(guesses, settings) or guesses[0].meaning not in _BY_BODIES:
+        return None
+    try:
+        outcome = guesses[0].build()
+    except Refusal:
+        return None
+    if guesses[0].meaning == 'hatching':
+        # A line within a body that was drawn before it is a mark.
+        return replace(outcome, requests=(), message='a mark')
+    ends = (point_of(each) for each in path[[0, -1]])
+    within = (each for each in ends if name in scene.bodies_at(each))
+    match outcome.requests[0]:
+        case Join(kind=JointKind.ROD | JointKind.ROPE):
+            held = not any(stands_on(name, each, scene, _HANGS) for each in within)
+        case Join(a=a, b=b):
+            held = name in {a, b}
+        case _:
+            held = outcome.subject == name
+    return outcome if held else None
