@@ -17,6 +17,7 @@ from dataclasses import replace
 import itertools
 import math
 
+import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import stands_on
@@ -29,6 +30,9 @@ from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Delete, Join, Spawn
+from physsim_ros.model.scene import Body
+from physsim_ros.model.shapes import contains
+from physsim_ros.model.transform import Pose, rotated_each
 from physsim_ros.simulation.world.body_description import new_body
 
 # Meanings that a stroke has by the bodies under it.
@@ -58,7 +62,7 @@ def outcomes_over(
     joints = 0
     for group in groups:
         names = _names(group)
-        if names & done:
+        if names & done or not _reaches(group, body, spawn.pose, settings.snap):
             continue
         over = scene.with_body(body, spawn.pose, without=names | walls | done, joints=joints)
         outcome = _outcome_over(spawn.name, group, over, settings)
@@ -114,16 +118,19 @@ def _bears(wall: Figure, scene: SceneQuery, snap: float) -> bool:
     return any({*scene.bodies_at(point_of(each), snap)} - _names((wall,)) for each in points)
 
 
+def _reaches(group: Sequence[Figure], body: Body, pose: Pose, snap: float) -> bool:
+    """Return whether a stroke of some figures comes within `snap` of a body."""
+    points = np.vstack([few_points(stroke) for each in group for stroke in each.strokes])
+    x, y = rotated_each(points - pose[:2], -pose[2]).T
+    return bool(np.any(contains(body.shape.form.pieces, x, y, snap)))
+
+
 def _outcome_over(
     name: str, group: Sequence[Figure], scene: SceneQuery, settings: DrawingSettings
 ) -> Outcome | None:
     """Return what figures are that reach a new body of this name, or None where it is the same."""
     strokes = [stroke for each in group for stroke in each.strokes]
     path = joined_strokes(strokes)
-    ends = [point_of(each) for each in path[[0, -1]]]
-    beside = any(name in scene.bodies_at(end, settings.snap) for end in ends)
-    if not beside and not scene.covers(name, few_points(path)).any():
-        return None
     context = crossing_in(scene, strokes, settings)
     if context is None and len(group) == 1:
         context = in_scene(resample_stroke(path), scene, settings)
@@ -134,6 +141,7 @@ def _outcome_over(
         outcome = guesses[0].build()
     except Refusal:
         return None
+    ends = (point_of(each) for each in path[[0, -1]])
     within = (each for each in ends if name in scene.bodies_at(each))
     match outcome.requests[0]:
         case Join(kind=JointKind.ROD | JointKind.ROPE):
