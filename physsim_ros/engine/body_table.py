@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.bodies import BODY_STATE, RigidBody
 from physsim_ros.engine.core import dtype_of, lib
-from physsim_ros.engine.core_world import Table
+from physsim_ros.engine.core_world import copy_of, Table
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.actors import Pedestrian
@@ -64,9 +64,9 @@ class BodyTable:
         self.scene = scene
         self.bodies = tuple(bodies)
         self.columns = columns_of(scene, dt)
-        self.records = self.columns.bodies.copy()
-        self.robots = self.columns.robots.copy()
-        self.actors = self.columns.actors.copy()
+        self.records = copy_of(self.columns.bodies)
+        self.robots = copy_of(self.columns.robots)
+        self.actors = copy_of(self.columns.actors)
         # Numbers of the robots whose odometry is noisy.
         self._noisy = np.flatnonzero(self.robots['slip'].any(axis=1))
         # Numbers of the blocks of noise that are made, as the core reads them, and the addresses

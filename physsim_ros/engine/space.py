@@ -134,7 +134,7 @@ class Space:
             robots=table.robots,
             actors=table.actors,
         )
-        self._core.use_fields(self._settings, act=table.has_fields)
+        self._core.use_settings(self._settings, has_fields=table.has_fields)
         self._background = len(rigids)
         self.grips.is_told = False
         for row, rigid in enumerate(rigids):
@@ -360,7 +360,6 @@ class Space:
                 made,
                 number=number,
                 age=self._age,
-                drag_force=self._settings.drag_force * self._settings.reference_gravity,
                 reports_contacts=reports_contacts,
             )
         self._age += made
@@ -391,16 +390,16 @@ class Space:
 
     def _steps_until_event(self, number: int, count: int) -> int:
         """Return how many of some steps follow each other without anything between them."""
-        expiries, are_coming = self.table.columns.expiries, self.commands.are_coming
-        if not (self._wrenched or are_coming or expiries):
+        expiries = self.table.columns.expiries
+        if not (self._wrenched or self.commands.are_coming or expiries):
             return count
-        ends = (rigid.wrench_until for rigid in self._wrenched.values())
         events = (
             *expiries,
-            *(end for end in ends if end is not None),
+            *(rigid.wrench_until for rigid in self._wrenched.values()),
             *self.commands.steps,
         )
-        return min([count, *(event - number for event in events if event > number)])
+        ahead = (event - number for event in events if event is not None and event > number)
+        return min([count, *ahead])
 
     # Inside
 

@@ -124,8 +124,10 @@ class FrameLoop:
 
         :return: count of the periods; 0 where somebody reads
         """
+        if not count:
+            return 0
         self._take_commands()
-        if not count or self._simulation.is_read:
+        if self._simulation.is_read:
             return 0
         frame = self._simulation.pass_frames(count)
         if frame is not None:

@@ -246,8 +246,7 @@ class Playback:
         return round(step * 1e9 / self._past.physics_rate)
 
     def run(self, steps: int) -> None:
-        """Advance by steps, however long they take."""
-        self.seek_shown()
+        """Advance the world, which is at the moment that is shown, by steps."""
         self._lacks_contacts = False
         cursor = self._past.cursor
         cursor.advance(steps)

@@ -7,8 +7,9 @@ The queue of requests: they wait for the next frame, and are applied there in th
 Laws: entries are applied in the order of their arrival, and each is answered once, but moves of
 hands and drives only if refused. A seek, or a call that sends the world elsewhere, is answered
 when the moment is reached, or when the world is sent elsewhere before. Requests that read or
-change the world wait for the end of a seek; all entries wait for the end of an amendment, and of a
-call in parts. `waiting_entries` has what replaces a waiting entry, and how many may wait.
+change the world wait for the end of a seek; all but answers wait for the end of an amendment, and
+all for that of a call in parts. `waiting_entries` has what replaces a waiting entry, and how many
+may wait.
 """
 
 from __future__ import annotations
@@ -328,16 +329,10 @@ class RequestQueue:
         :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        cursor, before = self._past.cursor, self._past.cursor.moment
         if isinstance(request, HandRequest):
-            answer = self.hands.use(request, gesture, author)
-        else:
-            self._playback.seek_shown()
-            answer = self._past.apply(request, gesture, author)
-        if cursor.moment != before:
-            # On a new course, grips of the past have no hand.
-            self.release_grips()
-        return answer
+            return self.hands.use(request, gesture, author)
+        self._playback.seek_shown()
+        return self._past.apply(request, gesture, author)
 
     def seek(self, stamp: int) -> str:
         """
@@ -362,7 +357,7 @@ class RequestQueue:
 
     def note_arrival(self) -> None:
         """Collect the answer to the last seek, if its moment is reached."""
-        if self._playback.has_arrived:
+        if self._answer_arrival is not None and self._playback.has_arrived:
             self._tell_arrival()
 
     def _supersede(self, by: str) -> None:

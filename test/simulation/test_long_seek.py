@@ -371,7 +371,7 @@ def test_a_refused_amendment_goes_back_bit_by_bit(steps):
     assert simulation.world.digest() == before
 
 
-@pytest.mark.parametrize('way', ['seek', 'undo', 'queued', 'contacts', 'begin', 'reader'])
+@pytest.mark.parametrize('way', ['seek', 'undo', 'queued', 'told', 'contacts', 'begin', 'reader'])
 def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
     simulation = of_anna_and_ben(seconds=2)
     simulation.requests.submit(TakeBack(), Origin('~/undo', author='Anna'))
@@ -386,6 +386,12 @@ def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
         case 'queued':
             simulation.requests.submit_seek(SECOND, Origin('~/seek'))
             assert not simulation.apply_up_to_seek()
+            assert simulation.past.cursor.is_amending
+        case 'told':
+            # An answer changes nothing, and does not wait.
+            simulation.requests.tell(Answer(topic='~/speed', message='speed 1'))
+            assert not simulation.apply_up_to_seek()
+            assert [each.message for each in simulation.requests.take_answers()] == ['speed 1']
             assert simulation.past.cursor.is_amending
         case 'contacts':
             # A paused world makes its last steps again.

@@ -232,6 +232,12 @@ def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
     assert [body['density'] for body in scene['bodies']] == [7.0, 1.0, 7.0]
     assert scene['bodies'][0]['color'] == [1.0, 0.0, 0.0, 1.0] == scene['bodies'][2]['color']
     assert [physsim.twist(name).vx for name in physsim.names] == [2.0, 0.0, 0.0]
+    # The pieces of a cut are of the material of their body.
+    page.send('click', tool='knife', point=[3.0, 9.0])
+    assert page.ask('click', tool='knife', point=[3.0, 1.0])['ok']
+    page.until(lambda: len(page.of_type('scene')[-1]['bodies']) == 4)
+    densities = [body['density'] for body in page.of_type('scene')[-1]['bodies']]
+    assert sorted(densities) == [1.0, 1.0, 7.0, 7.0]
 
 
 def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) -> None:

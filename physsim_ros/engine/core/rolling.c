@@ -74,10 +74,16 @@ void find_rolls(World *world) {
     }
 }
 
+// The hook itself holds nothing, so that it has nothing to prepare.
+static void prepare_nothing(cpConstraint *hook, double dt) {
+    (void)hook;
+    (void)dt;
+}
+
 void begin_rolling(World *world) {
     world->own->hook_class = world->own->hook->klass;
-    world->own->rolling_class = *world->own->hook_class;
-    world->own->rolling_class.applyCachedImpulse = world->own->rolling_class.applyImpulse = resist;
+    world->own->rolling_class =
+        (cpConstraintClass){prepare_nothing, resist, resist, world->own->hook_class->getImpulse};
     world->own->hook->klass = &world->own->rolling_class;
     world->own->roll_count = 0;
     world->own->bearers = NULL;

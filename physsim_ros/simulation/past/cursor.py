@@ -392,8 +392,7 @@ class Cursor(Replay):
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps: by replay up to the head, then by new steps."""
-        self.begin_advance(steps)
-        self.finish_work()
+        _finish(self._parts_of_advance(self.world.step_count + steps))
 
     def begin_advance(self, steps: int) -> None:
         """Have the world advance by a number of steps, part by part from now on."""

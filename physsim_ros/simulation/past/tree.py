@@ -374,7 +374,9 @@ class Tree(LineInForce):
     def _drop_old(self) -> None:
         """Drop the checkpoints before the last one that is older than `length`."""
         oldest = self.head - self.length
-        old = bisect_right(self.keyframes, oldest, key=lambda each: each.step) - 1
+        old = 0
+        while old + 1 < len(self.keyframes) and self.keyframes[old + 1].step <= oldest:
+            old += 1
         if old > 0:
             self._drop_before(old)
 

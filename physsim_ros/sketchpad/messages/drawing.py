@@ -139,9 +139,7 @@ def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
     page.drawing.tool = tool
     result = page.drawing.click(point, '', page.world.current_snapshot())
-    # Pieces are of the material of their body.
-    is_new = tool is not Tool.KNIFE
-    requests = page.with_material(result.requests) if is_new else result.requests
+    requests = page.with_material(result.requests)
     page.submit(origin, requests, message=result.message, values=result.values)
 
 
