@@ -13,7 +13,7 @@ const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 
 export class Keyboard {
-  /** @param {Parts<'camera' | 'cursor' | 'dialog' | 'driving' | 'gestures' | 'menu' | 'panel' | 'people' | 'plotting' | 'readings' | 'room' | 'selection' | 'settings' | 'stopwatch' | 'time' | 'toolbar' | 'view' | 'world'>} parts */
+  /** @param {Parts<'camera' | 'cursor' | 'dialog' | 'driving' | 'gestures' | 'panel' | 'people' | 'plotting' | 'readings' | 'room' | 'selection' | 'settings' | 'stopwatch' | 'time' | 'toolbar' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.since = 0;
@@ -69,7 +69,7 @@ export class Keyboard {
       return;
     }
     if (/^ContextMenu$/.test(key) || key === 'F10' && event.shiftKey) {
-      parts.menu.open(parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
+      parts.gestures.emit('menu', parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
       event.preventDefault();
       return;
     }
