@@ -59,7 +59,7 @@ _OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
 # The state of a body that has not been in a table: in free flight, its lead by fields to be found.
 BODY_STATE = dtype_of('BodyState')
 _NEW = np.zeros(1, BODY_STATE)[0]
-_NEW['free'] = _NEW['fresh'] = True
+_NEW['free'] = _NEW['fresh'] = _NEW['thrown'] = True
 _SPAWNED, _WAITING = np.array([SPAWNED], ROBOT_STATE)[0], np.array([WAITING], ACTOR_STATE)[0]
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9

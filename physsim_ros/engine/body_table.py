@@ -23,7 +23,7 @@ from physsim_ros.engine.core_world import copy_of, Table
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.actors import Pedestrian
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.attraction import attracts
 from physsim_ros.model.checkpoint import NO_FIELDS
 from physsim_ros.model.media import gust_waves
@@ -94,6 +94,11 @@ class BodyTable:
             for row, record in zip(table['body'].tolist(), table, strict=True):
                 record['state'] = getattr(self.bodies[row], kind)
                 setattr(self.bodies[row], kind, record['state'])
+
+    @property
+    def thrown(self) -> Flags:
+        """Return (n,) bool: the velocity was set since the last step."""
+        return self.records['state']['thrown'][:-1].astype(np.bool_)
 
     # Fields
 

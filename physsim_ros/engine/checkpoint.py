@@ -41,6 +41,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         scene=table.scene,
         state=state,
         free=free,
+        thrown=table.thrown,
         wrenches=tuple(
             (table.columns.rows[rigid.body.name], rigid.wrench, rigid.wrench_until)
             for rigid in space.wrenched()
@@ -126,7 +127,7 @@ def restore_checkpoint(
 def _body_states(checkpoint: Checkpoint) -> Records:
     """Return (n,) `BodyState`: the states with which bodies continue from a checkpoint."""
     states = np.zeros(len(checkpoint.scene.bodies), BODY_STATE)
-    states['free'], states['fresh'] = checkpoint.free, True
+    states['free'], states['thrown'], states['fresh'] = checkpoint.free, checkpoint.thrown, True
     if len(checkpoint.field_leads):
         known = ~np.isnan(checkpoint.field_leads[:, 0])
         states['field'][known], states['fresh'][known] = checkpoint.field_leads[known], False

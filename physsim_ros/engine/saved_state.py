@@ -90,6 +90,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
     :param dt: of a sub-step [s]
     """
     motions = [saved.motion or engine_motion(saved, state.settings, dt) for saved in state.bodies]
+    free = np.array([motion.free for motion in motions], np.bool_)
     return Checkpoint(
         **_timed(state, step),
         scene=Scene(
@@ -99,7 +100,8 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
             lesson=state.lesson,
         ),
         state=np.array([motion[:6] for motion in motions], np.float64).reshape(-1, 6),
-        free=np.array([motion.free for motion in motions], np.bool_),
+        free=free,
+        thrown=free,
         field_leads=np.array(
             [saved.field_lead or (math.nan,) * 3 for saved in state.bodies], np.float64
         ).reshape(-1, 3),

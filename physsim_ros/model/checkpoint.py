@@ -156,6 +156,7 @@ class Checkpoint:
     :param scene: the bodies and the settings
     :param state: (n, 6) float64: pose and velocity of each engine body [m, rad, s]
     :param free: (n,) bool: in free flight, so that the engine's velocity leads
+    :param thrown: (n,) bool: the velocity was set since the last step
     :param field_leads: (n, 3) float64: leads of velocities [m/s] and spins [rad/s] by fields, NaN
         where one is to be found; none where there are no fields
     :param wrenches: row of the body, wrench [N, N m], and the step at which it ends or None
@@ -173,6 +174,7 @@ class Checkpoint:
     scene: Scene
     state: Floats
     free: NDArray[np.bool_]
+    thrown: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Wrench, int | None], ...]
     memory: ImpulseCache
     field_leads: Floats = field(default_factory=lambda: NO_FIELDS)
@@ -187,5 +189,5 @@ class Checkpoint:
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes]."""
-        states = self.state.nbytes + self.free.nbytes + self.robots.nbytes + self.actors.nbytes
-        return states + self.field_leads.nbytes + self.memory.nbytes
+        arrays = self.state, self.free, self.thrown, self.robots, self.actors
+        return sum(array.nbytes for array in arrays) + self.field_leads.nbytes + self.memory.nbytes

@@ -21,6 +21,7 @@ from physsim_ros.model.checks import shown
 from physsim_ros.model.declarations import check_key
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.sketchpad.rights import check_right, Right, Role
@@ -159,6 +160,7 @@ def _request_from(value: object) -> str:
     return value
 
 
+@suspended_collection()
 def json_object(text: str | bytes) -> dict[str, Any]:
     """
     Return the JSON object of a text, or of its bytes in UTF-8.

@@ -97,9 +97,8 @@ def test_a_load_lies_on_a_bridge(report, kind, slack, shape, ratio, deepest):
     assert now.poses[load, 1] > lowest + 0.1
 
 
-# On axles without slack the load rattles, and each touch takes back the lead of a flight.
-@pytest.mark.parametrize(('kind', 'tolerance'), [slow('axle', 0.15), ('pin', 0.01)])
-def test_a_bridge_is_told_the_weight_that_lies_on_it(report, kind, tolerance):
+@pytest.mark.parametrize('kind', [slow('axle'), 'pin'])
+def test_a_bridge_is_told_the_weight_that_lies_on_it(report, kind):
     sim, middle = bridge(kind)
     load = put_load(sim, Box(width=0.6, height=0.6), 30.0, middle)
     sim.reports_contacts = True
@@ -115,7 +114,8 @@ def test_a_bridge_is_told_the_weight_that_lies_on_it(report, kind, tolerance):
     mass = 30.0 * PLANK
     weight = mass * (2.0 * G + frame.snapshot.twists[load, 1] - before)
     what = f'30 : 1 on planks, {kind}, impulse in 2 s'
-    report.check(30, what, pressed[1], weight, tolerance, 'N s', relative=True)
+    # A flight that begins or ends: half a sub-step of gravity.
+    report.check(30, what, pressed[1], weight, mass * G / 1920.0, 'N s')
 
 
 @pytest.mark.parametrize('ratio', [10.0, slow(100.0)])

@@ -96,6 +96,37 @@ def play(sim, seconds, *, frames=FRAMES):
     return film_of(snapshots)
 
 
+def unaccounted(sim, seconds):
+    """
+    Return the change of velocity that gravity, contacts and joints do not account for [m/s].
+
+    It is the greatest of all bodies and steps, for all steps since the first one, which begins
+    with a jump of the engine's velocity (`half_step.c`).
+
+    :param sim: one that publishes each step
+    """
+    sim.reports_contacts = True
+    first = sim.advance_frame().snapshot
+    scene, gravity = first.scene, np.array(first.scene.settings.gravity)
+    row_of = {name: row for row, name in enumerate(scene.names)}
+    moves = np.array([body.dynamic for body in scene.bodies])
+    # The last row is that of the background.
+    impulses = np.zeros((len(scene.names) + 1, 2))
+    most = 0.0
+    for step in range(1, round(seconds * RATE)):
+        frame = sim.advance_frame()
+        now, contacts = frame.snapshot, frame.contacts
+        np.add.at(impulses, contacts.pairs[:, 0], -contacts.impulses)
+        np.add.at(impulses, contacts.pairs[:, 1], contacts.impulses)
+        for joint, pull in zip(now.scene.joints, now.pulls, strict=True):
+            impulses[row_of.get(joint.a, -1)] -= pull / RATE
+            impulses[row_of.get(joint.b, -1)] += pull / RATE
+        given = impulses[:-1][moves] / scene.inertia[moves, :1] + gravity * step / RATE
+        changed = (now.twists - first.twists)[moves, :2]
+        most = max(most, np.hypot(*(given - changed).T).max(initial=0.0))
+    return most
+
+
 def difference(film, other):
     """Return how far another film is from one; bodies that only one of them has are left out."""
     both = [name for name in film.names if name in other.names]

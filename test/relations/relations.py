@@ -20,10 +20,10 @@ from physsim_ros.files import load_world, save_world
 from physsim_ros.model.actors import SocialForce
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import NO_WRENCH, rotated
 
 from . import changes
-from .films import begin, difference, Film, film_of, FRAMES, play, RATE
+from .films import begin, difference, Film, film_of, FRAMES, play, RATE, unaccounted
 from .scenes import far_away, Scene
 
 # To where bodies are put that are far away [m].
@@ -244,6 +244,18 @@ class _Nearer(Relation):
         return max(twice - once, 0.0)
 
 
+class _Accounted(Relation):
+    """What is reported accounts for all that happens; no other world is played."""
+
+    def limit(self, scene: Scene) -> float:
+        """Return the tolerance [m/s]: as a flight begins or ends, half a sub-step of gravity."""
+        return self.tolerance + math.hypot(*scene.state.settings.gravity) / (8.0 * RATE)
+
+    def off(self, scene: Scene) -> float:
+        """Return which change of the velocity of a body is not accounted for [m/s]."""
+        return unaccounted(self.other(scene), scene.seconds)
+
+
 def _any(predicate):
     """Return whether a predicate is true of any body of a state."""
     return lambda state: any(map(predicate, state.bodies))
@@ -267,6 +279,18 @@ def _moves_alone(state):
         for held in state.bodies
     )
     return plain and not (settings.bounds or settings.floor_friction or settings.damping)
+
+
+def _is_moved_by_bodies(state):
+    """Return whether nothing but weight, contacts and joints of two bodies moves bodies."""
+    settings = state.settings
+    pushed = any(held.body.forces or held.wrench != NO_WRENCH for held in state.bodies)
+    guided = any(joint.guides for joint in state.joints)
+    air = settings.air_density or settings.air_viscosity
+    fields = air or settings.gravitation or settings.coulomb
+    fields = fields or any(held.body.medium is not None for held in state.bodies)
+    plain = _moves_alone(replace(state, settings=replace(settings, bounds=None)))
+    return plain and not (pushed or guided or fields)
 
 
 def _has_units(state):
@@ -472,6 +496,13 @@ RELATIONS = {
         plain=_at_checkpoint,
         tolerance=0.0,
         reason='a checkpoint has all bits',
+    ),
+    'accounted': _Accounted(
+        law='impulses of contacts and joints, and gravity, are what changes a momentum',
+        other=lambda scene: begin(scene.state, frames=RATE),
+        tolerance=1e-6,
+        reason='a rod has turned a little by the end of a step',
+        applies=_is_moved_by_bodies,
     ),
     'twice the rate': _Nearer(
         law='a world of twice the rate is nearer to that of four times the rate',

@@ -54,6 +54,7 @@ typedef struct BodyScratch {
     Twist rest;      // way that it has still to go after its impact [m, rad]
     uint8_t rests;   // that way has been found
     uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
+    uint8_t thrown;  // its velocity was set before this sub-step
     double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
     Twist field;     // half of what fields change its velocity by in this step
     uint8_t afloat;  // the surface of a medium crosses it

@@ -17,10 +17,12 @@
 // the step before; a search for that moment only.
 //
 // Reports.
-// Problem: an impulse that ends a flight takes back the lead, too, so that what carries a body at rest from now on
-// would report half a sub-step of weight too much, once.
-// Method: of such an impulse that share is reported with which the true velocity goes into the velocity of the
-// engine, along the impulse; at most the momenta of both leads are taken off.
+// Law: the impulses of contacts and joints, with gravity, are what changes the momentum of a body, but for m times a
+// lead: a body whose contact is lost flies without a jump of the engine's velocity, and lands without one.
+// Problem: a body whose velocity was set begins with such a jump, and what carries it takes that back: a body that is
+// put at rest on a floor would press with half a sub-step of weight too much.
+// Method: of an impulse in the first sub-step of such a body that share is reported with which the true velocity goes
+// into the velocity of the engine, along the impulse; at most the momenta of both leads are taken off.
 //
 // Cost: a comparison of velocities before and after each step.
 
@@ -169,8 +171,8 @@ void begin_half_step(World *world) {
     }
 }
 
-static bool is_flying(const Body *body) {
-    return body->state.free && body->dynamic;
+static bool begins_to_fly(const Body *body) {
+    return body->scratch.thrown && body->state.free && body->dynamic;
 }
 
 double reported_share(const Body *a, const Body *b, Vec impulse) {
@@ -178,8 +180,8 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
     double load = 0.0, all = 0.0, taken_back = 0.0, size = length(impulse);
     for (int end = 0; end < 2; end++) {
         const Body *body = bodies[end], *other = bodies[1 - end];
-        if (is_flying(body) && size > 0.0) {
-            Vec against = is_flying(other) ? vec(0.0, 0.0) : other->scratch.twist.v;
+        if (begins_to_fly(body) && size > 0.0) {
+            Vec against = begins_to_fly(other) ? vec(0.0, 0.0) : other->scratch.twist.v;
             // Without the impulse, the true velocity and that of the engine would be these.
             Vec true_end = add(body->scratch.twist.v, body->state.lead.v),
                 engine_end = add(true_end, body->state.lead.v);

@@ -184,9 +184,8 @@ static bool is_linear(const Part *part) {
     return part->kind == PART_PIVOT || is_axial(part);
 }
 
-// The impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
-static Vec pull_of(const World *world, const Joint *joint, const Part *part) {
-    Vec impulse = add(impulse_of_part(part), part->closing);
+// An impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
+static Vec pull_of(const World *world, const Joint *joint, const Part *part, Vec impulse) {
     impulse = is_axial(part) ? scaled(line_of(world, joint, part), impulse.x) : impulse;
     const Body *a = world->bodies + joint->a, *b = world->bodies + joint->b;
     return is_linear(part) ? scaled(impulse, reported_share(a, b, impulse)) : impulse;
@@ -198,12 +197,21 @@ void begin_totals(World *world) {
     }
 }
 
-void add_totals(World *world) {
+void add_impulses(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
         for (Part *part = world->parts + joint->first_part, *end = part + joint->part_count; part < end; part++) {
-            part->total = add(part->total, pull_of(world, joint, part));
             part->closing = vec(0.0, 0.0);
+            part->total = add(part->total, pull_of(world, joint, part, impulse_of_part(part)));
+        }
+    }
+}
+
+void add_closings(World *world) {
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        for (Part *part = world->parts + joint->first_part, *end = part + joint->part_count; part < end; part++) {
+            part->total = add(part->total, pull_of(world, joint, part, part->closing));
         }
     }
 }

@@ -87,7 +87,9 @@ void take_out_closing(World *world);
 void take_out_impacts(World *world);
 void begin_totals(World *world);
 void find_gaps(World *world);
-void add_totals(World *world);
+// Add to what joints report: their impulses, and those by which gaps were closed.
+void add_impulses(World *world);
+void add_closings(World *world);
 void find_broken(World *world);
 
 // Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).

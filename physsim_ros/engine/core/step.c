@@ -36,6 +36,7 @@ static void keep_twists(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->scratch.twist = twist_of(body->engine);
+        body->scratch.thrown = body->state.thrown;
         body->state.thrown = body->state.released = false;
     }
 }
@@ -108,10 +109,11 @@ static void step(World *world) {
     find_leads(world, world->has_fields);
     forgive_trembling(world);
     solve_joints(world);
+    add_impulses(world);
     find_borne(world);
     finish_moves(world);
     close_joints(world);
-    add_totals(world);
+    add_closings(world);
     find_pushes(world);
     if (world->reports_contacts) {
         report_contacts(world);
