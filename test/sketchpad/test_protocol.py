@@ -385,6 +385,32 @@ def test_the_forces_of_a_past_in_water_give_the_acceleration(browser: Browser) -
     assert middle == pytest.approx(expected[1:], abs=0.1)
 
 
+def test_the_charge_of_the_robot_that_a_page_shows_is_told_when_it_changes(
+    browser: Browser,
+) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    # 18 C, of which 3.6 C a second are drawn.
+    battery = {'capacity': 0.005, 'idle': 3.6, 'level': 0.5}
+    robot = {'from': 'turtlebot3_burger', 'battery': battery}
+    assert page.ask('spawn', body={'name': 'tb3/0', 'robot': robot, 'at': [0, 0]})['ok']
+    physsim.run(0.5)
+    assert not page.of_type('battery')
+    page.send('show', laser='tb3/0')
+    page.until(lambda: page.of_type('battery'))
+    assert page.last('battery') == {
+        'type': 'battery',
+        'name': 'tb3/0',
+        'level': pytest.approx(0.4, abs=0.01),
+        'current': -3.6,
+    }
+    physsim.run(3.0)
+    page.until(lambda: page.last('battery')['level'] == 0.0)
+    count = len(page.of_type('battery'))
+    physsim.run(0.5)
+    page.ask('drop')
+    assert len(page.of_type('battery')) <= count + 1
+
+
 @pytest.mark.parametrize('over', ['ring/0', 'wheel/0'])
 def test_the_force_of_a_rope_in_a_past_is_its_tension_along_each_strand(
     tmp_path: Path, over: str
