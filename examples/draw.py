@@ -19,7 +19,7 @@ PAUSE = 11.0
 
 parser = argparse.ArgumentParser(description=__doc__)
 parser.add_argument('drawing', help='a JSON file, or the name of a shipped drawing')
-parser.add_argument('--at', type=float, nargs=2, default=(0, 0), help='place of its [0, 0] [m]')
+parser.add_argument('--at', type=float, nargs=2, default=(0, 0), help='where its origin goes [m]')
 options = parser.parse_args()
 try:
     strokes = load_drawing(options.drawing)

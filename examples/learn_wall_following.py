@@ -90,8 +90,8 @@ def main():
     from stable_baselines3.common.vec_env import DummyVecEnv  # noqa: PLC0415
 
     parser = argparse.ArgumentParser(description='Learn to follow a wall.')
-    parser.add_argument('--steps', type=int, default=150_000, help='of the environment')
-    parser.add_argument('--worlds', type=int, default=8, help='that are stepped together')
+    parser.add_argument('--steps', type=int, default=150_000, help='training steps of 0.1 s')
+    parser.add_argument('--worlds', type=int, default=8, help='number of worlds')
     parser.add_argument('--save', default='', help='file for what was learned')
     options = parser.parse_args()
     task = make_task()

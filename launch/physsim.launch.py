@@ -37,20 +37,18 @@ def generate_launch_description() -> LaunchDescription:
         DeclareLaunchArgument(
             'params_file',
             default_value=PathJoinSubstitution([config, 'physsim.yaml']),
-            description='a file of all parameters, which the arguments above replace',
+            description='file of parameters; the arguments above override it',
         ),
-        DeclareLaunchArgument(
-            'rviz', default_value='false', description='whether RViz is started'
-        ),
+        DeclareLaunchArgument('rviz', default_value='false', description='whether to start RViz'),
         DeclareLaunchArgument(
             'use_sim_time',
             default_value='true',
-            description="whether RViz has the world's time, which goes back in a rewind",
+            description='whether RViz uses simulation time, which goes back in a rewind',
         ),
         DeclareLaunchArgument(
             'namespace',
             default_value='',
-            description='of the node and its topics: one for each world beside another',
+            description='namespace of the node and its topics; a second world needs another one',
         ),
     ]
     given = {

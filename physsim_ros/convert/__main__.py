@@ -50,7 +50,7 @@ def convert(source: Path) -> Conversion:
 def main(arguments: list[str] | None = None) -> int:
     """Convert a file; return the exit code."""
     parser = argparse.ArgumentParser(prog='python -m physsim_ros.convert', description=__doc__)
-    parser.add_argument('source', type=Path, help=f'world of {", ".join(CONVERTED)}')
+    parser.add_argument('source', type=Path, help=f'file of {", ".join(CONVERTED)}')
     parser.add_argument(
         'target', type=Path, nargs='?', help='world file to write; default: SOURCE-world.yaml'
     )

@@ -24,7 +24,6 @@ from physsim_ros.drawing.strokes.figure import (
     Figure,
     likeliest_group,
     marked_solid,
-    marks_inside,
     MOST_STROKES,
 )
 from physsim_ros.drawing.strokes.meanings import Outcome
@@ -151,8 +150,6 @@ class DrawingSession:
             figure = group
             while self._figures and self._figures[-1].began >= figure.began:
                 self._figures.pop()
-        elif figure.is_solid:
-            figure.gestures = marks_inside(self._figures, figure, self.settings)
         self._figures.append(figure)
         if figure.chosen is None:
             self.preview = _unrecognised_preview(drawn.points)
@@ -176,11 +173,7 @@ class DrawingSession:
 
     def note_gesture(self, gesture: int) -> None:
         """Note the number of the gesture with which the last reading was submitted."""
-        last = self._figures[-1]
-        for each in self._figures:
-            # Strokes that the reading amends belong to its gesture now.
-            if each is last or (each.gestures and {*each.gestures} <= {*last.gestures}):
-                each.gestures = (gesture,)
+        self._figures[-1].gestures = (gesture,)
 
     def _build(self, figure: Figure, number: int) -> Reading:
         """

@@ -412,6 +412,7 @@ class Space:
         rigids = list(self.bodies.by_name.values())
         wake_bodies(rigid.pm_body for rigid in rigids)
         share = _pressing_share(old, new)
+        # No more than they were: the pull of springs, and impacts, do not grow with gravity.
         if share < 1.0:
             scale_impulses(self.shapes, share)
         for rigid in rigids:
@@ -460,5 +461,4 @@ def _pressing_share(old: Point, new: Point) -> float:
     if before == 0.0:
         return 1.0
     along = old[0] / before * new[0] + old[1] / before * new[1]
-    # No more than all of it: the pull of springs, and impacts, do not grow with gravity.
-    return min(max(along / before, 0.0), 1.0)
+    return max(along / before, 0.0)

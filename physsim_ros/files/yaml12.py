@@ -23,6 +23,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 from physsim_ros.model.errors import Malformed
+from physsim_ros.model.garbage_collection import suspended_collection
 import yaml
 from yaml.composer import Composer
 
@@ -188,6 +189,7 @@ for _tag, _pattern, _first in (
     Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
 
 
+@suspended_collection()
 def load_mapping(
     text: str, *, field: str, entries: dict[int, Located] | None = None
 ) -> dict[Any, Any]:

@@ -4,6 +4,8 @@
 """
 Autosave: the world that pages draw in is written to a file, which the next start offers.
 
+A world with a lesson is kept as soon as a page opens it.
+
 Law: it takes at most a hundredth of the world's time and one file; a world that is too large, or a
 full disk, stops nothing. The file begins with a comment that names the people who drew in it.
 """
@@ -108,8 +110,8 @@ class Autosave:
         poses, self._poses = self._poses, frame.snapshot.poses
         self._still = not frame.speed or np.array_equal(poses, self._poses)
         if any(answer.topic in _FROM_FILE and not answer.code for answer in frame.answers):
-            # Nobody has drawn yet in what is a file already.
-            self._changed = False
+            # Nobody has drawn yet in what is a file already; a lesson is resumed as it was.
+            self._changed = drawn and scene.lesson is not None
         else:
             self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
 

@@ -21,12 +21,15 @@ from physsim_ros.model.checks import shown
 from physsim_ros.model.declarations import check_key
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.sketchpad.rights import check_right, Right, Role
 
 # Levels of nested lists and mappings; a stroke has three, a body five.
 DEEPEST = 8
+# Types of JSON's values that have levels; JSON makes no subclass.
+_NESTING = list, dict
 # Length of the identifier of a message [characters].
 LONGEST_ID = 64
 
@@ -53,8 +56,8 @@ class Kind(NamedTuple):
     :ivar fields: checks by the name of the field
     :ivar handle: carries it out on the world's thread, with the page's session, the origin of the
         message and the checked fields
-    :ivar for_world: whether it does; else it is carried out on the server's thread, with the feed
-        of frames, the open page and the checked fields, and has no answer but a refusal
+    :ivar for_world: whether it does; else it is carried out on the server's thread, with the
+        socket, the open page and the checked fields, and has no answer but a refusal
     """
 
     topic: str
@@ -157,6 +160,7 @@ def _request_from(value: object) -> str:
     return value
 
 
+@suspended_collection()
 def json_object(text: str | bytes) -> dict[str, Any]:
     """
     Return the JSON object of a text, or of its bytes in UTF-8.
@@ -183,20 +187,19 @@ def _refuse_constant(name: str) -> float:
     raise ValueError(name)
 
 
-def _check_depth(value: object) -> None:
+def _check_depth(value: dict[str, Any]) -> None:
     """
     Refuse a value that is nested too deeply.
 
     :raises Malformed: it has more than `DEEPEST` levels
     """
-    level = [value]
+    level: list[Any] = [value]
     for _ in range(DEEPEST):
         level = [
             child
             for each in level
-            if isinstance(each, list | dict)
-            for child in (each.values() if isinstance(each, dict) else each)
-            if isinstance(child, list | dict)
+            for child in (each.values() if type(each) is dict else each)
+            if type(child) in _NESTING
         ]
         if not level:
             return

@@ -248,6 +248,8 @@ CAR = [
 IN_ANY_ORDER: dict[str, tuple[Sequence[Way | Floats], str]] = {
     'rod, bob': ([UP, BOB], 'Disc, rod Disc world'),
     'rod to the rim, bob': ([[UP[0], (0.05, 0.3)], BOB], 'Disc, rod Disc world'),
+    'rod to beside the rim, bob': ([[UP[0], (0.05, 0.45)], BOB], 'Disc, rod Disc world'),
+    'ramp onto the lid of a box': ([[(-2, 1), (0, 0.28)], BOARD], 'Box Chain!'),
     'rope, bob': ([SAG, at(4.5, 0.0, BOB)], 'Disc, rope Disc world'),
     'spring, mass': ([zigzag((0.0, 3.0), (0.0, 0.1)), BOARD], 'Box, spring Box world'),
     'rod between two': ([[(0, 0), (3, 0.1)], BOB, at(3, 0, BOARD)], 'Box Disc, rod Box Disc'),

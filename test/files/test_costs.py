@@ -14,12 +14,15 @@ from typing import Any
 
 from physsim_ros import Robot, Simulation
 from physsim_ros.files import load_mapping, state_from
+from physsim_ros.model.actors import ACTORS
 from physsim_ros.model.attraction import MOST_ATTRACTING
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.robots.drives import DRIVES
+from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.robots.sensors.distance import MOST_BEAMS
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import SHAPES
 import pytest
-
-pytestmark = pytest.mark.slow
 
 # Length of a file, a quarter of the greatest that a page may send, and of a part [characters].
 WHOLE, PART = 2**18, 2**16
@@ -61,6 +64,18 @@ def compounds(number: int) -> Entries:
     yield 'bodies', {'name': f'b/{number}', 'compound': parts, 'at': [0.0, 0.5 * number]}
 
 
+def triangles(number: int) -> Entries:
+    corners = [[0.2 * each + x, y] for each in range(333) for x, y in ((0, 0), (0.1, 0), (0, 0.1))]
+    rounded = [[round(x, 1), y] for x, y in corners]
+    yield 'bodies', {'name': f'b/{number}', 'triangles': rounded, 'at': [0.0, 0.5 * number]}
+
+
+def boxes(number: int) -> Entries:
+    """Yield a platform."""
+    box = {'box': {'width': 0.4, 'height': 0.1}, 'one_way': [0, 1], 'anchored': True}
+    yield 'bodies', {'name': f'b/{number}', **box, 'at': place(number)}
+
+
 def notes(number: int) -> Entries:
     yield 'bodies', disc(number, label='a\n' * 20, sensor=True, anchored=True)
 
@@ -81,6 +96,14 @@ def media(number: int) -> Entries:
 
 def attraction(number: int) -> Entries:
     yield 'bodies', disc(number, **({} if number < MOST_ATTRACTING else {'sensor': True}))
+
+
+def sensors(number: int) -> Entries:
+    """Yield a robot with a sensor of each kind, as long as the topics are few enough."""
+    each = [{'kind': kind} for kind in SENSORS if kind != 'landmarks']
+    seen = {'kind': 'landmarks', 'bodies': ['b/*']}
+    robot = {'drive': {'kind': [*DRIVES][number % len(DRIVES)]}, 'sensors': [*each, seen]}
+    yield 'bodies', disc(number, **({'robot': robot} if number < 50 else {}))
 
 
 def robots(number: int) -> Entries:
@@ -123,18 +146,19 @@ def rods(number: int) -> Entries:
     yield 'joints', {'name': f'j/{number}', 'kind': 'rod', **ends, 'points': points}
 
 
-def springs(number: int) -> Entries:
-    for which, entry in rods(number):
-        yield which, entry | ({'kind': 'spring'} if which == 'joints' else {})
+def of_kind(kind: str, points: int, **more: Any) -> Callable[[int], Entries]:
+    """Return what yields a disc with a joint of a kind to the one before."""
+
+    def entries(number: int) -> Entries:
+        for which, entry in rods(number):
+            own = {'kind': kind, 'points': entry.get('points', [])[:points], **more}
+            yield which, entry | (own if which == 'joints' else {})
+
+    entries.__name__ = f'{kind}s'
+    return entries
 
 
-def gears(number: int) -> Entries:
-    for which, entry in rods(number):
-        gear = {'kind': 'gear', 'ratio': -2.0, 'points': [place(number)]}
-        yield which, entry | (gear if which == 'joints' else {})
-
-
-def motors(number: int) -> Entries:
+def driven_axles(number: int) -> Entries:
     """Yield a wheel on an axle by hand, with a motor."""
     yield from discs(number)
     motor = {'kind': 'axle', 'points': [place(number)], 'effort': 5.0, 'max_speed': 2.0}
@@ -160,11 +184,14 @@ KINDS: list[Callable[[int], Entries]] = [
     polygons,
     chains,
     compounds,
+    triangles,
+    boxes,
     notes,
     forces,
     belts,
     media,
     attraction,
+    sensors,
     robots,
     arms,
     lasers,
@@ -172,9 +199,12 @@ KINDS: list[Callable[[int], Entries]] = [
     people,
     orca,
     rods,
-    springs,
-    gears,
-    motors,
+    of_kind('spring', 2),
+    of_kind('slider', 2, rate=1.0),
+    of_kind('rack', 2),
+    of_kind('gear', 1, ratio=-2.0),
+    of_kind('motor', 1, rate=1.0),
+    driven_axles,
     pins,
     pulleys,
 ]
@@ -226,7 +256,7 @@ def least_costs(entries: Callable[[int], Entries], length: int) -> dict[str, flo
     return {what: min(took, second[what]) for what, took in first.items()}
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def collected() -> Iterator[None]:
     """Have no garbage of other tests collected while a cost is measured."""
     gc.collect()
@@ -235,7 +265,30 @@ def collected() -> Iterator[None]:
     gc.enable()
 
 
-@pytest.mark.parametrize('entries', KINDS)
+def words_of(value: Any) -> Iterator[str]:
+    """Yield the keys and texts of a value of JSON."""
+    match value:
+        case str():
+            yield value
+        case dict():
+            for key, each in value.items():
+                yield key
+                yield from words_of(each)
+        case list():
+            for each in value:
+                yield from words_of(each)
+
+
+def test_each_kind_of_thing_is_in_a_file() -> None:
+    entries = (entry for kind in KINDS for number in (0, 1, 2, 64) for _, entry in kind(number))
+    used = {word for entry in entries for word in words_of(entry)}
+    known = {*SHAPES, *ACTORS, *DRIVES, *SENSORS, *map(str, JointKind)}
+    assert known <= used
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures('collected')
+@pytest.mark.parametrize('entries', KINDS, ids=lambda entries: entries.__name__)
 def test_a_file_four_times_as_long_takes_some_four_times_as_long(
     entries: Callable[[int], Entries],
 ) -> None:

@@ -6,10 +6,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+import gc
 import sys
 
 from physsim_ros.files import load_mapping, state_from
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.sketchpad.message import json_object
 import pytest
 
 # Between 2, where work is proportional, and 4, where it grows by the square.
@@ -55,3 +57,16 @@ def test_joints_by_hand_of_twice_as_many_bodies_are_twice_the_work(members: str)
         return calls_of(lambda: state_from(content, WorldSettings(), 240.0))
 
     assert read(200) <= TWICE * read(100)
+
+
+@pytest.mark.parametrize('read', [load_mapping, lambda text, field: {field: json_object(text)}])
+def test_no_garbage_is_collected_while_a_text_is_read(read: Callable[..., object]) -> None:
+    """A collection among the million objects of a text stops all threads for half a second."""
+    phases: list[str] = []
+    gc.callbacks.append(lambda phase, _: phases.append(phase))
+    try:
+        read(f'{{"bodies": [{"[0, 0], " * 5000}[]]}}', field='world')
+    finally:
+        gc.callbacks.pop()
+    # Before it and after it; of so many lists there would be seven.
+    assert phases.count('start') <= 2

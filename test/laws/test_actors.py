@@ -244,6 +244,79 @@ def test_a_pedestrian_passes_what_stands_exactly_in_its_way(what, kind, heading)
     assert math.dist(sim.world.snapshot().poses[row, :2], goal) < 0.3
 
 
+def _walls(sim, *walls):
+    """Spawn anchored boxes: width, height, x, y [m]."""
+    for number, (width, height, x, y) in enumerate(walls):
+        wall = Box(width=width, height=height)
+        spawn(sim, f'wall/{number}', wall, (x, y, 0.0), anchored=True)
+
+
+# Walls of a door in the line x = 0, by its width [m].
+def _door(width):
+    return [(0.2, 5.0, 0.0, side * (width / 2 + 2.5)) for side in (-1, 1)]
+
+
+@pytest.mark.parametrize('kind', ['social_force', 'orca'])
+@pytest.mark.parametrize(
+    ('walls', 'start'),
+    [
+        # Straight at a wall, and at its end.
+        ([(0.2, 4.0, 0.0, 0.0)], (-3.0, 0.0)),
+        ([(0.2, 4.0, 0.0, 0.0)], (-3.0, -1.8)),
+        # A gap in which a person of 0.5 m fits, and one in which nobody does.
+        ([(0.5, 0.5, 0.0, side * 0.53) for side in (-1, 1)], (-3.0, 0.0)),
+        ([(0.5, 0.5, 0.0, side * 0.4) for side in (-1, 1)], (-3.0, 0.0)),
+        # A corridor, and behind the walls of a door.
+        ([(4.0, 0.2, 0.0, side * 0.4) for side in (-1, 1)], (-3.0, 0.0)),
+        (_door(0.7), (-1.0, 1.5)),
+        # In a wall.
+        ([(1.0, 1.0, -3.0, 0.0)], (-3.4, 0.0)),
+        ([(1.0, 1.0, -3.0, 0.0)], (-3.0, 0.0)),
+    ],
+)
+def test_a_pedestrian_finds_the_way_where_walls_leave_one(walls, start, kind):
+    sim = _floor()
+    _walls(sim, *walls)
+    goal = 3.0, start[1]
+    walks = {'kind': kind, 'points': [goal]}
+    row = spawn(sim, 'person/0', PERSON, (*start, 0.0), mass=70.0, actor=walks)
+    sim.world.step(round(30.0 / DT))
+    assert math.dist(sim.world.snapshot().poses[row, :2], goal) < 0.3
+
+
+@pytest.mark.parametrize('kind', ['social_force', 'orca'])
+def test_a_crowd_goes_through_a_door_both_ways(kind):
+    sim = _floor()
+    _walls(sim, *_door(1.2))
+    starts = [
+        (side * (2.0 + 0.8 * (n // 3)), (n % 3 - 1) * 0.8) for n in range(5) for side in (-1, 1)
+    ]
+    for number, (x, y) in enumerate(starts):
+        walks = {'kind': kind, 'points': [[-2.0 * x, y]]}
+        person = Disc(radius=0.22)
+        spawn(sim, f'person/{number}', person, (x, y, 0.0), mass=70.0, actor=walks)
+    sim.world.step(round(40.0 / DT))
+    here = sim.world.snapshot().poses[-len(starts) :, 0]
+    assert (here * [-np.sign(x) for x, _ in starts] > 1.0).all()
+
+
+@pytest.mark.parametrize('kind', ['social_force', 'orca'])
+def test_who_starts_on_a_robot_or_a_person_parts_and_a_goal_in_a_wall_is_not_reached(kind):
+    sim = _floor()
+    _walls(sim, (1.0, 1.0, 3.0, 0.0))
+    spawn(sim, 'robot/0', Disc(radius=0.2), mass=2.0, robot={'drive': {'kind': 'omni'}})
+    goals = {'person/0': (3.0, 0.0), 'person/1': (-3.0, 0.0)}
+    for name, goal in goals.items():
+        spawn(sim, name, PERSON, mass=70.0, actor={'kind': kind, 'points': [goal]})
+    sim.world.step(round(20.0 / DT))
+    last = sim.world.snapshot()
+    assert np.isfinite(last.poses).all()
+    here = {name: last.poses[last.row(name), :2] for name in goals}
+    assert math.dist(here['person/1'], goals['person/1']) < 0.3
+    # Before the wall, at most at its side.
+    assert 0.7 < math.dist(here['person/0'], goals['person/0']) < 1.5
+
+
 def test_a_pedestrian_of_orca_walks_round_what_does_not_give_way():
     sim = _floor()
     spawn(sim, 'post/0', Disc(radius=0.3), (3.0, 0.0, 0.0), anchored=True)

@@ -50,6 +50,18 @@ def test_a_planet_goes_around_by_the_laws_of_kepler(report, eccentricity):
     report.check(72, 'period of ten turns', rises[9] / (10 * period), 1.0, 1e-4, '-')
 
 
+def test_a_sun_that_is_put_elsewhere_pulls_at_once_as_one_that_was_there():
+    sim = planet_of(0.0)
+    run(sim, 0.5)
+    sim.place('sun/0', 0.0, 0.3)
+    x, y, yaw, vx, vy = *sim.world.snapshot().poses[1], *sim.world.snapshot().twists[1, :2]
+    other = simulation(gravity=NOWHERE, gravitation=GM / 100.0)
+    spawn(other, 'sun/0', Disc(radius=0.05), (0.0, 0.3, 0.0), mass=100.0, anchored=True)
+    spawn(other, 'planet/0', Disc(radius=0.02), (x, y, yaw), mass=1e-3, velocity=(vx, vy))
+    here, there = (run(each, 0.1).poses[1, :2] for each in (sim, other))
+    assert math.dist(here, there) < 1e-12
+
+
 @pytest.mark.parametrize('power', [-1.0, 0.5, 1.0, 2.0, 2.5])
 def test_a_circle_has_the_speed_of_its_power(report, power):
     sim = simulation(gravity=NOWHERE, gravitation=1.0, attraction_power=power, softening=0.0)

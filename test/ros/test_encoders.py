@@ -425,6 +425,20 @@ def test_of_a_scene_of_thousands_some_are_serialised_for_each_frame():
     assert len(dark) == MOST_NEW + 1
 
 
+def test_scenes_that_change_in_each_frame_are_drawn_as_each_was_begun():
+    encoder = MarkersEncoder('world')
+    scenes = [
+        snapshot_of(
+            [replace(PLAIN, name=f'turn{turn}/{number}') for number in range(MOST_NEW + 1)]
+        )
+        for turn in range(4)
+    ]
+    for begun, ready in (scenes[:2], scenes[2:]):
+        assert encoder.encode(frame_of(begun)) is None
+        markers = [each for each in picture(encoder, ready) if each.action == Marker.ADD]
+        assert drawn(markers) == drawn(marker_array(begun).markers)
+
+
 def test_what_has_gone_is_deleted_in_sixty_messages_unless_it_comes_back():
     encoder, bodies = MarkersEncoder('world'), bodies_named('a', 'b', 'c')
     encoder.encode(frame_of(snapshot_of([replace(PLAIN, anchored=True), *bodies])))

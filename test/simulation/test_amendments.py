@@ -123,6 +123,16 @@ def test_what_is_taken_back_has_never_been_and_what_others_did_stays():
     assert (answer.code, answer.message) == ('out_of_history', 'there is nothing by Anna to undo')
 
 
+def test_what_breaks_again_while_nothing_is_taken_back_is_told_once():
+    weak = joining('spring', [RIGHT[:2], (3.0, 9.0)], a='b/0', b='world', break_force=1e-3)
+    use = MoveBodies(names=('a/0',), by=(0.0, 1.0))
+    simulation = world_after(ANNA, BEN, (25, 'Ben', weak), (40, 'Ben', use))
+    assert simulation.world.scene.joints == ()
+
+    assert take_back(simulation, 'Anna').code == 'not_alone'
+    assert not [each for each in simulation.advance_frame().answers if each.code]
+
+
 def test_redo_brings_it_back():
     simulation = world_after(ANNA, BEN)
     before = simulation.world.digest()

@@ -127,7 +127,11 @@ def test_commands_on_their_way_are_saved_and_loaded_to_the_bit(tmp_path):
     for speed in (0.1, 0.2, 0.3):
         command(world, speed)
         world.step(5)
-    assert world.save().bodies[0].coming
+    command(world, 0.4)
+    coming = world.save().bodies[0].coming
+    # Of commands that begin at one step, the last one is kept.
+    command(world, 0.5)
+    assert len(world.save().bodies[0].coming) == len(coming) > 0
     assert_goes_on_alike(world, tmp_path)
 
 
@@ -212,6 +216,12 @@ def test_a_file_with_commands_that_cannot_be_is_refused(tmp_path, coming, code):
     robot = f'robot: {{drive: {{kind: omni}}}}, driven: {{coming: [{coming}]}}'
     refusal = refusal_of_file(tmp_path, f'{{name: a/0, circle: {{radius: 0.1}}, {robot}}}')
     assert refusal.cause == code
+
+
+def test_a_file_with_commands_to_no_drive_is_refused(tmp_path):
+    robot = 'robot: {namespace: r}, driven: {coming: [{begins: 0.1}]}'
+    refusal = refusal_of_file(tmp_path, f'{{name: a/0, circle: {{radius: 0.1}}, {robot}}}')
+    assert refusal.cause == 'bad_property'
 
 
 SHOULDER = 'arm/0/shoulder/0'

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
-from physsim_ros.model.requests import Command, Delete, Request
+from physsim_ros.model.requests import Command, Delete, Request, Restore
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past.tree import MOST_COURSES
@@ -150,6 +150,18 @@ def test_a_ghost_is_what_the_course_has_shown():
     assert sim.past.course_snapshot(2, 1.5) is not None
 
 
+def test_the_ghost_of_a_course_takes_no_memory_for_contacts():
+    sizes = set()
+    for reports_contacts in (False, True):
+        sim = simulation()
+        sim.reports_contacts = reports_contacts
+        run(sim, 0.5)
+        sim.seek(SECOND // 4)
+        act(sim, 1.0)
+        sizes.add(sim.past.tree.left[1].size)
+    assert len(sizes) == 1
+
+
 def test_undo_and_redo_go_along_a_course():
     sim = simulation()
     run(sim, 2.0)
@@ -237,6 +249,18 @@ def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_ther
     frames = [frame for tick in range(9) for frame in sim.advance(SECOND + tick * SECOND // 60)]
     assert frames[-1].snapshot.step == 0
     assert frames[-1].snapshot.scene.names == ()
+
+
+def test_a_step_that_was_shown_without_the_oldest_request_is_not_kept():
+    sim = Simulation(history=0.5)
+    run(sim, 0.25)
+    # A loaded state begins with a checkpoint, before which all is dropped in half a second.
+    sim.requests.submit(Restore(state=sim.save()), Origin(''))
+    run(sim, 0.5)
+    assert sim.step == 180
+    with pytest.raises(OutOfHistory):
+        sim.seek(SECOND // 4)
+    assert sim.status.oldest == 61 / 240
 
 
 def test_as_many_courses_are_kept_as_are_said():

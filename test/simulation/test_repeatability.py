@@ -312,6 +312,14 @@ def test_lifetimes_and_wrenches_of_a_world_that_was_built_ahead_count_from_its_r
     check_begins_alike(world.save(), world.physics_rate)
 
 
+def test_the_checkpoint_of_a_world_that_has_just_begun_has_its_requests():
+    world = World()
+    world.apply(Restore(state=busy_world().save()))
+    spawn(world, 'late/0', DISC, (0.0, 20.0, 0.0))
+
+    assert 'late/0' in world.renew().scene.names
+
+
 def test_a_world_that_was_built_ahead_of_another_one_is_not_begun_with():
     world = World()
     world.put_ahead(beginning_of(busy_world().save(), world.physics_rate))

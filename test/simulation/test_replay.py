@@ -225,6 +225,14 @@ def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(speeds):
     assert len(steps) > 4
 
 
+def test_a_checkpoint_within_a_frame_loses_none_of_its_contacts():
+    driven = Driven(checkpoints=41 / 240)
+    driven.simulation.reports_contacts = True
+    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    _, *frames = driven.run(1.0, 1.0)
+    assert {frame.contacts.steps for frame in frames} == {FRAME}
+
+
 def test_redo_that_the_history_is_too_short_for_says_so():
     driven = dropped()
     driven.run(1.0, 1.0)

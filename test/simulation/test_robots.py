@@ -28,6 +28,18 @@ DRIVE = {'kind': 'differential', 'timeout': 0.5}
 SLIPPING = {'drive': DRIVE, 'odometry': {'slip': [0.02, 0.03]}}
 
 
+@pytest.mark.parametrize('count', [64, 65, 129])
+def test_noise_is_that_of_its_step_however_many_are_made_at_once(count):
+    at_once, one_by_one = seen_from_above(), seen_from_above()
+    for world in (at_once, one_by_one):
+        put(world, 'a/0', robot=SLIPPING)
+        world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.3)))
+    at_once.step(count)
+    for _ in range(count):
+        one_by_one.step(1)
+    assert at_once.digest() == one_by_one.digest()
+
+
 @pytest.mark.parametrize('field', ['anchored', 'kinematic', 'sensor'])
 def test_a_robot_is_neither_anchored_nor_kinematic_nor_a_sensor(field):
     world, robot = seen_from_above(), {'drive': DRIVE}

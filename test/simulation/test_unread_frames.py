@@ -86,6 +86,15 @@ def test_a_joint_that_breaks_makes_a_frame(unread):
     assert 'joint_broken' in [answer.code for frame in frames for answer in frame.answers]
 
 
+def test_a_body_whose_time_is_over_makes_a_frame(unread):
+    short = spawning('short/0', DISC, (5.0, 9.0, 0.0), lifetime=0.1)
+    unread.requests.submit(short, Origin('~/spawn'))
+    spawned, gone = ticked(unread, 1, AWAY)
+    assert 'short/0' in spawned.snapshot.scene.names
+    assert 'short/0' not in gone.snapshot.scene.names
+    assert gone.snapshot.step == 24
+
+
 def test_a_reader_who_comes_late_has_the_frames_of_one_who_was_always_there(read, unread):
     ticked(read, 1, AWAY)
     ticked(unread, 1, AWAY)

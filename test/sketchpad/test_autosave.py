@@ -19,6 +19,7 @@ from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 import pytest
 
 from ..building import BOX, spawning
+from ..worlds.film import state_of
 
 
 def empty() -> Callable[[int], str]:
@@ -88,6 +89,14 @@ def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> 
     autosave.note_frame(simulation.advance_frame(), drawn=True)
     assert not autosave.is_due(time.monotonic())
     drawn(simulation, autosave, 'a/0')
+    assert autosave.is_due(time.monotonic())
+
+
+def test_a_lesson_that_a_page_opened_is_kept_for_the_next_start(tmp_path: Path) -> None:
+    simulation = Simulation()
+    autosave = Autosave(tmp_path, empty)
+    simulation.requests.submit(Restore(state=state_of('lever')), Origin('~/load_world'))
+    autosave.note_frame(simulation.advance_frame(), drawn=True)
     assert autosave.is_due(time.monotonic())
 
 

@@ -92,7 +92,6 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('lower_hand', {'page': 2}),
     ('forget_results', {}),
     ('say', {'text': 'Five minutes left'}),
-    ('list', {}),
     ('clear_of', {'person': 'Anna'}),
     ('take_back', {}),
     ('share', {}),

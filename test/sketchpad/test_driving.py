@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import re
 from typing import Any
 
 import pytest
@@ -19,7 +20,8 @@ gravity: [0, 0]
 floor_friction: 0.6
 bodies:
   - {name: crate/0, box: {width: 0.4, height: 0.4}, at: [-1, 1]}
-  - {name: tb3/0, robot: turtlebot4, at: [0, 0]}
+  - {name: tb3/0, robot: {from: turtlebot4, battery: {capacity: 1.8, idle: 0.3, level: 0.8}},
+     at: [0, 0]}
   - {name: cart/0, box: {width: 0.4, height: 0.2}, at: [1, 1.5], kinematic: true,
      actor: {kind: path, points: [[1, 1.5], [1.5, 1.5]], speed: 0.5, repeat: to_and_fro,
      start: {near: crate/0, distance: 1}}}
@@ -50,6 +52,10 @@ def at_rest(sheet: Sheet) -> bool:
     began, before = sheet.page.evaluate('physsim.time'), sheet.pose('tb3/0')
     sheet.wait('began => physsim.time > began + 0.1', began)
     return sheet.pose('tb3/0') == before
+
+
+def test_the_panel_of_a_robot_tells_the_charge_of_its_battery(sheet: Sheet) -> None:
+    sheet.page.get_by_text(re.compile(r'^Battery (80|79) % · −0.3 A$')).wait_for()
 
 
 def test_keys_drive_the_robot_that_is_selected(sheet: Sheet) -> None:

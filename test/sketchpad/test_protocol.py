@@ -49,7 +49,7 @@ def test_a_kind_of_message_has_the_fields_of_its_function() -> None:
         signature = inspect.signature(kind.handle).parameters
         # The session, by another name where a field is the number of a page.
         session = 'session' if 'session' in signature else 'page'
-        parameters = signature.keys() - {'origin', 'feed', session}
+        parameters = signature.keys() - {'origin', 'socket', session}
         others = {
             each for each in parameters if signature[each].kind is inspect.Parameter.VAR_KEYWORD
         }
@@ -383,6 +383,32 @@ def test_the_forces_of_a_past_in_water_give_the_acceleration(browser: Browser) -
     middle = (forces[1:] + forces[:-1]) / 2
     assert np.abs(expected).max() > 10.0
     assert middle == pytest.approx(expected[1:], abs=0.1)
+
+
+def test_the_charge_of_the_robot_that_a_page_shows_is_told_when_it_changes(
+    browser: Browser,
+) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    # 18 C, of which 3.6 C a second are drawn.
+    battery = {'capacity': 0.005, 'idle': 3.6, 'level': 0.5}
+    robot = {'from': 'turtlebot3_burger', 'battery': battery}
+    assert page.ask('spawn', body={'name': 'tb3/0', 'robot': robot, 'at': [0, 0]})['ok']
+    physsim.run(0.5)
+    assert not page.of_type('battery')
+    page.send('show', laser='tb3/0')
+    page.until(lambda: page.of_type('battery'))
+    assert page.last('battery') == {
+        'type': 'battery',
+        'name': 'tb3/0',
+        'level': pytest.approx(0.4, abs=0.01),
+        'current': -3.6,
+    }
+    physsim.run(3.0)
+    page.until(lambda: page.last('battery')['level'] == 0.0)
+    count = len(page.of_type('battery'))
+    physsim.run(0.5)
+    page.ask('drop')
+    assert len(page.of_type('battery')) <= count + 1
 
 
 @pytest.mark.parametrize('over', ['ring/0', 'wheel/0'])

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 import math
 from typing import Any
 
@@ -80,6 +80,83 @@ def test_a_palm_does_not_end_the_stroke_of_a_stylus(
     stylus.lift(places[-1])
     sheet.wait_for_new(before)
     assert sheet.place(0.0, 0.0) == corner
+    sheet.close()
+
+
+BLUR = """() => {
+    dispatchEvent(new Event('blur'));
+    document.dispatchEvent(new Event('visibilitychange'));
+}"""
+# What may happen while somebody draws.
+MEANWHILE: dict[str, Callable[[Sheet], object]] = {
+    'wheel': lambda sheet: sheet.page.mouse.wheel(0, -120),
+    'focus': lambda sheet: sheet.page.evaluate(BLUR),
+    'tool': lambda sheet: sheet.page.keyboard.press('h'),
+    'frame': lambda sheet: sheet.page.keyboard.press('f'),
+    'zoom': lambda sheet: sheet.page.keyboard.press('+'),
+    'space': lambda sheet: sheet.page.keyboard.press(' '),
+    'right': lambda sheet: sheet.page.mouse.down(button='right'),
+    'turned': lambda sheet: sheet.page.set_viewport_size({'width': 800, 'height': 1200}),
+    'palm': lambda sheet: sheet.page.evaluate(POINTER, ['touch', 1, 9, [['down', 500, 300]]]),
+    'stylus': lambda sheet: sheet.page.evaluate(POINTER, ['pen', 1, 9, [['down', 500, 300]]]),
+}
+
+
+@pytest.mark.parametrize('pointer', ['mouse', 'pen'])
+def test_a_stroke_is_drawn_to_its_end_whatever_happens_meanwhile(
+    chromium: Any, address: str, pointer: str
+) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    mouse, stylus, stroke = sheet.page.mouse, Stylus(sheet), circle(1.0, 5.0, 0.8)
+
+    def move(points: Sequence[tuple[float, float]]) -> None:
+        for point in points:
+            place = sheet.place(*point)
+            if pointer == 'pen':
+                stylus.move([place])
+            else:
+                mouse.move(*place)
+
+    for name, interrupt in MEANWHILE.items():
+        # Such a second pointer moves the view, or takes over.
+        if pointer == 'mouse' and name in ('palm', 'stylus'):
+            continue
+        sheet.press('Pen')
+        before = sheet.names()
+        if pointer == 'pen':
+            stylus.put(sheet.place(*stroke[0]))
+        else:
+            move(stroke[:1])
+            mouse.down()
+        move(stroke[1:12])
+        interrupt(sheet)
+        move(stroke[12:])
+        if pointer == 'pen':
+            stylus.lift(sheet.place(*stroke[-1]))
+        mouse.up()
+        mouse.up(button='right')
+        drawn = sheet.wait_for_new(before)
+        assert sheet.pose(drawn)[:2] == pytest.approx((1.0, 5.0), abs=0.05), name
+        sheet.press('Undo')
+        sheet.wait('name => !(name in physsim.bodies)', drawn)
+    sheet.close()
+
+
+@pytest.mark.parametrize('end', ['cancel', 'lost'])
+def test_the_stroke_of_a_stylus_whose_end_is_not_told_ends_where_it_was(
+    chromium: Any, address: str, end: str
+) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    before = sheet.names()
+    places = [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
+    down, *moves = [['move', *place] for place in places]
+    sheet.page.evaluate(POINTER, ['pen', 1, 9, [['down', *down[1:]], *moves]])
+    last = ['cancel', 0, 0] if end == 'cancel' else ['move', 900, 600]
+    sheet.page.evaluate(POINTER, ['pen', 0, 9, [last]])
+    name = sheet.wait_for_new(before)
+    assert sheet.pose(name)[:2] == pytest.approx((1.0, 5.0), abs=0.05)
     sheet.close()
 
 

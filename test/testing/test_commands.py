@@ -12,6 +12,7 @@ import re
 import shlex
 from typing import Any
 
+from physsim_ros import find_world
 from physsim_ros.testing import own_world
 import pytest
 import yaml
@@ -24,6 +25,8 @@ WORLDS = {'rewind_to_the_crash': 'boxes', 'actors': 'people', 'robots': 'boxes'}
 # A command ends at a line break outside of quotes.
 COMMAND = re.compile(r"""^ *ros2 ((?:'[^']*'|"[^"]*"|[^'"\n])+)""", re.MULTILINE)
 VERBS = ['topic pub', 'service call', 'param set']
+# A parameter at the start, and its value.
+STARTED = re.compile(r"-p '?(\w+):='?(\[[^]]*\]|[^\s'`\")]+)")
 # A joint of a kind that the reader of a tutorial has added.
 UNKNOWN_HERE = 'kind: damper'
 
@@ -43,6 +46,20 @@ PAGES = [
     for page in (ROOT / 'README.md', *sorted((ROOT / 'docs').rglob('*.md')))
     if any(commands(page))
 ]
+
+
+def test_the_parameters_of_documents_are_accepted_and_their_worlds_are_there() -> None:
+    documents = (ROOT / 'README.md', *sorted((ROOT / 'docs').rglob('*.md')))
+    given = {each for page in documents for each in STARTED.findall(page.read_text('utf-8'))}
+    worlds = {value for name, value in given if name == 'world_file' and '/' not in value}
+    accepted = {name: yaml.safe_load(value) for name, value in given}
+    accepted |= {'world_file': '', 'record_file': '', 'sketchpad': 'none', 'viewer': 'none'}
+
+    assert {'demo', 'boxes', 'pendulum'} <= worlds
+    for world in worlds:
+        find_world(world)
+    with own_world(**accepted) as physsim:
+        assert not physsim.names
 
 
 def kind_of(name: str) -> Any:

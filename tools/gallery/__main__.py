@@ -135,7 +135,7 @@ def main(chosen: list[str]) -> None:
         draw_page(DOCS / 'page.webp', DOCS / 'time.png')
         print('page', flush=True)
     if not chosen or 'class' in chosen:
-        draw_class(DOCS / 'class.png')
+        draw_class(DOCS / 'class.webp', DOCS / 'class.png')
         print('class', flush=True)
     if not chosen or 'crash' in chosen:
         draw_crash(DOCS / 'crash.webp')

@@ -67,31 +67,33 @@ class Film:
     The pictures of a page that is worked.
 
     :param sheet: the page
+
+    :ivar sheet: the page
     """
 
     def __init__(self, sheet: Sheet) -> None:
-        self._sheet = sheet
+        self.sheet = sheet
         self.pictures: list[Image.Image] = []
 
-    def shoot(self) -> None:
-        """Add a picture."""
-        picture = Image.open(io.BytesIO(self._sheet.page.screenshot()))
-        self.pictures.append(picture.convert('RGB'))
+    def shoot(self, times: int = 1) -> None:
+        """Add a picture, several times if it is to be looked at."""
+        picture = Image.open(io.BytesIO(self.sheet.page.screenshot()))
+        self.pictures += [picture.convert('RGB')] * times
 
     def draw(self, strokes: list[Stroke]) -> None:
         """Draw strokes by the pen."""
-        self._sheet.press('Pen')
+        self.sheet.press('Pen')
         for stroke in strokes:
             self._drag(stroke, every=8)
             # Strokes that follow each other at once would be read as one figure.
-            self._sheet.page.wait_for_timeout(1000)
+            self.sheet.page.wait_for_timeout(1000)
             self.shoot()
             # The card of the pen is gone, and its room with it.
-            self._sheet.press('Frame the world')
+            self.sheet.press('Frame the world')
 
     def step_to(self, end: float) -> None:
         """Step to a simulation time [s]."""
-        sheet = self._sheet
+        sheet = self.sheet
         while (now := sheet.page.evaluate('physsim.time')) < end:
             for _ in range(FRAMES):
                 sheet.press('Step')
@@ -100,7 +102,7 @@ class Film:
 
     def slide_back(self, now: float, end: float) -> None:
         """Drag the slider of time back, from one simulation time to another [s]."""
-        sheet = self._sheet
+        sheet = self.sheet
         slider = sheet.page.get_by_role('slider', name='Time')
         while now > end:
             now -= 2 * FRAMES / 60
@@ -113,7 +115,7 @@ class Film:
         self, body: tuple[float, float], by: tuple[float, float], beside: tuple[float, float]
     ) -> None:
         """Choose a body by the lasso, carry it by a vector, and tap beside all bodies [m]."""
-        sheet = self._sheet
+        sheet = self.sheet
         x, y = body
         sheet.press('Lasso')
         sheet.drag(body)
@@ -127,11 +129,11 @@ class Film:
         sheet.press('Frame the world')
         self.shoot()
 
-    def save(self, path: Path) -> None:
-        """Write the pictures as an animation."""
+    def save(self, path: Path, *, rate: int = RATE) -> None:
+        """Write the pictures as an animation of a rate [Hz]."""
         size = (NARROW, round(NARROW * self.pictures[0].height / self.pictures[0].width))
         first, *others = (each.resize(size, Image.Resampling.LANCZOS) for each in self.pictures)
-        times = [1000 // RATE] * len(self.pictures)
+        times = [1000 // rate] * len(self.pictures)
         times[0] = times[-1] = REST
         first.save(
             path, save_all=True, append_images=others, duration=times, loop=0, quality=60, method=4
@@ -139,11 +141,11 @@ class Film:
 
     def _drag(self, stroke: Stroke, *, every: int) -> None:
         """Drag the mouse along a stroke, with a picture after every so many samples."""
-        mouse = self._sheet.page.mouse
-        mouse.move(*self._sheet.place(*stroke[0]))
+        mouse = self.sheet.page.mouse
+        mouse.move(*self.sheet.place(*stroke[0]))
         mouse.down()
         for number, point in enumerate(stroke[1:], 1):
-            mouse.move(*self._sheet.place(*point))
+            mouse.move(*self.sheet.place(*point))
             if number % every == 0:
                 self.shoot()
         mouse.up()

@@ -22,7 +22,7 @@ from physsim_ros.drawing.strokes.meanings import Context, End
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
-from physsim_ros.model.transform import norms, Point
+from physsim_ros.model.transform import dots, norms, Point
 
 # The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25
@@ -80,12 +80,27 @@ def stands_on(name: str, end: Point, scene: SceneQuery, steepness: float = _SLOP
     :param end: within the body [m]
     :param steepness: least cosine of the angle between gravity and the surface of the body there
     """
-    x, y = _surface(end, name, scene)
-    depth, reach = math.dist(end, (x, y)), scene.body(name).shape.form.inner
-    gx, gy = scene.settings.gravity
-    # The normal of the surface there, against gravity.
-    upward = gx * (x - end[0]) + gy * (y - end[1])
-    return depth < _SHALLOW * reach and upward > steepness * depth * math.hypot(gx, gy)
+    surface = _surface(end, name, scene)
+    reach = _SHALLOW * scene.body(name).shape.form.inner
+    return math.dist(end, surface) < reach and _downward(end, surface, scene) > steepness
+
+
+def hangs_from(name: str, way: tuple[Point, Point], scene: SceneQuery, snap: float) -> bool:
+    """
+    Return whether a body hangs from the end of a line that goes down to its upper side.
+
+    :param way: a point of the line before its end, and its end, beside the body [m]
+    """
+    before, end = way
+    above = _towards(end, before, snap)
+    falls = _downward(above, _surface(above, name, scene), scene)
+    return name in scene.bodies_at(end, snap) and min(falls, _downward(*way, scene)) > _SLOPE
+
+
+def _downward(start: Point, end: Point, scene: SceneQuery) -> float:
+    """Return the cosine of the angle between gravity and a way; 0 without gravity."""
+    way, gravity = np.subtract(end, start), np.array(scene.settings.gravity)
+    return float(dots(way, gravity)) / max(float(norms(way) * norms(gravity)), 1e-300)
 
 
 def wheels_passed(

@@ -258,22 +258,15 @@ def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSetti
     solid = figures[-1]
     if not _follows(solid, last, settings) or _is_side(last, solid, settings):
         return False
-    return _share_inside(last, solid) >= _ON_SOLID
+    return lies_within(last, solid)
 
 
-def marks_inside(
-    figures: Sequence[Figure], solid: Figure, settings: DrawingSettings
-) -> tuple[int, ...]:
-    """Return the gestures of the marks of a solid: lines in it, drawn just before it."""
-    gestures: list[int] = []
-    later = solid
-    for figure in reversed(figures):
-        inside = figure.is_open and _share_inside(figure, solid) >= _ON_SOLID
-        if not inside or not _follows(figure, later, settings):
-            break
-        gestures += figure.gestures
-        later = figure
-    return tuple(gestures)
+def lies_within(line: Figure, solid: Figure) -> bool:
+    """Return whether most of the middle half of a line lies within the outline of a solid."""
+    outline = joined_strokes(solid.strokes)
+    quarter = COUNT // 4
+    points = np.vstack([stroke[slice(quarter, COUNT - quarter)] for stroke in line.strokes])
+    return float(_inside(points, outline).mean()) >= _ON_SOLID
 
 
 def _requests_of(guess: Guess) -> tuple[Request, ...]:
@@ -353,14 +346,6 @@ def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
         touch(first, one, size, settings.snap) and touch(last, other, size, settings.snap)
         for one, other in ((begin, end), (end, begin))
     )
-
-
-def _share_inside(line: Figure, solid: Figure) -> float:
-    """Return the share of the middle half of a line inside the outline of a solid, 0 .. 1."""
-    outline = joined_strokes(solid.strokes)
-    quarter = COUNT // 4
-    points = np.vstack([stroke[slice(quarter, COUNT - quarter)] for stroke in line.strokes])
-    return float(_inside(points, outline).mean())
 
 
 def _inside(points: Floats, outline: Floats) -> Flags:

@@ -10,14 +10,13 @@ make it heavier.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes import bodies_under, outcomes
-from physsim_ros.drawing.strokes.bodies_under import stands_on
+from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import Form, LEAST
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
@@ -27,8 +26,10 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
-from physsim_ros.model.transform import cross, norms, Point
+from physsim_ros.model.transform import cross, norms
 
+# The number of points that give the direction of a line at its end.
+_HEADING = 8
 # The least straightness of a rod, and the greatest of a rope: the distance of the ends by the
 # length. An arc as high as a seventh of its chord has 0.95.
 _STRAIGHT = 0.95
@@ -79,7 +80,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     start, end = point_of(drawn[0]), point_of(drawn[-1])
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
-    joins = between or (ends is not None and _is_held(ends[0].body, (start, end), context.scene))
+    joins = between or (ends is not None and _is_held(ends[0].body, context))
     if between and _is_toothed(context.features, points):
         return JointKind.SPRING, BETWEEN
     if joins and math.dist(start, end) < _STRAIGHT * _cubic_length(drawn):
@@ -88,13 +89,21 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     return JointKind.ROD, BETWEEN if joins and straight else 0.0
 
 
-def _is_held(body: str, ends: Sequence[Point], scene: SceneQuery) -> bool:
+def _is_held(body: str, context: Context) -> bool:
     """
     Return whether a line that ends on one body alone holds it.
 
-    A line beside it is a wall, and so is one on whose end it stands.
+    A line on whose end it stands is a wall, and so is one beside it, unless it hangs from that.
     """
-    return any(body in scene.bodies_at(end) and not stands_on(body, end, scene) for end in ends)
+    drawn, scene = context.drawn.points, context.scene
+    for points in (drawn, drawn[::-1]):
+        before, end = map(point_of, points[[-_HEADING, -1]])
+        if body in scene.bodies_at(end):
+            if not stands_on(body, end, scene):
+                return True
+        elif hangs_from(body, (before, end), scene, context.settings.snap):
+            return True
+    return False
 
 
 def _is_toothed(features: Features, points: Floats) -> bool:

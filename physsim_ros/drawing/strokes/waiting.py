@@ -7,6 +7,7 @@ Strokes that wait for a body: the rod of a pendulum before its bob, the axle bef
 Law: a joint or an x that is drawn before its body is what it is when drawn after it. A stroke
 that has been a wall, a small solid or an x over nothing is read again, over the new body. A wall
 on which something lies, or whose end the new body only touches from above or beside, stays one.
+One within the new body is a mark, which has no effect.
 """
 
 from __future__ import annotations
@@ -16,10 +17,11 @@ from dataclasses import replace
 import itertools
 import math
 
+import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import stands_on
-from physsim_ros.drawing.strokes.figure import crossing_in, Figure
+from physsim_ros.drawing.strokes.figure import crossing_in, Figure, lies_within
 from physsim_ros.drawing.strokes.geometry import COUNT, few_points, point_of
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.meanings import Outcome
@@ -28,10 +30,13 @@ from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Delete, Join, Spawn
+from physsim_ros.model.scene import Body
+from physsim_ros.model.shapes import contains
+from physsim_ros.model.transform import Pose, rotated_each
 from physsim_ros.simulation.world.body_description import new_body
 
 # Meanings that a stroke has by the bodies under it.
-_BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'hatching'})
+_BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor'})
 # The cosine of the slope of a wall's end below which a body hangs from it: 135°.
 _HANGS = -0.7
 # Points of the middle half of a line, at which other bodies show that it is a wall.
@@ -47,38 +52,40 @@ def outcomes_over(
     :param solid: the new body
     :param figures: drawn before, the earliest first
     """
-    scene, undone = solid.scene, {*solid.gestures}
+    scene = solid.scene
     spawn = next(each for each in solid.requests if isinstance(each, Spawn))
     body, _ = new_body(spawn, scene.settings, None)
-    groups = list(_waiting(figures, scene, settings.snap))
+    groups = list(_waiting(figures, solid, settings.snap))
     # A wall that is a rod itself is no end of another one.
     walls = _names([each for each, *more in groups if each.meaning == 'wall' and not more])
     done: set[str] = set()
     joints = 0
     for group in groups:
         names = _names(group)
-        if names & done:
+        if names & done or not _reaches(group, body, spawn.pose, settings.snap):
             continue
         over = scene.with_body(body, spawn.pose, without=names | walls | done, joints=joints)
         outcome = _outcome_over(spawn.name, group, over, settings)
+        if outcome is None and len(group) == 1 and _is_mark(group[0], solid):
+            (line,) = group[0].strokes
+            outcome = Outcome(requests=(), subject=spawn.name, message='a mark', outline=line)
         if outcome is None:
             continue
         done |= names
         joints += sum(isinstance(each, Join) for each in outcome.requests)
-        left = _names([each for each in group if not undone & {*each.gestures}])
-        gone = (Delete(name=each) for each in sorted(left))
+        gone = (Delete(name=each) for each in sorted(names))
         yield replace(outcome, requests=(*gone, *outcome.requests))
 
 
 def _waiting(
-    figures: Sequence[Figure], scene: SceneQuery, snap: float
+    figures: Sequence[Figure], solid: Figure, snap: float
 ) -> Iterator[tuple[Figure, ...]]:
     """Yield figures that wait: two walls, which may be an x, then each alone."""
-    there = [each for each in figures if _is_there(each, scene, snap)]
+    there = [each for each in figures if _is_there(each, solid.scene, snap)]
     walls = [each for each in there if each.meaning == 'wall']
     yield from itertools.pairwise(walls)
     for each in there:
-        if each not in walls or not _bears(each, scene, snap):
+        if each not in walls or _is_mark(each, solid) or not _bears(each, solid.scene, snap):
             yield (each,)
     # Of a stroke that nothing is left of, a person has the last one in mind.
     if figures and figures[-1].chosen is not None and not figures[-1].requests:
@@ -100,10 +107,22 @@ def _is_there(figure: Figure, scene: SceneQuery, snap: float) -> bool:
     return False
 
 
+def _is_mark(figure: Figure, solid: Figure) -> bool:
+    """Return whether a figure is a wall within a solid that was drawn about it."""
+    return figure.meaning == 'wall' and lies_within(figure, solid)
+
+
 def _bears(wall: Figure, scene: SceneQuery, snap: float) -> bool:
     """Return whether other bodies touch the middle of a wall: it is no rod."""
     points = joined_strokes(wall.strokes)[_MIDDLE]
     return any({*scene.bodies_at(point_of(each), snap)} - _names((wall,)) for each in points)
+
+
+def _reaches(group: Sequence[Figure], body: Body, pose: Pose, snap: float) -> bool:
+    """Return whether a stroke of some figures comes within `snap` of a body."""
+    points = np.vstack([few_points(stroke) for each in group for stroke in each.strokes])
+    x, y = rotated_each(points - pose[:2], -pose[2]).T
+    return bool(np.any(contains(body.shape.form.pieces, x, y, snap)))
 
 
 def _outcome_over(
@@ -112,8 +131,6 @@ def _outcome_over(
     """Return what figures are that reach a new body of this name, or None where it is the same."""
     strokes = [stroke for each in group for stroke in each.strokes]
     path = joined_strokes(strokes)
-    if not scene.covers(name, few_points(path)).any():
-        return None
     context = crossing_in(scene, strokes, settings)
     if context is None and len(group) == 1:
         context = in_scene(resample_stroke(path), scene, settings)
@@ -124,9 +141,6 @@ def _outcome_over(
         outcome = guesses[0].build()
     except Refusal:
         return None
-    if guesses[0].meaning == 'hatching':
-        # A line within a body that was drawn before it is a mark.
-        return replace(outcome, requests=(), message='a mark')
     ends = (point_of(each) for each in path[[0, -1]])
     within = (each for each in ends if name in scene.bodies_at(each))
     match outcome.requests[0]:

@@ -22,6 +22,7 @@
 #include "outline.h"
 #include "social_force.h"
 #include "stages.h"
+#include "way_around.h"
 
 // Time in which a robot makes up for its distance from the path, and in which a pedestrian comes to rest at its last
 // point [s]. The drives of the shipped robots reach their speed in a tenth of a second or two.
@@ -157,18 +158,18 @@ static int next_point(const Actor *actor) {
 }
 
 // The velocity that a pedestrian would have alone.
-static Vec desired_velocity(Actor *actor, Vec place) {
-    Vec way = sub(actor->points[next_point(actor)].pose.p, place);
+static Vec desired_velocity(const World *world, const Surroundings *around, Actor *actor, const Disc *self) {
+    Vec way = sub(actor->points[next_point(actor)].pose.p, self->place);
     bool ends = actor->repeat == ONCE;
     if (length(way) <= actor->pace.goal_radius && !(ends && actor->state.reached >= actor->point_count)) {
         actor->state.reached++;
-        way = sub(actor->points[next_point(actor)].pose.p, place);
+        way = sub(actor->points[next_point(actor)].pose.p, self->place);
     }
-    double distance = length(way), speed = actor->pace.speed;
+    double speed = actor->pace.speed;
     if (ends && actor->state.reached >= actor->point_count - 1) {
-        speed = least(speed, distance / settling_time);
+        speed = least(speed, length(way) / settling_time);
     }
-    return distance > 0.0 ? scaled(way, speed / distance) : way;
+    return scaled(heading_to(world, around, self, add(self->place, way)), speed);
 }
 
 static Vec walk(World *world, const Surroundings *around, Actor *actor, double dt) {
@@ -177,7 +178,7 @@ static Vec walk(World *world, const Surroundings *around, Actor *actor, double d
         self++;
         assert(self < around->discs + around->disc_count);
     }
-    Vec desired = desired_velocity(actor, self->place);
+    Vec desired = desired_velocity(world, around, actor, self);
     return actor->kind == ACTOR_ORCA ? walk_by_orca(world, around, actor, self, desired)
                                      : walk_by_social_force(world, around, actor, self, desired, dt);
 }

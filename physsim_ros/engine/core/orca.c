@@ -22,10 +22,10 @@
 static const double parting_time = 0.1;
 // Normals of half-planes that differ by less are parallel.
 static const double parallel = 1e-9;
-// A pedestrian who cannot have the desired velocity tries it turned to the right by the first of these [rad], and by up
-// to the second the less it would get on, where the authors' own programs add noise: without it two who meet head on
-// stop before each other, and many who cross a circle in its middle. Of radius 0.25 m, 30 who change sides in a circle
-// of 8 m are across in 13 s, and 20 in one of 4 m in 6.5 s; if the turn is always 0.3, these jam.
+// A pedestrian whom others keep from its velocity tries the desired one turned to the right by the first of these
+// [rad], and by up to the second the less it would get on, where the authors' own programs add noise: without it two
+// who meet head on stop before each other, and many who cross a circle in its middle. Of radius 0.25 m, 30 who change
+// sides in a circle of 8 m are across in 13 s, and 20 in one of 4 m in 6.5 s; if the turn is always 0.3, these jam.
 static const double swerve = 0.3, most_swerve = 1.5;
 
 // A linear programme: half-planes in a disc of velocities.
@@ -162,6 +162,9 @@ Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *ac
             planes[programme.count++] = (HalfPlane){nearest.outwards, -room / time};
         }
     }
+    // The velocity without others: its direction leads around walls already (`way_around.c`).
+    Vec along;
+    solve_programme(&programme, desired, false, &along);
     for (int number = 0; number < around->disc_count; number++) {
         const Disc *other = around->discs + number;
         if (sees_disc(self, other)) {
@@ -180,9 +183,9 @@ Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *ac
     }
     Vec velocity;
     int kept = solve_programme(&programme, desired, false, &velocity);
-    if (velocity.x != desired.x || velocity.y != desired.y) {
-        double wanted = dot(desired, desired);
-        double progress = wanted > 0.0 ? clamped(dot(velocity, desired) / wanted, 0.0, 1.0) : 1.0;
+    if (velocity.x != along.x || velocity.y != along.y) {
+        double wanted = dot(along, along);
+        double progress = wanted > 0.0 ? clamped(dot(velocity, along) / wanted, 0.0, 1.0) : 1.0;
         double turn = most_swerve + (swerve - most_swerve) * progress;
         kept = solve_programme(&programme, rotated(desired, rotation(-turn)), false, &velocity);
     }

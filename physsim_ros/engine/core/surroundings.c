@@ -35,6 +35,16 @@ bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *near
     return true;
 }
 
+double distance_beside(const cpShape *wall, Vec place, Vec ahead) {
+    double left = -INFINITY, right = INFINITY;
+    for (int number = 0; number < corner_count(wall); number++) {
+        double across = cross(ahead, sub(corner_in_world(wall, number).place, place));
+        left = greatest(left, across);
+        right = least(right, across);
+    }
+    return greatest(right, -left) - radius_of(wall);
+}
+
 static bool is_anchored_disc(const Body *body) {
     const cpShape *shape = body->engine->shapeList;
     return body->anchored && shape != NULL && shape->next == NULL && kind_of(shape) == SHAPE_CIRCLE;
@@ -60,17 +70,18 @@ static Disc disc_of(const World *world, const Body *body, const Actor *own) {
 
 Surroundings look_around(World *world) {
     Arena *arena = &world->own->arena;
-    int wall_count = 0;
+    int anchored_count = 0;
     for (int place = 0; place < world->body_count; place++) {
         const cpShape *shape = world->bodies[place].anchored ? world->bodies[place].engine->shapeList : NULL;
         for (; shape != NULL; shape = shape->next) {
-            wall_count++;
+            anchored_count++;
         }
     }
     Surroundings around = {.discs = TAKE(arena, Disc, world->body_count),
-                           .walls = TAKE(arena, const cpShape *, wall_count)};
+                           .walls = TAKE(arena, const cpShape *, anchored_count),
+                           .anchored = TAKE(arena, const cpShape *, anchored_count)};
     for (int list = 0; list < 2; list++) {
-        around.planes[list] = TAKE(arena, HalfPlane, 2 * world->body_count + wall_count);
+        around.planes[list] = TAKE(arena, HalfPlane, 2 * world->body_count + anchored_count);
     }
     const Actor *actor = world->actors, *last = actor + world->actor_count;
     for (int place = 0; place < world->body_count; place++) {
@@ -80,14 +91,18 @@ Surroundings look_around(World *world) {
         if (body->sensor && own == NULL) {
             continue;
         }
-        if (!body->anchored || is_anchored_disc(body)) {
+        bool is_disc = !body->anchored || is_anchored_disc(body);
+        if (is_disc) {
             around.discs[around.disc_count++] = disc_of(world, body, own);
-            continue;
         }
-        for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
-            around.walls[around.wall_count++] = shape;
+        const cpShape *shape = body->anchored ? body->engine->shapeList : NULL;
+        for (; shape != NULL; shape = shape->next) {
+            around.anchored[around.anchored_count++] = shape;
+            if (!is_disc) {
+                around.walls[around.wall_count++] = shape;
+            }
         }
     }
-    assert(actor == last && around.wall_count <= wall_count);
+    assert(actor == last && around.anchored_count <= anchored_count);
     return around;
 }

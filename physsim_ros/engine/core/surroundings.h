@@ -28,6 +28,8 @@ typedef struct Surroundings {
     int disc_count;
     const cpShape **walls;
     int wall_count;
+    const cpShape **anchored; // the shapes of all that is anchored, discs too
+    int anchored_count;
     HalfPlane *planes[2]; // room for two of each disc and one of each wall, twice
 } Surroundings;
 
@@ -59,5 +61,8 @@ Surroundings look_around(World *world);
 
 // A wall as a pedestrian at a place sees it; false if it is too far away.
 bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest);
+
+// The distance of a wall from the line through a place in a direction, at most 0 where the line meets it.
+double distance_beside(const cpShape *wall, Vec place, Vec ahead);
 
 #endif

@@ -6,7 +6,8 @@
 
 A body is drawn with the marker that would spawn it, its material in `text`. A marker that is no
 longer drawn is deleted in each of the next `DELETE_REPEATS` messages. Of a scene with thousands of
-new bodies, `MOST_NEW` are serialised for each frame, and the first message comes after the last.
+new bodies, `MOST_NEW` are serialised for each frame, and the message comes after the last, even if
+the scene has changed meanwhile.
 """
 
 from __future__ import annotations
@@ -63,6 +64,8 @@ class MarkersEncoder:
     def __init__(self, frame_id: str) -> None:
         self._frame_id = frame_id
         self._scene: Scene | None = None
+        # The last snapshot of the scene whose markers are being serialised.
+        self._begun: Snapshot | None = None
         # Hands in the template, and the offset of their points, in numbers of 8 bytes.
         self._hands, self._hands_at = 0, 0
         self._bodies: dict[str, tuple[Body, tuple[_MarkerBytes, ...]]] = {}
@@ -79,13 +82,21 @@ class MarkersEncoder:
         ] = {}
 
     def encode(self, frame: Frame) -> bytes | None:
-        """Return the serialised message of a frame; None if markers are left to be serialised."""
+        """
+        Return the serialised message of a frame, or of one whose markers are complete only now.
+
+        :return: None if markers are left to be serialised
+        """
         snapshot = frame.snapshot
+        if self._begun is not None and self._begun.scene is not snapshot.scene:
+            snapshot = self._begun
         hands = len(snapshot.grips)
         same = snapshot.scene is self._scene and hands == self._hands
         if not same or self._count == self._until:
+            self._begun = snapshot
             if not self._serialise_new(snapshot.scene):
                 return None
+            self._begun = None
             self._build_template(snapshot.scene, hands)
         self._count += 1
         if self._joint_columns is not None:

@@ -32,7 +32,7 @@ def physsim_help() -> str:
     parameters = {name: _meaning(spec) for name, spec in SPECS.items()}
     tables = (
         _files_table('worlds, for parameter world_file:', worlds_in(shipped_worlds())),
-        _files_table('lessons, likewise:', worlds_in(shipped_lessons())),
+        _files_table('lessons, also for parameter world_file:', worlds_in(shipped_lessons())),
         _files_table(f'worlds of your own, in {own}:', worlds_in(own)),
         _table('parameters, after --ros-args, each as -p name:=value:', parameters),
     )

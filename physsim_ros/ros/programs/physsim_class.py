@@ -47,24 +47,24 @@ def main() -> None:
     )
     default = '(default: %(default)s)'
     parser.add_argument(
-        '--pupils', type=int, default=20, help=f'worlds, 1 to {MOST_PUPILS} {default}'
+        '--pupils', type=int, default=20, help=f'number of worlds, 1 to {MOST_PUPILS} {default}'
     )
     parser.add_argument(
         '--address',
         default='127.0.0.1',
-        help=f'to listen on; 0.0.0.0 is the whole network {default}',
+        help=f'address to listen on; 0.0.0.0 is the whole network {default}',
     )
     parser.add_argument(
         '--port',
         type=int,
         default=8800,
-        help=f'of the class; those after it are the worlds {default}',
+        help=f'port of the class; worlds use the ports after it {default}',
     )
     parser.add_argument(
         '--seats',
         type=int,
         default=4,
-        help='most worlds that one machine is given; 0 is no limit, as for pupils behind one '
+        help='greatest number of worlds for one machine; 0 is no limit, for pupils behind one '
         f'address {default}',
     )
     split = sys.argv.index('--ros-args') if '--ros-args' in sys.argv else len(sys.argv)

@@ -160,13 +160,6 @@ def put_back(page: PageSession, origin: Origin, name: str) -> None:
     _manage(page, origin, partial(page.shared.own_worlds.put_back, name), name)
 
 
-@message('list', 'page', Right.LOOK)
-def list_worlds(page: PageSession, origin: Origin) -> None:
-    """Send this page the list of worlds and lessons as their files are now."""
-    page.shared.list_worlds(page.number)
-    page.answer_page(origin, 'the list of worlds')
-
-
 @message('forget', 'page')
 def forget(page: PageSession, origin: Origin) -> None:
     """Delete the unsaved world of the last start."""

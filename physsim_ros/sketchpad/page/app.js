@@ -15,7 +15,6 @@ import {Cursor} from './input/cursor.js';
 import {Gestures} from './input/gestures.js';
 import {Handles} from './input/handles.js';
 import {Keyboard} from './input/keyboard.js';
-import {Menu} from './input/menu.js';
 import {Selection} from './input/selection.js';
 import {Meters} from './measures/meters.js';
 import {Numbers} from './measures/numbers.js';
@@ -88,8 +87,13 @@ const hints = new Hints({connection, gestures, notes, world});
 const toolParts = {camera, connection, frames, hints, notes, people, readings, records, selection, view, world};
 const toolbar = new Toolbar({...toolParts, gestures, room});
 gestures.ends = {eraser: new Eraser(toolParts), button: new Lasso(toolParts)};
-const menu = new Menu({camera, gestures, people, plotting, room, selection, view, world});
-new Keyboard({camera, cursor, dialog, driving, gestures, menu, panel, people, plotting, readings, room, selection, settings, stopwatch,
+/** @type {?import('./input/menu.js').Menu} null until it is asked for */
+let menu = null;
+gestures.on('menu', (page) => notes.load(import('./input/menu.js'), ({Menu}) => {
+  menu ??= new Menu({camera, gestures, people, plotting, room, selection, view, world});
+  menu.open(page);
+}));
+new Keyboard({camera, cursor, dialog, driving, gestures, panel, people, plotting, readings, room, selection, settings, stopwatch,
   time, toolbar, view, world});
 new TopBar({arrows, camera, connection, dialog, files, lessons, links, notes, room, selection, settings, view});
 new Classroom({camera, connection, dialog, lessons, notes, people, selection, view});

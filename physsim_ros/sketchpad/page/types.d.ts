@@ -15,7 +15,6 @@ import type {Connection} from './connection.js';
 import type {FrameParts} from './frame_parts.js';
 import type {Cursor} from './input/cursor.js';
 import type {Gestures} from './input/gestures.js';
-import type {Menu} from './input/menu.js';
 import type {Selection} from './input/selection.js';
 import type {Meters} from './measures/meters.js';
 import type {Numbers} from './measures/numbers.js';
@@ -61,7 +60,6 @@ interface Page {
   lessons: Lessons;
   links: Links;
   material: Material;
-  menu: Menu;
   meters: Meters;
   notes: Notes;
   numbers: Numbers;

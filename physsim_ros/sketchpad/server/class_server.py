@@ -146,9 +146,9 @@ class _Watch(GuardedSocket):
             world.close()
         self.close()
 
-    async def on_message(self, message: str | bytes) -> None:
+    async def receive(self, message: str | bytes) -> None:
         """Hand a message on to the world."""
-        if self._world is not None and self.take_token():
+        if self._world is not None:
             await self._world.write_message(message, binary=isinstance(message, bytes))
 
     def on_close(self) -> None:

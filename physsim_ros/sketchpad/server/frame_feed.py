@@ -16,6 +16,7 @@ import time
 
 from physsim_ros.appearance import LaserScans
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.sensing import read_battery
 from physsim_ros.sketchpad.server.frame_codec import encode_frame, Show
 from physsim_ros.sketchpad.server.open_pages import OpenPage, OpenPages
 from physsim_ros.sketchpad.server.scene_codec import compact, SceneCodec
@@ -99,6 +100,18 @@ class FrameFeed:
         for page in self.pages:
             self.update_page(page)
 
+    def _send_battery(self, page: OpenPage, snapshot: Snapshot) -> None:
+        """Tell a page the charge of its robot, where it has a battery and that has changed."""
+        row = snapshot.scene.row_of.get(page.robot, -1)
+        battery = None if row < 0 else read_battery(snapshot, row)
+        if battery is None:
+            return
+        level, current = round(battery.level, 3), round(battery.current, 3)
+        told = {'type': 'battery', 'name': page.robot, 'level': level, 'current': current}
+        if told != page.battery:
+            page.battery = told
+            page.send_part(compact(told))
+
     def _read_lasers(self) -> None:
         """Read the lasers that pages show."""
         if self._frame is not None:
@@ -139,6 +152,7 @@ class FrameFeed:
                 scan=self._lasers.points(page.robot),
             )
         page.send_part(self._encoded[parts])
+        self._send_battery(page, self._frame.snapshot)
         if self._ghost_frame:
             if page.ghost_epoch != self._ghost_codec.epoch:
                 page.ghost_epoch = self._ghost_codec.epoch

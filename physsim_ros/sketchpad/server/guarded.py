@@ -10,6 +10,7 @@ a page does is closed.
 
 from __future__ import annotations
 
+from collections.abc import Awaitable
 from html import escape
 from http import HTTPStatus
 import time
@@ -18,6 +19,7 @@ from typing import Any, NoReturn
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.access import Access, headers_for
+from physsim_ros.sketchpad.server.turns import Turns
 from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
@@ -88,6 +90,12 @@ class Guarded(RequestHandler):
         boundary: ErrorBoundary = self.settings['boundary']
         return boundary
 
+    @property
+    def turns(self) -> Turns:
+        """Return the turns of the server."""
+        turns: Turns = self.settings['turns']
+        return turns
+
     async def prepare(self) -> None:
         """Refuse a foreign host, and a request without the cookie."""
         if not self.access.allows_host(self.request.host):
@@ -95,6 +103,10 @@ class Guarded(RequestHandler):
         self.role = self.access.role_of_cookie(self.get_cookie(self.access.cookie) or '')
         if self.needs_cookie and self.role is None:
             self.refuse(403, 'open the address that the node has printed: it holds the token')
+
+    def on_finish(self) -> None:
+        """End the turn of the request."""
+        self.turns.end()
 
     def require_origin(self) -> None:
         """Refuse a request that no page of this server has made."""
@@ -161,6 +173,29 @@ class GuardedSocket(Guarded, WebSocketHandler):
     def on_pong(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
         """Count a pong among the messages; a browser sends one for each ping of the server."""
         self.take_token()
+
+    def on_message(self, message: str | bytes) -> Awaitable[None] | None:
+        """Receive a message in its turn; until then, nothing more is read from the socket."""
+        if not self.take_token():
+            return None
+        if self.turns.begin(self):
+            return self._receive(message)
+        return self._receive_later(message)
+
+    async def _receive_later(self, message: str | bytes) -> None:
+        await self.turns.take(self, self)
+        received = self._receive(message)
+        if received is not None:
+            await received
+
+    def _receive(self, message: str | bytes) -> Awaitable[None] | None:
+        received = self.receive(message)
+        self.turns.end()
+        return received
+
+    def receive(self, message: str | bytes) -> Awaitable[None] | None:
+        """Receive a message in its turn; the socket may be closed already."""
+        raise NotImplementedError
 
     def take_token(self) -> bool:
         """

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from asyncio import AbstractEventLoop, Future
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
@@ -47,6 +48,7 @@ class OpenPage:
     :ivar show: the parts of a frame that it gets
     :ivar robot: name of the robot whose laser it shows; '' is none
     :ivar epoch: of the scene that was sent last; 0 before the first
+    :ivar battery: message of the charge of that robot that was sent last
     :ivar ghost_epoch: of the ghost's scene that was sent last; 0 where there is no ghost
     :ivar frame: number of the frame that was sent last; 0 before the first
     :ivar period: least time from one frame to the next [s]
@@ -64,6 +66,7 @@ class OpenPage:
         self.person = person
         self.show = Show.POSES
         self.robot = ''
+        self.battery: Mapping[str, Any] = {}
         self.epoch = self.ghost_epoch = self.frame = 0
         self.period = self.due = 0.0
         self._socket = socket

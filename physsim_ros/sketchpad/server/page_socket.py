@@ -10,6 +10,9 @@ receives them.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
@@ -31,22 +34,26 @@ WATCH_PERIOD = 0.25
 class PageSocket(GuardedSocket):
     """The socket of a page."""
 
-    def initialize(self, feed: FrameFeed, inbox: Inbox) -> None:  # type: ignore[override]
+    def initialize(  # type: ignore[override]
+        self, feed: FrameFeed, inbox: Inbox, gallery: Callable[[], dict[str, Any]]
+    ) -> None:
         """
         Set the receivers of its messages.
 
         :param feed: of frames to the open pages
         :param inbox: of the world's thread
+        :param gallery: returns the list of worlds and lessons, as their files are now
         """
         super().initialize()
-        self._feed = feed
+        self.feed = feed
+        self.gallery = gallery
         self._inbox = inbox
         self._page: OpenPage | None = None
 
     @property
     def too_many(self) -> str:
         """Return why one more page is refused; '' where there is room for it."""
-        full = len(self._feed.pages) >= MOST_PAGES
+        full = len(self.feed.pages) >= MOST_PAGES
         return 'there are as many pages open as there may be' if full else ''
 
     def open(self) -> None:  # noqa: A003 - tornado's name
@@ -56,7 +63,7 @@ class PageSocket(GuardedSocket):
             self.role = Role.VIEW
         # One that connects again sends the key of its person.
         key = self.request.arguments.get('person', [b''])[-1]
-        self._page = self._feed.add_page(self, self.access.person_of(key))
+        self._page = self.feed.add_page(self, self.access.person_of(key))
         person = self._page.person
         watches = self.role is Role.TEACH and 'watch' in self.request.arguments
         self._page.period = WATCH_PERIOD if watches else 0.0
@@ -64,23 +71,23 @@ class PageSocket(GuardedSocket):
             role=self.role,
             person=person,
             key=self.access.person_key(person),
-            received=self._feed.pages.received.get(person, ''),
+            received=self.feed.pages.received.get(person, ''),
             watches=watches,
         )
         self._inbox.put(self._page.number, opened)
 
-    def on_message(self, message: str | bytes) -> None:
+    def receive(self, message: str | bytes) -> None:
         """Check a message and hand it to the world's thread."""
-        if self._page is None or self.role is None or not self.take_token():
+        if self._page is None or self.role is None:
             return
         # A binary message is no JSON.
         text = message if isinstance(message, str) else ''
         request, checked = read_message(text, self.role, self.boundary)
-        self._feed.pages.note_received(self._page, request)
+        self.feed.pages.note_received(self._page, request)
         if isinstance(checked, Refusal):
             self._refuse(request, checked)
         elif not checked.kind.for_world:
-            checked.kind.handle(self._feed, self._page, **checked.arguments)
+            checked.kind.handle(self, self._page, **checked.arguments)
         elif not self._inbox.put(self._page.number, checked):
             self._refuse(request, Busy('the world is too busy; nothing was done'))
 
@@ -88,7 +95,7 @@ class PageSocket(GuardedSocket):
         """Forget the page; it may be forgotten already."""
         if self._page is not None:
             page, self._page = self._page, None
-            self._feed.pages.remove(page)
+            self.feed.pages.remove(page)
             # Nothing comes after it, even where tornado has buffered messages.
             self._inbox.put(page.number, Closed())
 
@@ -108,7 +115,7 @@ class PageSocket(GuardedSocket):
     laser=Optional(fields.text),
 )
 def _show(
-    feed: FrameFeed,
+    socket: PageSocket,
     page: OpenPage,
     *,
     velocities: bool = False,
@@ -122,16 +129,22 @@ def _show(
         | (Show.CONTACTS if contacts else Show.POSES)
         | (Show.FORCES if forces else Show.POSES)
     )
-    feed.show_parts(page, parts, laser)
+    socket.feed.show_parts(page, parts, laser)
 
 
 @server_message('ping', Right.LOOK)
-def _ping(feed: FrameFeed, page: OpenPage) -> None:  # noqa: ARG001 - as the others
+def _ping(socket: PageSocket, page: OpenPage) -> None:  # noqa: ARG001 - as the others
     """Answer `pong`, by which the page knows that its socket lives."""
     page.send(compact({'type': 'pong'}))
 
 
 @server_message('here', Right.DRAW, point=fields.point)
-def _here(feed: FrameFeed, page: OpenPage, *, point: Point) -> None:
+def _here(socket: PageSocket, page: OpenPage, *, point: Point) -> None:
     """Show all pages where the cursor of this one is [m]."""
-    feed.pages.move_cursor(page.number, point)
+    socket.feed.pages.move_cursor(page.number, point)
+
+
+@server_message('list', Right.LOOK)
+def _list(socket: PageSocket, page: OpenPage) -> None:
+    """Send this page the list of worlds and lessons as their files are now."""
+    page.send(compact(socket.gallery()))

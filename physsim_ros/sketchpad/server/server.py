@@ -72,14 +72,18 @@ class Server:
         boundary: ErrorBoundary,
     ) -> None:
         self._boundary = boundary
-        self._own_worlds = own_worlds
+        self._gallery = partial(gallery_content, own_worlds, boundary)
         self._site = Site(address, port)
         self._loop = asyncio.new_event_loop()
         self._feed = FrameFeed(self._loop)
         self._application = self._site.application(
             'index.html',
             [
-                ('/ws', PageSocket, {'feed': self._feed, 'inbox': inbox}),
+                (
+                    '/ws',
+                    PageSocket,
+                    {'feed': self._feed, 'inbox': inbox, 'gallery': self._gallery},
+                ),
                 (r'/gallery/([^/]+)\.svg', WorldPicture, {'own_worlds': own_worlds}),
                 ('/world', UploadWorld, {'inbox': inbox}),
                 (r'/world/([^/]+)\.yaml', Download, {'own_worlds': own_worlds}),
@@ -134,7 +138,7 @@ class Server:
 
     def list_worlds(self, page: int | None = None) -> None:
         """Send the list of worlds to a page, or to all."""
-        self.send(partial(gallery_content, self._own_worlds, self._boundary), page)
+        self.send(self._gallery, page)
 
     def close(self) -> None:
         """Close all pages, and end the thread."""

@@ -5,13 +5,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Awaitable, Callable, Sequence
+from contextlib import suppress
 import errno
 from functools import partial
 from ipaddress import ip_address
 import resource
 import socket
-from typing import Any, cast
+from typing import Any
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
@@ -26,18 +28,26 @@ from physsim_ros.sketchpad.server.page_handlers import (
     PageFiles,
     QrCode,
 )
-from tornado.http1connection import HTTP1ServerConnection
+from physsim_ros.sketchpad.server.turns import Turns
 from tornado.httpserver import HTTPServer
-from tornado.httputil import HTTPConnection, HTTPMessageDelegate
-from tornado.iostream import IOStream
+from tornado.httputil import (
+    HTTPConnection,
+    HTTPHeaders,
+    HTTPInputError,
+    HTTPMessageDelegate,
+    RequestStartLine,
+    ResponseStartLine,
+)
+from tornado.iostream import IOStream, StreamClosedError
 from tornado.netutil import bind_sockets
 from tornado.web import Application
 
 # Connections at once, besides the sockets of pages, and their greatest share of the files that a
 # process may have open.
 MOST_CONNECTIONS, _SHARE_OF_FILES = 256, 0.25
-# Time until a connection without a request, or a request without the rest of it, is closed [s].
-LIMITS = {'idle_connection_timeout': 10.0, 'body_timeout': 10.0}
+# Time until a connection without a request, or a request without the rest of it, is closed [s];
+# size of the headers of a request [bytes]: 16 KiB take 10 ms, before the request has its turn.
+LIMITS = {'idle_connection_timeout': 10.0, 'body_timeout': 10.0, 'max_header_size': 2**14}
 # Ports that are tried after the given one.
 _MORE_PORTS = 20
 
@@ -87,6 +97,7 @@ class Site:
             ],
             access=self._access,
             boundary=boundary,
+            turns=Turns(),
             compress_response=True,
             default_handler_class=Missing,
             # Answers with an error concern those who asked.
@@ -103,62 +114,95 @@ def most_connections() -> int:
 
 class BoundedServer(HTTPServer):
     """
-    A server of a bounded number of connections.
+    A server of a bounded number of connections, whose requests have turns.
 
-    Law: a connection that asks nothing shuts nobody out. Beyond the number, that one is closed
-    whose request has been awaited longest; the new one only where no request is awaited.
+    Law: a connection that asks nothing, does not read, or waits for its turn shuts nobody out.
+    Beyond the number, that one of the address with most connections is closed whose request was
+    begun first.
     """
 
-    def initialize(self, *arguments: Any, **options: Any) -> None:
-        """Begin without a connection, as `HTTPServer` does."""
-        super().initialize(*arguments, **(LIMITS | options))
-        # Connections whose next request is not there yet, that which waits longest first.
-        self._waiting: dict[object, None] = {}
+    def initialize(self, request_callback: Any, *arguments: Any, **options: Any) -> None:
+        """Begin without a connection, as `HTTPServer` does; the callback is an `Application`."""
+        super().initialize(request_callback, *arguments, **(LIMITS | options))
+        self._turns: Turns = request_callback.settings['turns']
+        # All connections; those whose request was begun first, or has not come, are first.
+        self._by_age: dict[Any, None] = {}
 
     def handle_stream(self, stream: IOStream, address: Any) -> None:
         """Serve a connection; where there are too many, close one."""
-        if len(self._connections) >= most_connections():
-            waiting = next(iter(self._waiting), None)
-            if waiting is None:
-                stream.close()
-                return
-            del self._waiting[waiting]
-            cast('HTTP1ServerConnection', waiting).stream.close()
+        if len(self._by_age) >= most_connections():
+            numbers = Counter(map(_address_of, self._by_age))
+            oldest = max(self._by_age, key=lambda each: numbers[_address_of(each)])
+            del self._by_age[oldest]
+            oldest.stream.close()
+            self._turns.give_up(oldest)
         super().handle_stream(stream, address)
 
     def start_request(
         self, server_conn: object, request_conn: HTTPConnection
     ) -> HTTPMessageDelegate:
-        """Await the next request of a connection."""
-        self._waiting[server_conn] = None
+        """Wait for the next request of a connection, and its turn."""
+        self._by_age.pop(server_conn, None)
+        self._by_age[server_conn] = None
         delegate = super().start_request(server_conn, request_conn)
-        return _Awaited(delegate, partial(self._waiting.pop, server_conn, None))
+        return _InTurn(delegate, partial(self._take_turn, server_conn))
+
+    async def _take_turn(self, connection: Any) -> None:
+        """
+        Wait for the turn of a request.
+
+        :raises HTTPInputError: the client has left; tornado would answer all that it has sent
+        """
+        with suppress(StreamClosedError):
+            await self._turns.take(connection, _address_of(connection))
+        if connection.stream.closed():
+            raise HTTPInputError('the client has left')
 
     def on_close(self, server_conn: object) -> None:
         """Forget a connection."""
-        self._waiting.pop(server_conn, None)
+        self._by_age.pop(server_conn, None)
         super().on_close(server_conn)
 
 
-class _Awaited(HTTPMessageDelegate):
+class _InTurn(HTTPMessageDelegate):
     """
-    A request on its way.
+    A request that waits for its turn when its headers have come.
 
     :param delegate: receives it
-    :param on_whole: called when all of it has come
+    :param take_turn: waits
     """
 
-    def __init__(self, delegate: HTTPMessageDelegate, on_whole: Callable[[], object]) -> None:
-        self.headers_received = delegate.headers_received  # type: ignore[method-assign]
-        self.data_received = delegate.data_received  # type: ignore[method-assign]
-        self.on_connection_close = delegate.on_connection_close  # type: ignore[method-assign]
+    def __init__(
+        self, delegate: HTTPMessageDelegate, take_turn: Callable[[], Awaitable[None]]
+    ) -> None:
         self._delegate = delegate
-        self._on_whole = on_whole
+        self._take_turn = take_turn
+
+    async def headers_received(
+        self, start_line: RequestStartLine | ResponseStartLine, headers: HTTPHeaders
+    ) -> None:
+        """Wait for the turn; meanwhile nothing more is read from the connection."""
+        await self._take_turn()
+        received = self._delegate.headers_received(start_line, headers)
+        if received is not None:
+            await received
+
+    def data_received(self, chunk: bytes) -> Awaitable[None] | None:
+        """Hand a part of the body on."""
+        return self._delegate.data_received(chunk)
 
     def finish(self) -> None:
         """Have the request answered."""
-        self._on_whole()
         self._delegate.finish()
+
+    def on_connection_close(self) -> None:
+        """Tell that the client has left."""
+        self._delegate.on_connection_close()
+
+
+def _address_of(connection: Any) -> str:
+    """Return the address of the client of a connection."""
+    return str(connection.context.remote_ip)
 
 
 def listening_sockets(address: str, port: int) -> list[socket.socket]:

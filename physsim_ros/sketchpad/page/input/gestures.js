@@ -4,7 +4,8 @@
  * it; two fingers move and zoom the view; once a stylus was seen it draws, and a finger moves the view. The other end of
  * a stylus erases, and its button selects. The cursor of the keyboard (cursor.js) is one more pointer.
  *
- * Laws: what a pointer works ends by that pointer alone, or by a second finger that moves the view with it. A tool knows
+ * Laws: what a pointer works ends by that pointer alone, or by a second finger that moves the view with it; where its end is
+ * not told, it ends where it was seen last. A tool that is put down in a gesture ends that first. A tool knows
  * no pointers: its gesture begins, moves, and ends or is cancelled, and this machine keeps the path.
  */
 
@@ -48,9 +49,11 @@ export class Gestures extends Emitter {
     canvas.addEventListener('pointerdown', (event) => this.#press(event));
     canvas.addEventListener('pointermove', (event) => this.#drag(event));
     canvas.addEventListener('pointerup', (event) => this.#lift(event));
-    canvas.addEventListener('pointercancel', ({pointerId}) => {
+    canvas.addEventListener('pointercancel', ({pointerId, pointerType}) => {
       this.down.delete(pointerId);
-      this.cancel(pointerId);
+      // A finger may be a palm. A stylus has drawn, and has left, or the device was turned.
+      if (pointerType === 'pen') this.#endAtLast(pointerId);
+      else this.cancel(pointerId);
     });
     canvas.addEventListener('pointerleave', ({pointerType}) => pointerType === 'touch' || this.emit('point'));
     canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
@@ -107,8 +110,16 @@ export class Gestures extends Emitter {
     this.working = null;
     if (!tool) return;
     tool.end?.(tool.snap?.(touch) ?? touch);
-    tool.path = [];
+    if (tool === this.tool) tool.path = [];
+    else this.#drop(tool);
     this.emit('end', {tool, touch, isFinger});
+  }
+
+  /** @param {number} pointer whose gesture ends where it was last */
+  #endAtLast(pointer) {
+    const last = this.working?.tool?.path.at(-1);
+    if (last) this.end(pointer, last);
+    else this.cancel(pointer);
   }
 
   /** @param {number | undefined} pointer whose gesture is dropped, unfinished */
@@ -131,9 +142,9 @@ export class Gestures extends Emitter {
     if (tool) tool.path = [];
   }
 
-  /** @param {Tool} tool that is taken in hand */
+  /** @param {Tool} tool that is taken in hand; what is drawn with another one is drawn to its end */
   take(tool) {
-    this.cancelAll();
+    if (this.working?.tool !== this.tool) this.#drop(this.tool);
     this.tool = tool;
   }
 
@@ -151,11 +162,12 @@ export class Gestures extends Emitter {
   #press(event) {
     const {canvas} = this.view, {pointerId, pointerType, button, buttons} = event, isPen = pointerType === 'pen';
     canvas.setPointerCapture(pointerId);
+    if (this.working?.isPen && this.working.pointer !== pointerId) return; // of the palm, or of another stylus
     if (isPen) {
       this.stylus = true;
       this.cancel();
       this.down.clear();
-    } else if (this.working?.isPen) return; // of the palm
+    }
     this.down.set(pointerId, event);
     this.pressed = [event.clientX, event.clientY];
     canvas.focus({preventScroll: true});
@@ -171,12 +183,17 @@ export class Gestures extends Emitter {
   #drag(event) {
     const {pointerId, pointerType} = event, before = this.down.get(pointerId);
     if (!before && pointerType === 'touch') return;
+    // It was lifted where nobody was told, as behind a locked screen.
+    if (before && !event.buttons) {
+      this.down.delete(pointerId);
+      this.#endAtLast(pointerId);
+    }
     if (pointerId === this.working?.pointer) {
       const parts = event.getCoalescedEvents?.() ?? [];
       for (const part of parts.length ? parts : [event]) this.move(pointerId, this.#touch(part));
     } else if (before) this.#moveView(event, before);
     else this.point(this.#touch(event));
-    if (before) this.down.set(pointerId, event);
+    if (this.down.has(pointerId)) this.down.set(pointerId, event);
   }
 
   /**

@@ -13,7 +13,7 @@ const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 
 export class Keyboard {
-  /** @param {Parts<'camera' | 'cursor' | 'dialog' | 'driving' | 'gestures' | 'menu' | 'panel' | 'people' | 'plotting' | 'readings' | 'room' | 'selection' | 'settings' | 'stopwatch' | 'time' | 'toolbar' | 'view' | 'world'>} parts */
+  /** @param {Parts<'camera' | 'cursor' | 'dialog' | 'driving' | 'gestures' | 'panel' | 'people' | 'plotting' | 'readings' | 'room' | 'selection' | 'settings' | 'stopwatch' | 'time' | 'toolbar' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.since = 0;
@@ -28,9 +28,9 @@ export class Keyboard {
     parts.view.canvas.addEventListener('blur', () => parts.driving.liftAll());
     addEventListener('blur', () => { parts.gestures.space = false; });
     const callService = (/** @type {string} */ name) => () => parts.time.callService(name);
-    /** @type {Record<string, () => void>} */
+    /** @type {Record<string, () => unknown>} */
     this.keys = {
-      '?': () => parts.settings.showHelp(), f: () => parts.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      '?': () => parts.settings.showHelp(), f: () => parts.gestures.down.size || parts.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => parts.gestures.tool.turn?.(TURN), R: () => parts.gestures.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => parts.selection.deleteSelected(), Backspace: () => parts.selection.deleteSelected(), Escape: () => this.#drop(),
@@ -69,7 +69,7 @@ export class Keyboard {
       return;
     }
     if (/^ContextMenu$/.test(key) || key === 'F10' && event.shiftKey) {
-      parts.menu.open(parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
+      parts.gestures.emit('menu', parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
       event.preventDefault();
       return;
     }
@@ -101,8 +101,9 @@ export class Keyboard {
 
   /** @param {number} factor */
   #zoom(factor) {
-    const {camera} = this.parts;
-    camera.zoom(camera.width / 2, camera.height / 2, factor);
+    const {camera, gestures} = this.parts;
+    // A stroke would leap to where the pointer is then.
+    if (!gestures.down.size) camera.zoom(camera.width / 2, camera.height / 2, factor);
   }
 
   /** @param {number} by */

@@ -17,7 +17,6 @@ export class Menu {
     this.parts = parts;
     this.element = document.body.appendChild(createElement('div', {id: 'menu', role: 'menu', 'aria-label': t('Menu'), hidden: true}));
     parts.gestures.on('press', () => this.close());
-    parts.gestures.on('menu', (page) => this.open(page));
     this.element.addEventListener('focusout', ({relatedTarget}) => this.element.contains(/** @type {?Node} */ (relatedTarget)) || this.close());
     this.element.addEventListener('keydown', (event) => this.#move(event));
   }

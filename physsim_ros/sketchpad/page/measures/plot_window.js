@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
+import {csvOf} from '../csv.js';
 import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
-import {QUANTITIES, tableOf, toldOf} from './quantities.js';
-import {threeDigits} from '../rounding.js';
+import {QUANTITIES, toldOf} from './quantities.js';
+import {digits, threeDigits} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
-/** @import {Palette, Parts, Sample} from '../types.js' */
+/** @import {Body, Palette, Parts, Sample} from '../types.js' */
 /** @import {Curve, Scales} from './chart.js' */
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
 const NARROW = 560; // px
+const NOTHING = 1e-9; // in its unit: rounding of what is 0
 const LONG = 3, PREDICTED = 10; // s and units that a prediction has room for
 /** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
 const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
@@ -300,4 +302,18 @@ function rangeOf(curves) {
   for (const {points} of curves) for (const [x] of points) [least, most] = [Math.min(least, x), Math.max(most, x)];
   if (least > most) return [0, 1];
   return most - least > 1e-6 ? [least, most] : [least - 0.5, most + 0.5];
+}
+
+/**
+ * @param {{name: string, body: Body, samples: Sample[]}[]} records
+ * @param {number[]} gravity
+ * @returns {string} a table of all quantities (CSV), the bodies one below the other
+ */
+function tableOf(records, gravity) {
+  const columns = Object.values(QUANTITIES);
+  // Spreadsheets read a hyphen as the minus.
+  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
+  const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
+    [...columns.map(({of}) => cell(of(sample, body, gravity))), name]));
+  return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
 }

@@ -4,14 +4,11 @@
  * of plots and the columns of tables.
  */
 
-import {csvOf} from '../csv.js';
-import {degrees, digits, threeDigits, twoPlaces} from '../rounding.js';
+import {degrees, threeDigits, twoPlaces} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, rotated} from '../vectors.js';
 
 /** @import {Body, Point, Sample, WorldState} from '../types.js' */
-
-const NOTHING = 1e-9; // in its unit: rounding of what is 0
 
 /**
  * The mass of a body [kg], and the place, angle and velocity of its centre of mass [m, °, m/s, rad/s].
@@ -134,18 +131,4 @@ export const QUANTITIES = {
  */
 export function toldOf(key, value) {
   return QUANTITIES[key].label.replace('[', `${Number.isNaN(value) ? '–' : threeDigits(value)} `).replace(']', '');
-}
-
-/**
- * @param {{name: string, body: Body, samples: Sample[]}[]} records
- * @param {number[]} gravity
- * @returns {string} a table of all quantities (CSV), the bodies one below the other
- */
-export function tableOf(records, gravity) {
-  const columns = Object.values(QUANTITIES);
-  // Spreadsheets read a hyphen as the minus.
-  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
-  const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
-    [...columns.map(({of}) => cell(of(sample, body, gravity))), name]));
-  return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
 }

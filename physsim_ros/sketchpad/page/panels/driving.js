@@ -2,7 +2,7 @@
 /** What moves on its own: a robot, driven by W A S D or by a stick for thumbs in its panel; an actor, with its way in the world. */
 
 import {createElement} from '../dom.js';
-import {digits} from '../rounding.js';
+import {digits, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 
 /** @import {Actor, Parts, Point, Robot, SceneView, WorldState} from '../types.js' */
@@ -23,6 +23,12 @@ export class Driving {
     /** @type {Point} of the knob, right and up, each -1 .. 1 */
     this.stick = [0, 0];
     this.timer = 0;
+    this.battery = {name: '', level: 0, current: 0};
+    this.charge = createElement('p');
+    parts.connection.on('battery', (battery) => {
+      this.battery = battery;
+      this.#showCharge();
+    });
     this.knob = createElement('i');
     this.element = createElement('div', {className: 'stick', role: 'img', 'aria-label': t('Stick: drag to drive')}, this.knob);
     this.element.addEventListener('pointerdown', (event) => {
@@ -48,10 +54,16 @@ export class Driving {
    */
   show({kind, namespace, max_speed: speed = 0, max_turn: turn = 0}) {
     if (!kind) return [createElement('h3', {textContent: `${t('Robot')} · /${namespace}`})];
+    this.#showCharge();
     return [createElement('h3', {textContent: `${t('Robot, {drive}', {drive: kind})} · /${namespace}`}),
-      createElement('p', {}, t('Up to {speed} m/s and {turn} rad/s', {speed, turn})),
+      createElement('p', {}, t('Up to {speed} m/s and {turn} rad/s', {speed, turn})), this.charge,
       createElement('div', {className: 'drive'}, this.element,
         createElement('p', {}, t('Drag the knob; or {keys}, after a click on the world.', {keys: kind === 'omni' ? 'W A S D Q E' : 'W A S D'})))];
+  }
+
+  #showCharge() {
+    const {name, level, current} = this.battery, amperes = threeDigits(current);
+    this.charge.textContent = name && name === this.parts.selection.name ? t('Battery {level} % · {current} A', {level: Math.round(100 * level), current: amperes}) : '';
   }
 
   /**

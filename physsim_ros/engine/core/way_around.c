@@ -1,0 +1,111 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// The way of a pedestrian around a wall.
+//
+// Problem: the models of pedestrians see velocities and forces of now. A wall across the straight way to a point, as
+// the one beside a door, holds a pedestrian for ever: its repulsion balances the desire to go on.
+// Method: I. Kamon, E. Rimon and E. Rivlin, "TangentBug: a range-sensor-based navigation algorithm" (International
+// Journal of Robotics Research 17, 1998), its motion toward the target: of the two ends of the nearest wall in the way,
+// a pedestrian walks along the tangent to that by which the way is shorter; of equal ways it takes the one that turns
+// less, or the right one. An end at which another wall leaves no room is not taken. A wall is a convex shape, grown by
+// the radius of the pedestrian. The motion along a boundary of TangentBug is left out, as it has a memory: who walks
+// through a maze needs points on the way.
+//
+// Cost: 20 ns a wall of four corners, and 0.5 µs one that the line ahead meets.
+
+#include "way_around.h"
+#include "outline.h"
+
+static const double half_turn = 3.141592653589793;
+// Both ways are equal within this share [1], more than rounding.
+static const double equal_share = 1e-9;
+
+// A wall as seen from a point in a direction.
+typedef struct Span {
+    double left, right;      // greatest and least angle of the grown wall, counter-clockwise from the direction [rad]
+    Vec left_end, right_end; // corners of the wall itself at its greatest and least angle
+} Span;
+
+// Find the span of a wall that is grown by a radius; return whether the ray in the direction meets it.
+static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, Span *span) {
+    double grown = radius + radius_of(wall), greatest_angle = -INFINITY, least_angle = INFINITY;
+    *span = (Span){.left = -INFINITY, .right = INFINITY};
+    for (int number = 0; number < corner_count(wall); number++) {
+        Vec corner = corner_in_world(wall, number).place, way = sub(corner, from);
+        double angle = atan2(cross(ahead, way), dot(ahead, way)), distance = length(way);
+        double half = distance > grown ? asin(grown / distance) : half_turn / 2.0;
+        span->left = greatest(span->left, angle + half);
+        span->right = least(span->right, angle - half);
+        if (angle > greatest_angle) {
+            greatest_angle = angle, span->left_end = corner;
+        }
+        if (angle < least_angle) {
+            least_angle = angle, span->right_end = corner;
+        }
+    }
+    // More than half a turn is spanned by a wall behind the point or around it.
+    return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < half_turn;
+}
+
+static bool minds(const World *world, const Disc *self, const cpShape *wall, Nearest *nearest) {
+    return !passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, nearest);
+}
+
+// Find the nearest wall that the way to a point meets.
+static const cpShape *wall_in_way(const World *world, const Surroundings *around, const Disc *self, Vec point,
+                                  Vec ahead, Span *span) {
+    const cpShape *found = NULL;
+    double least_distance = INFINITY;
+    for (int number = 0; number < around->anchored_count; number++) {
+        const cpShape *wall = around->anchored[number];
+        Nearest nearest;
+        Span there, back;
+        if (distance_beside(wall, self->place, ahead) < self->radius && minds(world, self, wall, &nearest) &&
+            nearest.distance < least_distance && find_span(wall, self->place, ahead, self->radius, &there) &&
+            find_span(wall, point, negated(ahead), self->radius, &back)) {
+            found = wall, least_distance = nearest.distance, *span = there;
+        }
+    }
+    return found;
+}
+
+// Whether another wall leaves no room at an end of a wall, beside which a pedestrian walks in a direction.
+static bool is_closed(const World *world, const Surroundings *around, const Disc *self, const cpShape *wall, Vec end,
+                      Vec beside) {
+    Vec place = add(end, scaled(beside, self->radius + radius_of(wall)));
+    for (int number = 0; number < around->anchored_count; number++) {
+        const cpShape *other = around->anchored[number];
+        Nearest nearest;
+        if (other != wall && !passes_through(self->body, body_of(other->body)) &&
+            sees_wall(world, other, place, &nearest) && nearest.distance < self->radius * (1.0 - equal_share)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Vec heading_to(const World *world, const Surroundings *around, const Disc *self, Vec point) {
+    Vec way = sub(point, self->place);
+    double distance = length(way);
+    if (distance == 0.0) {
+        return way;
+    }
+    Vec ahead = scaled(way, 1.0 / distance);
+    Span span;
+    const cpShape *wall = wall_in_way(world, around, self, point, ahead, &span);
+    if (wall == NULL) {
+        return ahead;
+    }
+    Vec left = rotated(ahead, rotation(span.left)), right = rotated(ahead, rotation(span.right));
+    bool left_closed = is_closed(world, around, self, wall, span.left_end, perpendicular(left));
+    bool right_closed = is_closed(world, around, self, wall, span.right_end, negated(perpendicular(right)));
+    double by_left = length(sub(span.left_end, self->place)) + length(sub(point, span.left_end));
+    double by_right = length(sub(span.right_end, self->place)) + length(sub(point, span.right_end));
+    double more = by_left - by_right;
+    if (fabs(more) <= equal_share * by_right) {
+        more = span.left + span.right + equal_share;
+    }
+    bool turns_left = left_closed == right_closed ? more < 0.0 : right_closed;
+    return turns_left ? left : right;
+}
