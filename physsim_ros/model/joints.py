@@ -276,7 +276,8 @@ class JointProperties(Checked):
         float | None,
         Within(-FASTEST, FASTEST, 'rad/s or m/s'),
         'motor: angular velocity of `a` relative to `b`, counter-clockwise; slider: velocity of '
-        '`a` along its line; winch: rate of its length, which begins as `length`',
+        '`a` along its line, by default not driven; winch: rate of its length, which begins as '
+        '`length`, by default none',
         1.0,
     ] = None
     max_torque: Annotated[
@@ -424,7 +425,7 @@ class JointProperties(Checked):
 
 # Keys of a joint in the text of a marker.
 JOINT_KEYS = ['kind', 'a', 'b', *JointProperties.FIELDS]
-# Values of the properties that nobody sets, by name; those that are not here have no limit, or are
+# Values of the properties that nobody sets, by name; those that are not here are absent, or
 # as drawn.
 DEFAULTS: dict[str, float] = {
     name: note

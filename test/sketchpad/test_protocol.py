@@ -49,7 +49,7 @@ def test_a_kind_of_message_has_the_fields_of_its_function() -> None:
         signature = inspect.signature(kind.handle).parameters
         # The session, by another name where a field is the number of a page.
         session = 'session' if 'session' in signature else 'page'
-        parameters = signature.keys() - {'origin', 'feed', session}
+        parameters = signature.keys() - {'origin', 'socket', session}
         others = {
             each for each in parameters if signature[each].kind is inspect.Parameter.VAR_KEYWORD
         }

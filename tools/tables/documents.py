@@ -137,7 +137,7 @@ def _joint_kinds() -> str:
 def _joint_default(each: Declaration) -> str:
     if AS_DRAWN in each.notes:
         return 'as drawn'
-    return _value(DEFAULTS[each.name]) if each.name in DEFAULTS else 'no limit'
+    return _value(DEFAULTS[each.name]) if each.name in DEFAULTS else 'none'
 
 
 def _robot_keys() -> str:

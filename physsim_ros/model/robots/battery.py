@@ -34,7 +34,7 @@ class Battery(Checked):
         float, Within(0.0, 1.0), 'share of its capacity with which the robot is spawned'
     ] = 1.0
     voltage: Annotated[float, Within(0.0, _LARGEST, 'V'), 'voltage, full or empty'] = 12.0
-    idle: Annotated[float, _CURRENT, 'current that it gives all the time'] = 0.2
+    idle: Annotated[float, _CURRENT, 'current that drains it all the time'] = 0.2
     moving: Annotated[float, _CURRENT, 'further current while a wheel turns'] = 1.0
     charging: Annotated[float, _CURRENT, 'current that a dock gives to it, until it is full'] = 2.0
     docks: Annotated[

@@ -98,7 +98,7 @@ class RangeFinder(Sensor):
     KIND: ClassVar = 'range'
 
     name: str = 'range'
-    radiation: Annotated[str, OneOf(('infrared', 'sonar')), 'waves with which it measures'] = (
+    radiation: Annotated[str, OneOf(('infrared', 'sonar')), 'kind of waves that it emits'] = (
         'infrared'
     )
     cone: Annotated[
