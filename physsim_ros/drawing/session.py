@@ -244,7 +244,12 @@ class DrawingSession:
 
 
 def submit_reading(
-    simulation: Simulation, session: DrawingSession, reading: Reading, origin: Origin
+    simulation: Simulation,
+    session: DrawingSession,
+    reading: Reading,
+    origin: Origin | None = None,
+    *,
+    topic: str = '',
 ) -> None:
     """
     Answer a stroke by its reading, and submit its requests as one gesture.
@@ -252,9 +257,10 @@ def submit_reading(
     The requests of a reading that amends earlier gestures replace those.
 
     :param session: whose last reading it is
-    :param origin: of the stroke
+    :param origin: the message of the stroke; None is one of `topic`
+    :param topic: its source, where nothing else is known of the message
     """
-    queue = simulation.requests
+    queue, origin = simulation.requests, origin or Origin(topic)
     queue.tell(replace(reading_answer(reading, topic=origin.topic), asker=origin.asker))
     if reading.amends:
         amend = Amend(reading.amends, reading.requests)

@@ -97,14 +97,17 @@ class RequestQueue:
     def submit(
         self,
         request: Request | Unread | Amend | TakeBack,
-        origin: Origin,
+        origin: Origin | None = None,
         *,
+        topic: str = '',
         joined: bool = False,
         gesture: int | None = None,
     ) -> None:
         """
         Add a request; the next frame applies and answers it.
 
+        :param origin: the message from which it comes; None is one of `topic`
+        :param topic: its source, where nothing else is known of the message
         :param joined: whether it is in the gesture of the entry before, and is undone with it
         :param gesture: number of an earlier gesture that it is in, whatever came between
         """
@@ -114,7 +117,7 @@ class RequestQueue:
         if gesture is None:
             gesture = self.gesture if joined else self.begin_gesture()
         subject = request.subject if isinstance(request, Request | Unread) else ''
-        entry = Entry(request, origin, subject, gesture, size)
+        entry = Entry(request, origin or Origin(topic), subject, gesture, size)
         if busy := self._waiting.busy(size):
             self._waiting.add_answer(replace(entry, request=busy, size=0))
         else:

@@ -246,7 +246,7 @@ class PageSession:
 
     def _submit_unasked(self, request: HandRequest) -> None:
         """Submit a request of the hand that no message asks for."""
-        self.world.simulation.requests.submit(request, Origin('~/drag/feedback'))
+        self.world.simulation.requests.submit(request, topic='~/drag/feedback')
 
     def _send_preview(self) -> None:
         """Send the page its unfinished gesture, if that has changed."""

@@ -191,7 +191,7 @@ def drawn_into_a_world(drawn: Drawn, pause: float) -> tuple[str, Scene]:
     before, strokes = drawn
     simulation = Simulation(speed=0.0)
     for request in before:
-        simulation.requests.submit(request, Origin(''))
+        simulation.requests.submit(request, topic='')
     frame = simulation.advance_frame()
     frame = simulation.apply_requests() or frame
     session, now, meaning = DrawingSession(DrawingSettings()), 0.0, ''

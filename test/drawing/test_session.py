@@ -43,7 +43,7 @@ class Desk:
 
     def spawn(self, *requests: Request) -> None:
         for request in requests:
-            self.simulation.requests.submit(request, Origin('t'))
+            self.simulation.requests.submit(request, topic='t')
         self._settle()
 
     def draw(self, way: Way | Floats, *, after: float = 0.3) -> Reading:

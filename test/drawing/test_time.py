@@ -16,7 +16,6 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.transform import Point
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -45,7 +44,7 @@ class Studio:
         self.tick()
 
     def ask(self, request: Any) -> None:
-        self.simulation.requests.submit(request, Origin('~/test'))
+        self.simulation.requests.submit(request, topic='~/test')
 
     def tick(self) -> tuple[Answer, ...]:
         """Let a sixtieth of a second pass, and return what is answered."""

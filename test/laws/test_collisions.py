@@ -397,3 +397,15 @@ def test_an_anchored_body_does_not_move_at_all(report, elasticity, hitter, side)
     moved = np.abs(end.poses[anchored] - start).max()
     report.check(24, 'anchored body hit at 20 m/s by 100 kg', moved, 0.0, 0.0, 'm, rad')
     assert not end.twists[anchored].any()
+
+
+def test_faces_that_meet_as_a_sub_step_ends_meet_as_a_whole(report):
+    sim = simulation(elasticity=1.0, friction=0.0)
+    floor(sim, elasticity=0.0)
+    shape = Box(width=1.0, height=1.0)
+    spawn(sim, 'box/0', shape, (1.0, 0.5, 0.0), mass=1.0)
+    # After half a second the faces overlap by rounding, at one of their corners.
+    spawn(sim, 'box/1', shape, (2.5, 0.5, 0.0), mass=100.0, velocity=(-1.0, 0.0))
+    for now in steps(sim, 240):
+        spin = np.abs(now.twists[:, 2]).max()
+        report.check(3, 'boxes on a floor that meet, spin', spin, 0.0, 0.02, 'rad/s')

@@ -236,7 +236,7 @@ class Fuzzed:
             subject = conversions.subject_of(message, joint=topic == '~/join')
             self.simulation.requests.refuse(refusal, Origin(topic), subject=subject)
         else:
-            self.simulation.requests.submit(request, Origin(topic))
+            self.simulation.requests.submit(request, topic=topic)
         frame = self.simulation.apply_requests()
         assert frame is not None
         (answer,) = frame.answers

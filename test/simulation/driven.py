@@ -54,7 +54,7 @@ class Driven:
             self.shown[frame.snapshot.step] = frame
 
     def ask(self, request: Request, *, joined: bool = False) -> None:
-        self.simulation.requests.submit(request, Origin('~/test'), joined=joined)
+        self.simulation.requests.submit(request, topic='~/test', joined=joined)
 
     def apply_requests(self) -> Frame:
         return self.simulation.apply_requests()

@@ -284,7 +284,7 @@ class Player:
         if self.dropped or not gestures:
             return
         gesture = gestures[-min(back, len(gestures))]
-        self.sim.requests.submit(Amend((gesture,), tuple(requests)), Origin('~/fuzz'))
+        self.sim.requests.submit(Amend((gesture,), tuple(requests)), topic='~/fuzz')
         frames = [*self._frames_overdue(calls), self.sim.apply_requests()]
         later = self._cut(before, gesture)
         self.submitted += requests

@@ -27,7 +27,7 @@ def begun() -> Simulation:
 
 def amend(simulation: Simulation, gestures: list[int], requests: list[Request]) -> Frame:
     """Replace the requests of gestures, and return the frame that shows it."""
-    simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), Origin('t'), joined=True)
+    simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), topic='t', joined=True)
     return simulation.apply_requests()
 
 
@@ -39,7 +39,7 @@ def test_an_amended_world_is_where_it_would_have_come_with_those_requests():
     gesture = other.requests.gesture
     for frame in range(10, 90):
         if frame == 30:
-            other.requests.submit(later, Origin('t'))
+            other.requests.submit(later, topic='t')
         other.advance_frame()
 
     amend(other, [gesture], [ball])
@@ -62,8 +62,8 @@ def test_the_amended_gesture_is_undone_as_one():
 def test_what_the_amended_past_refuses_later_is_dropped():
     simulation = begun()
     gesture = simulation.requests.gesture
-    simulation.requests.submit(Delete(name='t/0'), Origin('t'))
-    simulation.requests.submit(Configure(changes={'damping': 0.5}), Origin('t'))
+    simulation.requests.submit(Delete(name='t/0'), topic='t')
+    simulation.requests.submit(Configure(changes={'damping': 0.5}), topic='t')
     simulation.advance_frame()
 
     amend(simulation, [gesture], [spawning('t/1', DISC)])
@@ -85,7 +85,7 @@ def test_a_refused_request_is_answered_and_the_others_hold():
 def test_several_gestures_become_one():
     simulation = begun()
     first = simulation.requests.gesture
-    simulation.requests.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), Origin('t'))
+    simulation.requests.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), topic='t')
     second = simulation.requests.gesture
     simulation.advance_frame()
 
@@ -187,7 +187,7 @@ def test_commands_that_joined_a_gesture_are_not_taken_back_with_it():
     simulation.requests.submit(spawning('c/0', BOX, (0.0, 3.0, 0.0)), Origin('t', author='Anna'))
     # As commands of robots do.
     later = spawning('d/0', BOX, (6.0, 3.0, 0.0))
-    simulation.requests.submit(later, Origin('t'), joined=True)
+    simulation.requests.submit(later, topic='t', joined=True)
     simulation.advance_frame()
 
     take_back(simulation, 'Anna')

@@ -27,7 +27,6 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Shape
 from physsim_ros.model.shapes.form import MOST_KEPT
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import capacity, World
 import pytest
@@ -214,7 +213,7 @@ def test_a_lower_limit_holds_for_what_comes_then():
 def test_what_was_accepted_once_is_accepted_in_every_replay():
     simulation = Simulation(settings=FEW, speed=1.0)
     for request in one_pose(5):
-        simulation.requests.submit(request, Origin('~/spawn'))
+        simulation.requests.submit(request, topic='~/spawn')
     simulation.advance_frame()
     simulation.perform(Configure(changes={'max_overlaps': 0}))
     for _ in range(30):

@@ -10,7 +10,6 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Delete, Request, Restore
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past.tree import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
@@ -236,7 +235,7 @@ def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off
 def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_there():
     sim = Simulation()
     assert sim.apply_requests() is not None
-    sim.requests.submit(spawning('a/0', BOX, anchored=True), Origin(''))
+    sim.requests.submit(spawning('a/0', BOX, anchored=True), topic='')
     sim.advance_frame()
     # Frames back to the checkpoint after the request are made again, from its step on.
     sim.speed = -0.3
@@ -255,7 +254,7 @@ def test_a_step_that_was_shown_without_the_oldest_request_is_not_kept():
     sim = Simulation(history=0.5)
     run(sim, 0.25)
     # A loaded state begins with a checkpoint, before which all is dropped in half a second.
-    sim.requests.submit(Restore(state=sim.save()), Origin(''))
+    sim.requests.submit(Restore(state=sim.save()), topic='')
     run(sim, 0.5)
     assert sim.step == 180
     with pytest.raises(OutOfHistory):

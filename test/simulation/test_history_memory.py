@@ -12,7 +12,6 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past.tree import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -38,7 +37,7 @@ def command(sim: Simulation, number: int, *, joined: bool = False) -> None:
     # New strings each time, as they come off the wire.
     names = tuple(f'{name:s}'[:2] + name[2:] for name in NAMES)
     request = Command(names=names, twists=TWISTS[number % 64])
-    sim.requests.submit(request, Origin('~/command'), joined=joined)
+    sim.requests.submit(request, topic='~/command', joined=joined)
 
 
 def told(sim: Simulation, frames: int) -> list[str]:
@@ -102,7 +101,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
 
 
 def spawn_again(sim: Simulation, shape: Shape) -> None:
-    sim.requests.submit(Spawn(name=NAMES[1], shape=shape, pose=(1.0, 9.0, 0.0)), Origin(''))
+    sim.requests.submit(Spawn(name=NAMES[1], shape=shape, pose=(1.0, 9.0, 0.0)), topic='')
     sim.apply_requests()
 
 

@@ -23,7 +23,7 @@ def simulation() -> Simulation:
     simulation = Simulation(settings=FLOOR)
     for number in range(4):
         disc = spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0))
-        simulation.requests.submit(disc, Origin(''))
+        simulation.requests.submit(disc, topic='')
     return simulation
 
 
@@ -58,7 +58,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(simulation, digests
 
 def test_requests_wait_for_the_end_of_a_seek_and_apply_there(simulation, digests):
     simulation.seek(SECOND)
-    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
+    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     _, frame = ticks_to_a_frame(simulation, 0)
     assert [answer.subject for answer in frame.answers if answer.topic == '~/spawn'] == ['late/0']
     assert frame.snapshot.step == 240
@@ -71,9 +71,9 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(
     simulation.past.frames.drop_from(0)
     simulation.speed = speed
     simulation.requests.submit_seek(2 * SECOND, Origin('~/seek'))
-    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
+    simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     simulation.requests.submit_seek(SECOND, Origin('~/seek'))
-    simulation.requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
+    simulation.requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     # Up to the first seek, and to the second, which begins when the first is done.
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 150
@@ -96,9 +96,9 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulatio
         saved.append(simulation.save())
         return [Answer(topic='~/clear', message=simulation.perform(DeleteAll()))]
 
-    requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
+    requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     requests.submit_call(clear, Wait.FOR_SEEK)
-    requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), Origin('~/spawn'))
+    requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), topic='~/spawn')
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 50
     assert len(saved[0].bodies) == 5
@@ -121,7 +121,7 @@ def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
         names, joints = simulation.past.added_by('Anna')
         return DeleteBodies(names=names, joints=joints)
 
-    queue.submit(Unread('', deletion), Origin('~/command'))
+    queue.submit(Unread('', deletion), topic='~/command')
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 50
     assert [answer.message for answer in frame.answers if answer.topic == '~/command'] == [
@@ -133,7 +133,7 @@ def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
 def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
     amend = Amend((4,), (spawning('other/0', DISC, (5.0, 1.0, 0.0)),))
-    simulation.requests.submit(amend, Origin('~/stroke'), joined=True)
+    simulation.requests.submit(amend, topic='~/stroke', joined=True)
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 100
     assert [answer.subject for answer in frame.answers if answer.topic == '~/stroke'] == [
@@ -216,7 +216,7 @@ def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewher
 ):
     for number in range(2):
         late = spawning(f'late/{number}', DISC, (5.0 + number, 1.0, 0.0))
-        simulation.requests.submit(late, Origin('~/spawn'))
+        simulation.requests.submit(late, topic='~/spawn')
     simulation.apply_requests()
     told: list[str] = []
 
@@ -268,10 +268,10 @@ def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, di
 def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     simulation.reports_contacts = True
-    simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), Origin(''))
+    simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), topic='')
     shown = [simulation.advance_frame() for _ in range(60)]
     # It belongs to the step at which it is applied, though no frame came before the next seek.
-    simulation.requests.submit(spawning('disc/1', DISC, (3.0, 1.0, 0.0)), Origin(''))
+    simulation.requests.submit(spawning('disc/1', DISC, (3.0, 1.0, 0.0)), topic='')
     middle, end = shown[29], shown[-1]
     simulation.seek(middle.snapshot.stamp)
     again = simulation.apply_requests()
@@ -297,7 +297,7 @@ def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     for number in range(40):
         disc = spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0))
-        simulation.requests.submit(disc, Origin(''))
+        simulation.requests.submit(disc, topic='')
         if number == 38:
             simulation.apply_requests()
             digest = simulation.world.digest()
@@ -337,7 +337,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
     step = simulation.step
     queue = simulation.requests
     queue.submit(TakeBack(), Origin('~/undo', author='Anna', asker='anna'))
-    queue.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
+    queue.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     for tick in range(400):
         steps.clear()
         assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)

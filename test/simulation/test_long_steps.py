@@ -10,7 +10,6 @@ from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.files import find_world, load_world, spawn_from
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 from tools.bench.scenes import FREE, MACHINES, Scene
@@ -86,7 +85,7 @@ def test_requests_wait_for_the_end_of_the_frame(in_sub_steps):
     simulation.advance(0, is_overdue=lambda: True)
     simulation.advance(SECOND // 60, is_overdue=lambda: True)
     assert simulation.past.cursor.is_working
-    simulation.requests.submit(spawning('late/0', DISC, (9.0, 1.0, 0.0)), Origin('~/spawn'))
+    simulation.requests.submit(spawning('late/0', DISC, (9.0, 1.0, 0.0)), topic='~/spawn')
     simulation.apply_up_to_seek()
     assert 'late/0' not in simulation.world
     frames = [frame for _, frame in ticks_to_frames(simulation, 3, 200)]
@@ -99,7 +98,7 @@ def test_the_log_of_a_world_that_was_cut_replays_to_the_same_bits(in_sub_steps):
         simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
         if tick % 37 == 0:
             change = Configure(changes={'gravity': (0.1 * (tick % 5), -9.81)})
-            simulation.requests.submit(change, Origin('~/gravity'))
+            simulation.requests.submit(change, topic='~/gravity')
     step, digest = simulation.step, simulation.world.digest()
     step = simulation.step
     simulation.past.frames.drop_from(0)

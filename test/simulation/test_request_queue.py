@@ -21,7 +21,7 @@ SPAWN = Spawn(name='a/0', shape=Disc(radius=0.2), pose=(0.0, 9.0, 0.0))
 
 def spawn(sim: Simulation, number: int) -> None:
     request = Spawn(name=f'a/{number}', shape=Disc(radius=0.2), pose=(number, 9.0, 0.0))
-    sim.requests.submit(request, Origin('~/spawn'))
+    sim.requests.submit(request, topic='~/spawn')
 
 
 def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered():
@@ -104,14 +104,14 @@ def applied(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out(applied):
     queue = Simulation().requests
     move, other = MoveHand(hand='h', point=(1.0, 1.0)), MoveHand(hand='h', point=(9.0, 9.0))
-    queue.submit(move, Origin('~/drag/feedback'))
+    queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(1, Origin('~/seek'))
     queue.tell(Answer(topic='~/speed', message='speed 1'))
     queue.submit_seek(2, Origin('~/seek'))
-    queue.submit(move, Origin('~/drag/feedback'))
-    queue.submit(other, Origin('~/drag/feedback'))
+    queue.submit(move, topic='~/drag/feedback')
+    queue.submit(other, topic='~/drag/feedback')
     queue.submit_call(lambda: applied.append('call') or [], Wait.FOR_SEEK)
-    queue.submit(move, Origin('~/drag/feedback'))
+    queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(3, Origin('~/seek'))
 
     queue.apply_waiting()
@@ -125,7 +125,7 @@ def test_a_move_of_a_hand_overtakes_nothing_but_moves(applied):
     third, other = MoveHand(hand='h', point=(3.0, 1.0)), MoveHand(hand='i', point=(9.0, 9.0))
     delete, keep = Delete(name='a/0'), KeepHand(hand='h')
     for request in (first, other, keep, second, delete, third):
-        queue.submit(request, Origin('~/drag/feedback'))
+        queue.submit(request, topic='~/drag/feedback')
 
     queue.apply_waiting()
 
@@ -135,7 +135,7 @@ def test_a_move_of_a_hand_overtakes_nothing_but_moves(applied):
 def test_answers_that_are_too_many_are_counted(monkeypatch, applied):
     monkeypatch.setattr(waiting_entries, 'MOST_WAITING', 5)
     queue = Simulation().requests
-    queue.submit(SPAWN, Origin('~/spawn'))
+    queue.submit(SPAWN, topic='~/spawn')
     for stamp in range(100):
         queue.refuse(Malformed('no'), Origin('~/spawn'))
         queue.submit_seek(stamp, Origin('~/seek'))

@@ -23,7 +23,7 @@ COUNT, SLICE = 100, 10
 def submit(simulation: Simulation, *, joined: bool) -> None:
     for number in range(COUNT):
         body = spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0))
-        simulation.requests.submit(body, Origin('~/spawn_array'), joined=joined and number > 0)
+        simulation.requests.submit(body, topic='~/spawn_array', joined=joined and number > 0)
 
 
 def spent_after(count: int) -> Callable[[], bool]:
@@ -86,7 +86,7 @@ def test_commands_of_robots_do_not_stop_time():
     tick(simulation, 0)
     for _ in range(COUNT):
         drive = DriveRobot(name='r/0', velocity=(1.0, 0.0, 0.0))
-        simulation.requests.submit(drive, Origin('cmd_vel'), joined=True)
+        simulation.requests.submit(drive, topic='cmd_vel', joined=True)
     assert tick(simulation, 1) == 1
 
 
@@ -118,7 +118,7 @@ def begin_reading(simulation: Simulation) -> Future[str]:
 
     simulation.requests.submit_call(call, Wait.FOR_SEEK)
     late = spawning('late/0', BOX, (0.0, 0.0, 0.0))
-    simulation.requests.submit(late, Origin('~/spawn'))
+    simulation.requests.submit(late, topic='~/spawn')
     return future
 
 

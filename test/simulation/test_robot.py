@@ -24,7 +24,6 @@ from physsim_ros import (
 )
 from physsim_ros.model.errors import BadProperty, InPast, OutOfHistory, UnknownBody
 from physsim_ros.model.requests import Grab
-from physsim_ros.simulation.entries import Origin
 import pytest
 
 NOISY = {'from': 'turtlebot3_burger', 'odometry': {'slip': [0.05, 0.05]}}
@@ -175,7 +174,7 @@ def test_a_saved_moment_has_the_requests_that_waited_and_no_hand():
     simulation, another = Simulation(), Simulation()
     simulation.perform(Spawn(name='ball/0', shape=Disc(radius=0.2)))
     simulation.perform(Grab(hand='h', point=(0.0, 0.0)))
-    simulation.requests.submit(Spawn(name='box/0', shape=Box(width=0.2, height=0.2)), Origin('t'))
+    simulation.requests.submit(Spawn(name='box/0', shape=Box(width=0.2, height=0.2)), topic='t')
 
     another.restore(simulation.checkpoint())
 

@@ -81,14 +81,14 @@ def test_a_time_in_seconds_is_refused():
 
 def test_requests_are_answered_in_order_and_one_each():
     sim = simulation()
-    sim.requests.submit(spawning('a/0'), Origin('~/spawn'))
-    sim.requests.submit(Delete(name='a/1'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
+    sim.requests.submit(Delete(name='a/1'), topic='~/spawn')
     sim.requests.refuse(Malformed('no number'), Origin('~/spawn', field='pose'), subject='a/1')
-    sim.requests.submit(spawning('a/1', DISC, (5.0, 0.0, 0.0)), Origin('~/spawn_array'))
-    sim.requests.submit(Command(names=('a/1',), twists=((1.0, 0.0, 0.0),)), Origin('~/command'))
-    sim.requests.submit(Anchor(point=(9.0, 9.0)), Origin('~/anchor'))
-    sim.requests.submit(Anchor(point=(0.0, 0.0)), Origin('~/anchor'))
-    sim.requests.submit(DeleteAll(namespace='b'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/1', DISC, (5.0, 0.0, 0.0)), topic='~/spawn_array')
+    sim.requests.submit(Command(names=('a/1',), twists=((1.0, 0.0, 0.0),)), topic='~/command')
+    sim.requests.submit(Anchor(point=(9.0, 9.0)), topic='~/anchor')
+    sim.requests.submit(Anchor(point=(0.0, 0.0)), topic='~/anchor')
+    sim.requests.submit(DeleteAll(namespace='b'), topic='~/spawn')
     assert len(sim.world) == 0
 
     frames = periods(sim, 3)
@@ -128,7 +128,7 @@ def test_requests_are_answered_in_order_and_one_each():
 )  # fmt: skip
 def test_a_refusal_names_the_body_that_it_is_about(request_, subject):
     sim = simulation()
-    sim.requests.submit(request_, Origin('~/topic'))
+    sim.requests.submit(request_, topic='~/topic')
 
     (answer,) = answers(periods(sim, 1))
 
@@ -152,8 +152,8 @@ def test_a_paused_world_carries_out_requests_and_shows_them():
     periods(sim, 1)
     assert periods(sim, 60, since=1) == []
 
-    sim.requests.submit(spawning('a/0', DISC, velocity=(1.0, 0.0)), Origin('~/spawn'))
-    sim.requests.submit(Delete(name='a/9'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0', DISC, velocity=(1.0, 0.0)), topic='~/spawn')
+    sim.requests.submit(Delete(name='a/9'), topic='~/spawn')
     (frame,) = periods(sim, 60, since=61)
 
     assert (frame.moved, frame.speed) == (False, 0.0)
@@ -182,7 +182,7 @@ def test_play_and_pause_go_on_where_they_were():
 
 def test_two_frames_a_call_make_up_for_a_hiccup_and_more_are_counted_as_late():
     sim = simulation()
-    sim.requests.submit(spawning('a/0'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
     sim.advance(0)
 
     frames = [sim.advance(round(number * PERIOD)) for number in (4, 5, 6, 7, 8)]
@@ -201,7 +201,7 @@ def test_two_frames_a_call_make_up_for_a_hiccup_and_more_are_counted_as_late():
 
 def test_advance_frame_goes_on_by_a_period_whatever_the_speed():
     sim = simulation(speed=0.0)
-    sim.requests.submit(spawning('a/0'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     frame = sim.advance_frame()
 
@@ -223,7 +223,7 @@ def test_settle_carries_out_what_was_asked_and_goes_nowhere():
     sim = simulation()
     sim.advance(0)
     assert sim.apply_requests() is None
-    sim.requests.submit(spawning('a/0'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     frame = sim.apply_requests()
 
@@ -234,7 +234,7 @@ def test_settle_carries_out_what_was_asked_and_goes_nowhere():
 
 def test_perform_is_at_once_after_those_that_wait():
     sim = simulation()
-    sim.requests.submit(spawning('a/0'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     assert sim.perform(Delete(name='a/0')) == 'deleted a/0'
 
@@ -285,7 +285,7 @@ def saved(settings: WorldSettings) -> World:
 
 def test_load_replaces_the_world_and_time_goes_on():
     sim = simulation()
-    sim.requests.submit(spawning('b/0'), Origin('~/spawn'))
+    sim.requests.submit(spawning('b/0'), topic='~/spawn')
     periods(sim, 11)
     world = saved(WorldSettings(gravity=(0.0, -1.0)))
 
@@ -313,7 +313,7 @@ def test_reset_returns_to_what_was_loaded_at_time_0():
 
     for _ in range(2):
         periods(sim, 7)
-        sim.requests.submit(spawning('b/0'), Origin('~/spawn'))
+        sim.requests.submit(spawning('b/0'), topic='~/spawn')
         sim.perform(Configure(changes={'damping': 0.5, 'gravity': (1.0, 1.0)}))
         sim.reports_contacts = True
         message = sim.reset()
@@ -327,7 +327,7 @@ def test_reset_returns_to_what_was_loaded_at_time_0():
 
 def test_reset_without_a_load_empties_the_world():
     sim = simulation()
-    sim.requests.submit(spawning('a/0'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
     periods(sim, 5)
     sim.perform(Configure(changes={'gravity': (0.0, -9.0)}))
 
@@ -341,7 +341,7 @@ def test_reset_without_a_load_empties_the_world():
 def test_reset_answers_those_that_wait_first():
     sim = simulation()
     sim.advance(0)
-    sim.requests.submit(spawning('a/0'), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
     sim.reset()
 
@@ -363,7 +363,7 @@ def test_time_after_a_reset_begins_without_a_jump():
 
 def test_contacts_come_where_somebody_watches():
     sim = simulation(settings=WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0)))
-    sim.requests.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), Origin('~/spawn'))
+    sim.requests.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), topic='~/spawn')
     assert {frame.contacts for frame in periods(sim, 30)} == {None}
 
     sim.reports_contacts = True
@@ -377,8 +377,8 @@ def test_contacts_come_where_somebody_watches():
 
 def test_a_lost_body_is_told_of():
     sim = simulation(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=0.0))
-    sim.requests.submit(spawning('a/0', DISC, mass=1e-9), Origin('~/spawn'))
-    sim.requests.submit(Command(names=('a/0',), wrenches=((1e12, 0.0, 0.0),)), Origin('~/command'))
+    sim.requests.submit(spawning('a/0', DISC, mass=1e-9), topic='~/spawn')
+    sim.requests.submit(Command(names=('a/0',), wrenches=((1e12, 0.0, 0.0),)), topic='~/command')
 
     told = answers(periods(sim, 5))
 
@@ -399,11 +399,11 @@ def test_a_machine_of_extreme_sizes_stays_within_the_range_of_numbers():
         spawning('a/1', needle, (-2.0, 1e7, -0.14), velocity=(0.0, 7e4)),
         spawning('a/2', Box(width=1e-3, height=0.1), (-1.0, -1e7, 0.0), mass=1e-3),
     ):
-        sim.requests.submit(spawned, Origin('~/spawn'))
+        sim.requests.submit(spawned, topic='~/spawn')
     pin = joining('pin', [(-2.0, 1e7)], 'j/0', a='a/0', b='a/2')
     slider = joining('slider', [(0.0, 1e7), (0.001, 1e7)], 'j/1', a='a/0')
     for joined in (pin, slider):
-        sim.requests.submit(joined, Origin('~/join'))
+        sim.requests.submit(joined, topic='~/join')
 
     told = answers(periods(sim, 40))
 
@@ -414,7 +414,7 @@ def test_a_machine_of_extreme_sizes_stays_within_the_range_of_numbers():
 def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_steps():
     slow, fast = (Simulation(speed=64.0) for _ in range(2))
     for simulation in (slow, fast):
-        simulation.requests.submit(spawning('a/0', DISC), Origin('~/spawn'))
+        simulation.requests.submit(spawning('a/0', DISC), topic='~/spawn')
     now = 0
 
     while slow.step < 256:
@@ -436,9 +436,9 @@ def test_speed_changes_nothing_but_when_frames_come():
         sim = simulation(speed, settings)
         for number in range(6):
             box = spawning(f'a/{number}', BOX, (0.2 * number, 0.6 + 1.1 * number, 0.1))
-            sim.requests.submit(box, Origin('~/spawn'))
+            sim.requests.submit(box, topic='~/spawn')
         command = Command(names=('a/5',), wrenches=((1.0, 2.0, 0.1),))
-        sim.requests.submit(command, Origin('~/command'))
+        sim.requests.submit(command, topic='~/command')
         calls = 0
         # Ticks come so often that a fractional speed makes no more than a step at a time.
         while sim.world.step_count < 32 * FRAME:

@@ -22,7 +22,6 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -304,6 +303,6 @@ def test_requests_of_one_gesture_are_counted():
     sim = Simulation(speed=0.0)
     for number in range(3):
         box = spawning(f'a/{number}', BOX, (2.0 * number, 0, 0))
-        sim.requests.submit(box, Origin(''), joined=number > 0)
+        sim.requests.submit(box, topic='', joined=number > 0)
     sim.apply_requests()
     assert sim.status.undo == 'undo spawn a/0 and 2 more'

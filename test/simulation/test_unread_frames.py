@@ -6,7 +6,6 @@
 import numpy as np
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.frame_maker import UNREAD_PERIODS
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -25,7 +24,7 @@ def bouncing() -> Simulation:
     simulation.reports_contacts = True
     for number in range(4):
         disc = spawning(f'disc/{number}', DISC, (0.3 * number, 0.5 * number + 0.6, 0.0))
-        simulation.requests.submit(disc, Origin('~/spawn'))
+        simulation.requests.submit(disc, topic='~/spawn')
     simulation.advance(0)
     return simulation
 
@@ -74,7 +73,7 @@ def test_one_frame_a_second_is_made_for_those_who_come_late(unread):
 
 def test_an_answer_comes_with_the_next_frame_read_or_not(unread):
     ticked(unread, 1, 3)
-    unread.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn'))
+    unread.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     (frame,) = ticked(unread, 4, 6)
     assert [answer.subject for answer in frame.answers] == ['late/0']
     assert frame.snapshot.step == 4 * unread.frame_steps
@@ -88,7 +87,7 @@ def test_a_joint_that_breaks_makes_a_frame(unread):
 
 def test_a_body_whose_time_is_over_makes_a_frame(unread):
     short = spawning('short/0', DISC, (5.0, 9.0, 0.0), lifetime=0.1)
-    unread.requests.submit(short, Origin('~/spawn'))
+    unread.requests.submit(short, topic='~/spawn')
     spawned, gone = ticked(unread, 1, AWAY)
     assert 'short/0' in spawned.snapshot.scene.names
     assert 'short/0' not in gone.snapshot.scene.names
@@ -127,7 +126,7 @@ def test_a_pause_shows_the_last_step(unread):
 
 
 def test_a_setting_that_changes_makes_a_frame(unread):
-    unread.requests.submit(Configure(changes={'gravity': (0.0, 1.0)}), Origin('~/gravity'))
+    unread.requests.submit(Configure(changes={'gravity': (0.0, 1.0)}), topic='~/gravity')
     (frame,) = ticked(unread, 1, 5)
     assert frame.snapshot.scene.settings.gravity == (0.0, 1.0)
 

@@ -12,7 +12,6 @@ import time
 from physsim_ros.files import load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.parts import at_once
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
@@ -73,7 +72,7 @@ def test_while_nothing_moves_a_change_is_kept_within_a_second(tmp_path: Path) ->
     autosave = Autosave(tmp_path, empty)
     simulation.speed = 0.0
     for name in ('a/0', 'a/1'):
-        simulation.requests.submit(spawning(name, BOX), Origin('~/spawn'))
+        simulation.requests.submit(spawning(name, BOX), topic='~/spawn')
         frame = simulation.apply_requests()
         assert frame is not None
         autosave.note_frame(frame, drawn=True)
@@ -85,7 +84,7 @@ def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> 
     simulation = Simulation()
     autosave = Autosave(tmp_path, empty)
     drawn(simulation, autosave, 'a/0')
-    simulation.requests.submit(Restore(state=Simulation().save()), Origin('~/load_world'))
+    simulation.requests.submit(Restore(state=Simulation().save()), topic='~/load_world')
     autosave.note_frame(simulation.advance_frame(), drawn=True)
     assert not autosave.is_due(time.monotonic())
     drawn(simulation, autosave, 'a/0')
@@ -95,7 +94,7 @@ def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> 
 def test_a_lesson_that_a_page_opened_is_kept_for_the_next_start(tmp_path: Path) -> None:
     simulation = Simulation()
     autosave = Autosave(tmp_path, empty)
-    simulation.requests.submit(Restore(state=state_of('lever')), Origin('~/load_world'))
+    simulation.requests.submit(Restore(state=state_of('lever')), topic='~/load_world')
     autosave.note_frame(simulation.advance_frame(), drawn=True)
     assert autosave.is_due(time.monotonic())
 

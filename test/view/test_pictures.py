@@ -14,7 +14,6 @@ import itertools
 import numpy as np
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.shapes import Box, Disc, Polygon
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -128,7 +127,7 @@ def test_bodies_are_where_they_were_in_the_past_in_a_branch_and_now(film):
     run(30, 'past')
     simulation.speed = 1.0
     stone = spawning('stone/0', Disc(radius=0.6), (0.0, 1.5, 0.0), color=BLUE)
-    simulation.requests.submit(stone, Origin('~/spawn'))
+    simulation.requests.submit(stone, topic='~/spawn')
     run(60, 'branch')
 
     pictures = {mark: film.look(mark) for mark in ('first', 'past', 'branch')}

@@ -13,7 +13,6 @@ import sys
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings
 from physsim_ros.files import drawings, load_drawing, shipped_worlds
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import yaml
 
@@ -36,7 +35,7 @@ def scene(name):
     frame = sim.advance_frame()
     for _, stroke in load_drawing(name):
         for request in pen.stroke(stroke, '', frame.snapshot).requests:
-            sim.requests.submit(request, Origin('~/stroke'))
+            sim.requests.submit(request, topic='~/stroke')
         frame = sim.apply_requests() or frame
     return sim
 

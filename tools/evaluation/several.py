@@ -42,7 +42,7 @@ class Sheet:
     def __init__(self, under: Sequence[Spawn] = ()) -> None:
         self.simulation = Simulation(speed=0.0)
         for request in under:
-            self.simulation.requests.submit(request, Origin(''))
+            self.simulation.requests.submit(request, topic='')
         self.session = DrawingSession(DrawingSettings())
         self.frame = self.simulation.advance_frame()
         self.frame = self.simulation.apply_requests() or self.frame

@@ -11,7 +11,6 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import MoveBodies, Spawn
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.entries import Origin
 
 # A robot drives along its path, on which a crate stands behind a shelf, seen from above.
 YARD = """
@@ -78,7 +77,7 @@ class _Story:
             color=(0.9, 0.3, 0.2, 1.0),
             properties=Properties(anchored=True),
         )
-        self.simulation.requests.submit(spawn, Origin('~/spawn'))
+        self.simulation.requests.submit(spawn, topic='~/spawn')
 
     def run(self, count: int, speed: float) -> None:
         """Play some periods at a speed."""
@@ -90,4 +89,4 @@ class _Story:
     def move_obstacle(self, x: float, y: float) -> None:
         """Move the obstacle by some metres, at the moment that is shown."""
         move = MoveBodies(names=('wall/0',), by=(x, y))
-        self.simulation.requests.submit(move, Origin('page'))
+        self.simulation.requests.submit(move, topic='page')

@@ -16,7 +16,8 @@
 // 1. False contacts: polygons whose normal points from the second to the first, and which a face separates (separating
 //    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1). Chipmunk ignores the contact in this step, and in
 //    the next one what it finds counts as a first touch.
-//    So are those of bodies that pass a one-way body (`one_way.c`).
+//    So are those of bodies that pass a one-way body (`one_way.c`), and polygons that have met by rounding as the
+//    sub-step ends: of two faces one corner is in, which turned boxes that slide on a floor.
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc first meets the
 //    other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over.
@@ -29,9 +30,13 @@
 // impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over seams
 // (`test/engine/stages/test_internal_edges.py`). Part 1 can go when GJK is exact.
 
+#include "impact_propagation.h"
 #include "one_way.h"
 #include "stages.h"
 #include "touch_stages.h"
+
+// The greatest overlap of faces that have met by rounding [m]: their bodies lie on others to 1e-10 rad.
+static const double rounding_of_faces = 1e-8;
 
 // Whether a contact begins in this step, or was ignored in the step before.
 static bool begins(const cpArbiter *arbiter) {
@@ -62,6 +67,17 @@ static bool is_false(cpArbiter *arbiter) {
 // Whether a disc touches a shape with edges; Chipmunk has the disc first.
 static bool is_disc_on_edges(const cpArbiter *arbiter) {
     return kind_of(arbiter->a) == SHAPE_CIRCLE && kind_of(arbiter->b) != SHAPE_CIRCLE;
+}
+
+// Whether polygons have met by rounding, as the sub-step ends: the next one finds whether by a face or a corner.
+// Continuous collision has stopped others there.
+static bool meets_next(const World *world, cpArbiter *arbiter) {
+    bool stopped = body_of(arbiter->body_a)->scratch.left > 0.0 || body_of(arbiter->body_b)->scratch.left > 0.0;
+    if (stopped || arbiter->count != 1 || kind_of(arbiter->a) == SHAPE_CIRCLE || kind_of(arbiter->b) == SHAPE_CIRCLE) {
+        return false;
+    }
+    Touch touch = touch_of(arbiter);
+    return -distance_of(&touch, 0) < rounding_of_faces && approach_of(arbiter) * world->dt > rounding_of_faces;
 }
 
 // Turn the contact of a disc, which has begun before.
@@ -96,7 +112,8 @@ void correct_first_touches(World *world) {
     find_passing(world);
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (passes(world, arbiter) || (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter))) {
+        if (passes(world, arbiter) || (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter)) ||
+            (begins(arbiter) && meets_next(world, arbiter))) {
             ignore(arbiter);
         } else if (begins(arbiter)) {
             arbiter->data = NULL;

@@ -136,9 +136,9 @@ class RequestTopics:
 
         for number, marker in enumerate(message.markers):
             unread = Unread(conversions.name_of(marker), partial(convert, marker))
-            self._requests.submit(unread, Origin(topic), joined=number > 0)
+            self._requests.submit(unread, topic=topic, joined=number > 0)
 
     def _make_walls(self, message: OccupancyGrid) -> None:
         requests = conversions.walls_requests(message, frame_id=self._frame_id)
         for number, request in enumerate(requests):
-            self._requests.submit(request, Origin('~/walls'), joined=number > 0)
+            self._requests.submit(request, topic='~/walls', joined=number > 0)

@@ -137,7 +137,7 @@ class Fleet:
         else:
             commands.note_carried_out()
             # Undone together with what was asked before it: nobody undoes a tick.
-            self._requests.submit(request, Origin(topic), joined=True)
+            self._requests.submit(request, topic=topic, joined=True)
 
     @property
     def _commands(self) -> list[Commands]:

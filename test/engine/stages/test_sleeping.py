@@ -11,7 +11,6 @@ import numpy as np
 from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Polygon
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -198,11 +197,11 @@ def test_rewinding_through_falling_asleep_and_waking_gives_the_same_bits():
     sim = Simulation(settings=YARD)
     for number in range(3):
         pose_of = (0.0, 0.5 + number, 0.0)
-        sim.requests.submit(spawning(f'stack/{number}', BOX, pose_of), Origin('~/spawn'))
+        sim.requests.submit(spawning(f'stack/{number}', BOX, pose_of), topic='~/spawn')
     asleep = course(sim, 1200)
     assert len(sleepers(sim.world)) == 3
     ball = spawning('ball/0', Disc(radius=0.2), (-3.0, 1.5, 0.0), velocity=(9.0, 0.0))
-    sim.requests.submit(ball, Origin('~/spawn'))
+    sim.requests.submit(ball, topic='~/spawn')
     awake = course(sim, 1800)
 
     for back in (1300, 900, 200):
