@@ -4,6 +4,7 @@
 // The beginning and the end of a world, and its tables.
 
 #include "joint_parts.h"
+#include "one_way.h"
 #include "stages.h"
 #include <stdlib.h>
 
@@ -42,12 +43,19 @@ void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *f
     world->bodies = bodies;
     world->body_count = count;
     world->statics_moved = true;
-    world->own->least_depth = INFINITY;
-    free(world->own->pulls);
-    world->own->pulls = NULL;
+    Private *own = world->own;
+    own->least_depth = INFINITY;
+    own->has_floor = own->has_one_way = own->has_belt = own->has_rolling = false;
+    free(own->pulls);
+    own->pulls = NULL;
     for (int place = 0; place < count; place++) {
-        bodies[place].engine->userData = bodies + place;
-        world->own->least_depth = least(world->own->least_depth, bodies[place].safe_depth);
+        Body *body = bodies + place;
+        body->engine->userData = body;
+        own->least_depth = least(own->least_depth, body->safe_depth);
+        own->has_floor = own->has_floor || body->braking > 0.0;
+        own->has_one_way = own->has_one_way || is_one_way(body);
+        own->has_belt = own->has_belt || body->belt != 0.0;
+        own->has_rolling = own->has_rolling || body->rolling > 0.0;
     }
 }
 

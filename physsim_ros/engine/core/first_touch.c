@@ -64,6 +64,11 @@ static bool is_false(cpArbiter *arbiter) {
     return false;
 }
 
+// Whether a disc touches a shape with edges; Chipmunk has the disc first.
+static bool is_disc_on_edges(const cpArbiter *arbiter) {
+    return kind_of(arbiter->a) == SHAPE_CIRCLE && kind_of(arbiter->b) != SHAPE_CIRCLE;
+}
+
 // Whether polygons have met by rounding, as the sub-step ends: the next one finds whether by a face or a corner.
 // Continuous collision has stopped others there.
 static bool meets_next(const World *world, cpArbiter *arbiter) {
@@ -114,7 +119,7 @@ void correct_first_touches(World *world) {
             arbiter->data = NULL;
             arbiter->state = ARBITER_FIRST_COLLISION;
             touches[count++] = touch_of(arbiter);
-        } else if (has_stage(world, STAGE_EDGES) && kind_of(arbiter->a) == SHAPE_CIRCLE) {
+        } else if (has_stage(world, STAGE_EDGES) && is_disc_on_edges(arbiter)) {
             roll_over_edge(arbiter);
         }
     }

@@ -218,15 +218,6 @@ static Driving driving_of(const World *world, int place, const Robot **robot, co
     return driving;
 }
 
-bool has_floor(const World *world) {
-    for (int place = 0; place < world->body_count; place++) {
-        if (world->bodies[place].braking > 0.0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 void pull_by_floor(World *world) {
     if (!has_stage(world, STAGE_FLOOR)) {
         return;

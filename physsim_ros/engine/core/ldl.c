@@ -145,7 +145,8 @@ void ldl_solve(const Ldl *system, double *x) {
     const int *starts = system->factor_starts;
     for (int column = 0; column < system->size; column++) {
         double value = x[column];
-        for (int below = starts[column]; below < starts[column + 1]; below++) {
+        // Where bodies come first, half of the columns have nothing to take off.
+        for (int below = starts[column]; value != 0.0 && below < starts[column + 1]; below++) {
             x[system->factor_rows[below]] -= system->factors[below] * value;
         }
     }

@@ -34,8 +34,7 @@ void begin_wishes(World *world);
 bool find_wish(World *world);
 void move_actors(World *world);
 
-// The floor, with drives and odometry of robots (`floor.c`, `drives.c`), and whether it acts on any body.
-bool has_floor(const World *world);
+// The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
 void pull_by_floor(World *world);
 void find_pushes(World *world);
 void roll_wheels(World *world);

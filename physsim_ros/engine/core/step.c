@@ -175,7 +175,6 @@ int32_t core_step(World *world, int32_t count) {
     Private *own = world->own;
     double began = wall_clock();
     int32_t made = 0;
-    own->has_floor = has_floor(world);
     own->kept = pow(world->space->damping, world->dt);
     own->push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     world->has_broken = world->has_lost = false;

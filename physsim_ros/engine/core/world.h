@@ -42,9 +42,10 @@ typedef struct Private {
     int system_count;
     Arena system_arenas[2];
     int system_turn;
-    int call_step;               // number of the step in this call
-    bool all_active;             // requests may have changed any body since the last sub-step
-    bool has_floor;              // there is a body on which a floor acts
+    int call_step;   // number of the step in this call
+    bool all_active; // requests may have changed any body since the last sub-step
+    // Whether there is a body on which a floor acts; one-way, with a belt, with rolling resistance.
+    bool has_floor, has_one_way, has_belt, has_rolling;
     int sub_step;                // number of the sub-step in this step
     int wishing;                 // number of the actor whose wish is found next
     bool wishes;                 // wishes of actors are found, before the first sub-step
