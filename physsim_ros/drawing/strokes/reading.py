@@ -181,6 +181,7 @@ def measures_of(guesses: Sequence[Guess], context: Context) -> dict[str, float]:
         'bodies': float(bool(context.scene.names)),
         f'read as {guesses[0].meaning}': 1.0,
         **{f'form {form.name}': form.weight for form in context.forms},
+        **{name: value for form in context.forms for name, value in form.measures.items()},
     }
 
 
