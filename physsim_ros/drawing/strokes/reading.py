@@ -103,10 +103,12 @@ class Reading(Outcome):
     :param guesses: one to three: first that of the reading, then the others, the likeliest first
     :param amends: numbers of earlier gestures that the requests replace: the stroke was read
         together with earlier ones, or anew
+    :param also: meanings that earlier strokes now have, over its new body
     """
 
     guesses: tuple[Guess, ...]
     amends: tuple[int, ...] = ()
+    also: tuple[str, ...] = ()
 
     @property
     def meaning(self) -> str:
