@@ -16,8 +16,8 @@
 // 1. False contacts: polygons whose normal points from the second to the first, and which a face separates (separating
 //    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1). Chipmunk ignores the contact in this step, and in
 //    the next one what it finds counts as a first touch.
-//    So are those of bodies that pass a one-way body (`one_way.c`), and polygons that have met by rounding as the
-//    sub-step ends: of two faces one corner is in, which turned boxes that slide on a floor.
+//    So are those of bodies that pass a one-way body (`one_way.c`), and polygons whose faces have met by
+//    rounding as the sub-step ends: one corner alone is in, which turned boxes that slide on a floor.
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc first meets the
 //    other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over.
@@ -69,7 +69,18 @@ static bool is_disc_on_edges(const cpArbiter *arbiter) {
     return kind_of(arbiter->a) == SHAPE_CIRCLE && kind_of(arbiter->b) != SHAPE_CIRCLE;
 }
 
-// Whether polygons have met by rounding, as the sub-step ends: the next one finds whether by a face or a corner.
+// Whether two corners of a polygon are its furthest in a direction, to rounding.
+static bool has_face(const cpShape *polygon, Vec direction) {
+    double first = -INFINITY, second = -INFINITY;
+    for (int number = 0; number < corner_count(polygon); number++) {
+        double height = dot(corner_in_world(polygon, number).place, direction);
+        second = greatest(second, least(first, height));
+        first = greatest(first, height);
+    }
+    return first - second < rounding_of_faces;
+}
+
+// Whether faces have met by rounding, as the sub-step ends: the next one finds whether by a face or a corner.
 // Continuous collision has stopped others there.
 static bool meets_next(const World *world, cpArbiter *arbiter) {
     bool stopped = body_of(arbiter->body_a)->scratch.left > 0.0 || body_of(arbiter->body_b)->scratch.left > 0.0;
@@ -77,7 +88,8 @@ static bool meets_next(const World *world, cpArbiter *arbiter) {
         return false;
     }
     Touch touch = touch_of(arbiter);
-    return -distance_of(&touch, 0) < rounding_of_faces && approach_of(arbiter) * world->dt > rounding_of_faces;
+    return -distance_of(&touch, 0) < rounding_of_faces && approach_of(arbiter) * world->dt > rounding_of_faces &&
+           has_face(arbiter->a, touch.normal) && has_face(arbiter->b, negated(touch.normal));
 }
 
 // Turn the contact of a disc, which has begun before.

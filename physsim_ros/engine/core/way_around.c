@@ -17,7 +17,7 @@
 #include "way_around.h"
 #include "outline.h"
 
-static const double half_turn = 3.141592653589793;
+static const double straight_angle = 3.141592653589793;
 // Both ways are equal within this share [1], more than rounding.
 static const double equal_share = 1e-9;
 
@@ -34,7 +34,7 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
     for (int number = 0; number < corner_count(wall); number++) {
         Vec corner = corner_in_world(wall, number).place, way = sub(corner, from);
         double angle = atan2(cross(ahead, way), dot(ahead, way)), distance = length(way);
-        double half = distance > grown ? asin(grown / distance) : half_turn / 2.0;
+        double half = distance > grown ? asin(grown / distance) : straight_angle / 2.0;
         span->left = greatest(span->left, angle + half);
         span->right = least(span->right, angle - half);
         if (angle > greatest_angle) {
@@ -45,7 +45,7 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
         }
     }
     // More than half a turn is spanned by a wall behind the point or around it.
-    return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < half_turn;
+    return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < straight_angle;
 }
 
 static bool minds(const World *world, const Disc *self, const cpShape *wall, Nearest *nearest) {
@@ -71,8 +71,8 @@ static const cpShape *wall_in_way(const World *world, const Surroundings *around
 }
 
 // Whether another wall leaves no room at an end of a wall, beside which a pedestrian walks in a direction.
-static bool is_closed(const World *world, const Surroundings *around, const Disc *self, const cpShape *wall, Vec end,
-                      Vec beside) {
+static bool is_blocked(const World *world, const Surroundings *around, const Disc *self, const cpShape *wall, Vec end,
+                       Vec beside) {
     Vec place = add(end, scaled(beside, self->radius + radius_of(wall)));
     for (int number = 0; number < around->anchored_count; number++) {
         const cpShape *other = around->anchored[number];
@@ -98,14 +98,14 @@ Vec heading_to(const World *world, const Surroundings *around, const Disc *self,
         return ahead;
     }
     Vec left = rotated(ahead, rotation(span.left)), right = rotated(ahead, rotation(span.right));
-    bool left_closed = is_closed(world, around, self, wall, span.left_end, perpendicular(left));
-    bool right_closed = is_closed(world, around, self, wall, span.right_end, negated(perpendicular(right)));
+    bool left_blocked = is_blocked(world, around, self, wall, span.left_end, perpendicular(left));
+    bool right_blocked = is_blocked(world, around, self, wall, span.right_end, negated(perpendicular(right)));
     double by_left = length(sub(span.left_end, self->place)) + length(sub(point, span.left_end));
     double by_right = length(sub(span.right_end, self->place)) + length(sub(point, span.right_end));
     double more = by_left - by_right;
     if (fabs(more) <= equal_share * by_right) {
         more = span.left + span.right + equal_share;
     }
-    bool turns_left = left_closed == right_closed ? more < 0.0 : right_closed;
+    bool turns_left = left_blocked == right_blocked ? more < 0.0 : right_blocked;
     return turns_left ? left : right;
 }
