@@ -10,10 +10,18 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 import sys
 from typing import Any
+import zlib
 
 from physsim_ros.convert import flatland, irsim, rube, tiled
 from physsim_ros.convert.conversion import Conversion
-from physsim_ros.files import advice_on_xml, CONVERTED, kind_of, load_world
+from physsim_ros.files import (
+    advice_on_xml,
+    CONVERTED,
+    kind_of,
+    load_world,
+    MOST_BYTES,
+    read_bytes,
+)
 from physsim_ros.model.errors import BadWorldFile, Refusal
 import yaml
 
@@ -23,6 +31,11 @@ _CONVERTERS: Mapping[str, Callable[[Mapping[str, Any], Path], Conversion]] = {
     'Tiled': tiled.convert,
     'R.U.B.E.': rube.convert,
 }
+# Errors of PyYAML and the converters over a file with a mistake.
+_MISTAKES = (
+    *(ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError),
+    zlib.error,
+)
 
 
 def convert(source: Path) -> Conversion:
@@ -33,17 +46,18 @@ def convert(source: Path) -> Conversion:
     :raises Refusal: it is of no kind that is converted, or has a mistake
     :raises OSError: it cannot be read
     """
-    text = source.read_text(encoding='utf-8')
+    text = read_bytes(source, MOST_BYTES).decode()
     if advice := advice_on_xml(text):
         raise Refusal(advice)
-    # These programs take what a world file does not, as a key that is there twice.
-    content = yaml.safe_load(text)
-    kind = kind_of(content) if isinstance(content, Mapping) else ''
-    if kind not in _CONVERTERS:
-        raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
+    kind = 'any program'
     try:
+        # These programs take what a world file does not, as a key that is there twice.
+        content = yaml.safe_load(text)
+        kind = kind_of(content) if isinstance(content, Mapping) else ''
+        if kind not in _CONVERTERS:
+            raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
         return _CONVERTERS[kind](content, source.parent)
-    except (AttributeError, KeyError, IndexError, TypeError, ValueError) as error:
+    except _MISTAKES as error:
         raise Refusal(f'{source.name} is no valid world of {kind}: {error!r}') from error
 
 

@@ -16,6 +16,8 @@ from typing import Any
 from physsim_ros.files import yaml_line
 from physsim_ros.model.transform import Point, Pose
 
+# Greatest number of bodies, the default of parameter `max_bodies`.
+MOST_BODIES = 20_000
 # Thickness of outlines that are lines [m], and corners of a disc that becomes a polygon.
 THICKNESS = 0.05
 _CORNERS = 24
@@ -34,12 +36,21 @@ class Conversion:
     bodies: list[dict[str, object]] = field(default_factory=list)
     joints: list[dict[str, object]] = field(default_factory=list)
     left_out: Counter[str] = field(default_factory=Counter)
+    # Numbers of bodies and of joints by their names without ids.
+    _bodies_of: Counter[str] = field(default_factory=Counter)
+    _joints_of: Counter[str] = field(default_factory=Counter)
 
     def add_body(
         self, name: str, shape: Mapping[str, object], at: Pose, **properties: object
     ) -> str:
-        """Add a body; return its name, which is `<name>/<id>`."""
-        full = _unused(name or 'body', self.bodies)
+        """
+        Add a body; return its name, which is `<name>/<id>`.
+
+        :raises ValueError: there are too many
+        """
+        if len(self.bodies) >= MOST_BODIES:
+            raise ValueError(f'more than {MOST_BODIES:,} bodies')
+        full = _next_name(name or 'body', self._bodies_of)
         self.bodies.append({'name': full, **shape, 'at': [*at], **properties})
         return full
 
@@ -47,7 +58,7 @@ class Conversion:
         self, name: str, kind: str, points: Sequence[Point], **properties: object
     ) -> None:
         """Add a joint; `a` and `b` are among its properties."""
-        full = _unused(name or kind, self.joints)
+        full = _next_name(name or kind, self._joints_of)
         places = [[x, y] for x, y in points]
         self.joints.append({'name': full, 'kind': kind, 'points': places, **properties})
 
@@ -175,14 +186,11 @@ def composed(pose: Pose, other: Sequence[float]) -> Pose:
     return x, y, pose[2] + (other[2] if len(other) > 2 else 0.0)
 
 
-def _unused(name: str, entries: Sequence[Mapping[str, object]]) -> str:
-    """Return the first free `<name>/<id>`."""
+def _next_name(name: str, counts: Counter[str]) -> str:
+    """Return the next `<name>/<id>`, and count it."""
     plain = re.sub(r'[^\w.-]+', '_', name) or 'body'
-    taken = {entry['name'] for entry in entries}
-    number = 0
-    while f'{plain}/{number}' in taken:
-        number += 1
-    return f'{plain}/{number}'
+    counts[plain] += 1
+    return f'{plain}/{counts[plain] - 1}'
 
 
 def pose_of(values: Any) -> Pose:

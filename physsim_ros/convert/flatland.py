@@ -26,6 +26,7 @@ from physsim_ros.convert.conversion import (
     pose_of,
     shape_of,
 )
+from physsim_ros.files import MOST_BYTES, read_bytes
 from physsim_ros.model.transform import Pose
 import yaml
 
@@ -198,5 +199,5 @@ def _laser_of(plugin: Content, name: str) -> dict[str, object]:
 
 
 def _load(path: Path) -> Content:
-    content: Content = yaml.safe_load(path.read_text('utf-8'))
+    content: Content = yaml.safe_load(read_bytes(path, MOST_BYTES))
     return content

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from physsim_ros.convert.conversion import Conversion, line_shape, pose_of
+from physsim_ros.convert.conversion import Conversion, line_shape, MOST_BODIES, pose_of
 from physsim_ros.model.transform import Pose
 
 Content = Mapping[str, Any]
@@ -53,6 +53,8 @@ def convert(content: Content, _folder: Path) -> Conversion:
 
 def _add_group(conversion: Conversion, group: Content, kind: str) -> None:
     number = int(group.get('number', 1))
+    if number > MOST_BODIES:
+        raise ValueError(f'more than {MOST_BODIES:,} bodies')
     poses = _poses(conversion, group, number)
     for i, pose in enumerate(poses):
         described = _nth(group.get('shape', {'name': 'circle', 'radius': 0.2}), i)

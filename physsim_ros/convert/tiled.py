@@ -11,8 +11,7 @@ of properties of bodies are those.
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable, Mapping, Sequence
-import gzip
+from collections.abc import Mapping, Sequence
 import math
 from pathlib import Path
 from typing import Any
@@ -25,20 +24,17 @@ from physsim_ros.convert.conversion import (
     Conversion,
     disc_outline,
     line_shape,
+    MOST_BODIES,
     moved,
 )
 from physsim_ros.files import PROPERTIES
-from physsim_ros.maps import rectangles_of
+from physsim_ros.maps import MOST_CELLS, rectangles_of
 from physsim_ros.model.transform import Point
 
 Content = Mapping[str, Any]
 
-_MOST_BOXES = 20_000
-_UNPACK: Mapping[str, Callable[[bytes], bytes]] = {
-    '': bytes,
-    'zlib': zlib.decompress,
-    'gzip': gzip.decompress,
-}
+# Window bits of zlib for data with the header of gzip or of zlib (zlib.h, `inflateInit2`).
+_ANY_HEADER = zlib.MAX_WBITS | 32
 
 
 def convert(content: Content, _folder: Path) -> Conversion:
@@ -108,7 +104,7 @@ def _add_tiles(conversion: Conversion, tiled: Content, layer: Content, offset: P
         tiles = _tiles_of(chunk, layer)
         across, down = tiled['tilewidth'], tiled['tileheight']
         x, y = (chunk.get(key, 0) for key in ('x', 'y'))
-        for top, left, bottom, right in rectangles_of(tiles != 0, _MOST_BOXES).tolist():
+        for top, left, bottom, right in rectangles_of(tiles != 0, MOST_BODIES).tolist():
             size = float(right - left), (bottom - top) * down / across
             middle = (
                 (left + right) / 2 + x + offset[0] / across,
@@ -120,13 +116,22 @@ def _add_tiles(conversion: Conversion, tiled: Content, layer: Content, offset: P
 
 def _tiles_of(chunk: Content, layer: Content) -> NDArray[np.uint32]:
     """Return the numbers of the tiles of a chunk, (rows, columns) uint32; 0 is none."""
-    data = chunk['data']
-    if isinstance(data, str):
-        unpack = _UNPACK[layer.get('compression', '')]
-        return np.frombuffer(unpack(base64.b64decode(data)), '<u4').reshape(
-            chunk['height'], chunk['width']
-        )
-    return np.array(data, np.uint32).reshape(chunk['height'], chunk['width'])
+    data, size = chunk['data'], (chunk['height'], chunk['width'])
+    if math.prod(size) > MOST_CELLS:
+        raise ValueError(f'a layer of more than {MOST_CELLS:,} tiles')
+    if not isinstance(data, str):
+        return np.array(data, np.uint32).reshape(size)
+    packed = base64.b64decode(data)
+    match layer.get('compression', ''):
+        case '':
+            tiles = packed
+        case 'zlib' | 'gzip':
+            # A small file may unfold to gigabytes; a byte too many is an error of numpy's.
+            most = 4 * math.prod(size) + 1
+            tiles = zlib.decompressobj(_ANY_HEADER).decompress(packed, most)
+        case other:
+            raise ValueError(f'compression {other}')
+    return np.frombuffer(tiles, '<u4').reshape(size)
 
 
 def _up(tiled: Content, y: float) -> float:

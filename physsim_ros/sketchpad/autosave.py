@@ -78,8 +78,9 @@ class Autosave:
     def unsaved_by(self) -> list[str]:
         """Return the names of those who drew the unsaved world of the last start."""
         # There is no such world, or a person has spoilt its file.
-        with suppress(OSError, ValueError), self._unsaved.open(encoding='utf-8') as file:
-            line = file.readline(_MOST_BY)
+        with suppress(OSError, ValueError, RecursionError):
+            with self._unsaved.open(encoding='utf-8') as file:
+                line = file.readline(_MOST_BY)
             names = json.loads(line.removeprefix(_BY)) if line.startswith(_BY) else []
             if isinstance(names, list):
                 return [str(each) for each in names[:MOST_NAMES]]

@@ -37,7 +37,7 @@ def results_file(world_dir: Path) -> Path:
 def read_results(path: Path) -> list[Result]:
     """Return the results of a file, the latest last; there may be no such file."""
     # A file that a person has spoilt.
-    with suppress(OSError, ValueError):
+    with suppress(OSError, ValueError, RecursionError):
         results = json.loads(read_bytes(path, _MOST_BYTES))
         if isinstance(results, list) and all(isinstance(each, dict) for each in results):
             return results

@@ -57,7 +57,7 @@ class Rows:
         whole = data[: data.rfind(b'\n') + 1]
         try:
             rows = [json.loads(line) for line in whole.splitlines()]
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise BadProperty(f'{self._path} is no file of runs', field='folder') from error
         if len(whole) < len(data):
             self._path.write_bytes(whole)

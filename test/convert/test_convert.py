@@ -251,13 +251,29 @@ def test_a_file_that_is_there_is_not_written_over(tmp_path, capsys):
     assert (tmp_path / 'scene-world.yaml').read_text() == 'mine'
 
 
+def tiled_of(width, data):
+    """Return a map of Tiled with one row of tiles."""
+    layer = {'type': 'tilelayer', 'name': 'a', 'height': 1, 'width': width}
+    packed = {'compression': 'zlib', 'data': data}
+    return json.dumps({'tilewidth': 1, 'tileheight': 1, 'layers': [layer | packed]})
+
+
 @pytest.mark.parametrize(
     ('text', 'told'),
     [
         ('<?xml version="1.0"?><sdf version="1.9"/>', 'SDF'),
         ('format: 1\nbodies: []\n', 'no world of flatland, ir-sim, Tiled, R.U.B.E.'),
         ('layers: [{map: nowhere.yaml}]\nmodels: []\n', 'nowhere.yaml'),
+        ('layers: [{map: /dev/zero}]\nmodels: []\n', 'not a regular file'),
         ('layers: 3\nmodels: []\n', 'no valid world of flatland'),
+        ('[' * 2000, 'no valid world of any program'),
+        ('a: 2001-13-45', 'month must be in 1..12'),
+        (f'a: {"9" * 5000}', 'Exceeds the limit'),
+        ('world: {width: 9}\nrobot: {number: 1000000000}', 'more than 20,000 bodies'),
+        ('world: {width: 9}\nrobot: {number: .inf}', 'OverflowError'),
+        (tiled_of(1, 'AAAA'), 'no valid world of Tiled'),
+        (tiled_of(10**9, 'AAAA'), 'more than 16,000,000 tiles'),
+        (tiled_of(1, base64.b64encode(zlib.compress(bytes(10**6))).decode()), 'buffer size'),
     ],
 )
 def test_what_cannot_be_converted_is_told(tmp_path, capsys, text, told):

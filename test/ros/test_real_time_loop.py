@@ -22,7 +22,7 @@ class Machine:
 
     publish_period = 0.02
 
-    def __init__(self, *, tick: int, message: int) -> None:
+    def __init__(self, *, tick: int, message: int, answer: int = 0) -> None:
         self.now = 0
         self.message_delay = 0.0
         self.diagnostics = self
@@ -30,6 +30,7 @@ class Machine:
         self.handled: list[int] = []
         self.waiting: deque[Callable[[], object]] = deque()
         self._cost_of_tick, self._cost_of_message = tick, message
+        self._cost_of_answer, self._answered = answer, 0
 
     def monotonic_ns(self) -> int:
         return self.now
@@ -37,6 +38,8 @@ class Machine:
     def tick(self, now: int) -> None:
         self.ticks.append(now)
         self.now += self._cost_of_tick
+        self.now += self._cost_of_answer * (len(self.handled) - self._answered)
+        self._answered = len(self.handled)
 
     def create_task(self, call: Callable[[], object]) -> None:
         self.waiting.append(call)
@@ -78,6 +81,17 @@ def test_a_flood_does_not_delay_a_tick_by_more_than_a_message(
     assert len(machine.handled) > 0.85 * 10_000
     # The mark of the first tick lies behind all that had arrived.
     assert machine.message_delay > 9.0
+
+
+def test_a_flood_whose_answers_are_slower_than_its_messages_does_not_lengthen_its_own_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    machine = Machine(tick=2 * MS, message=MS, answer=2 * MS)
+    machine.send(100_000)
+    machine.run(monkeypatch, 30_000 * MS)
+    # 0.1 s for messages, and their answers.
+    assert max(gaps(machine.ticks)) <= 310 * MS
+    assert len(machine.handled) > 0.3 * 30_000
 
 
 def test_a_world_too_slow_for_real_time_handles_messages_as_long_as_it_ticks(

@@ -120,7 +120,7 @@ def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) ->
     again = Autosave(tmp_path, empty)
     assert again.unsaved_by == names
     assert load_mapping(again.unsaved_content().decode(), field='file') == {'format': 1}
-    for line in ('# drawn by: [', '# drawn by: {}', '# a comment'):
+    for line in ('# drawn by: [', f'# drawn by: {"[" * 5000}', '# drawn by: {}', '# a comment'):
         (tmp_path / '.unsaved.yaml').write_text(f'{line}\nformat: 1')
         assert again.unsaved_by == []
     again.forget_unsaved()

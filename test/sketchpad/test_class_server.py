@@ -96,7 +96,8 @@ def test_seats_outlive_a_restart_and_a_newcomer_gets_an_empty_one_first(
     assert Seats(WORLDS, path).names == ['X', 'Z']
     monkeypatch.setattr(seats_module, 'SEAT_AGE', -1)
     assert Seats(WORLDS, path).names == ['', '']
-    for content in ('', '[', '{}', '[1]', '[{"name": 3}]', '[{"other": ""}]', '[{"at": "a"}]'):
+    spoilt = '[{"name": 3}]', '[{"other": ""}]', '[{"at": "a"}]', '[' * 100_000
+    for content in ('', '[', '{}', '[1]', *spoilt):
         path.write_text(content)
         assert Seats(WORLDS, path).names == ['', '']
 

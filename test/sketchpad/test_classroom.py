@@ -519,7 +519,7 @@ def test_an_answer_that_cannot_be_written_is_refused_and_not_counted(tmp_path: P
 
 
 def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path) -> None:
-    for text in ('', '{', '[1]', '{}', '[{}]', '\udcff'):
+    for text in ('', '{', '[1]', '{}', '[{}]', '\udcff', '[' * 100_000):
         results_file(tmp_path).write_text(text, errors='surrogateescape')
         assert (
             Results(results_file(tmp_path)).note('Anna', 'Lever', '1', right=False)['tries'] == 1

@@ -11,7 +11,7 @@ from typing import Any
 from physsim_ros.files import shipped_lessons
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import circle, Sheet, started_world
 from ..outside import Outside
 
 # A desk, a telephone both ways, a tablet, the desk at 200 % zoom, and a school laptop [px].
@@ -302,4 +302,21 @@ def test_the_view_stays_where_something_closes_by_itself(chromium: Any, outside:
     sheet.press('Material')
     sheet.press('Close')
     sheet.wait('smaller => physsim.toPage(8, 0)[0] > smaller', smaller[0])
+    sheet.close()
+
+
+def test_a_stroke_may_begin_on_the_card_of_strokes(chromium: Any, outside: Outside) -> None:
+    _, address = started_world(outside, world='format: 1\nbodies: []')
+    sheet = Sheet(chromium, address, viewport={'width': 800, 'height': 600})
+    sheet.wait('heard.people && physsim.time >= 0')
+    sheet.press('Pen')
+    card = sheet.page.locator('#card')
+    card.wait_for()
+    assert card.evaluate('({scrollHeight, clientHeight}) => scrollHeight <= clientHeight')
+    box = card.bounding_box()
+    centre = [box['x'] + box['width'] / 2, box['y'] + box['height'] / 2]
+    x, y = sheet.page.evaluate('at => physsim.toWorld(...at)', centre)
+    sheet.drag(*circle(x, y, 1.0))
+    sheet.wait('Object.keys(physsim.bodies).length === 1')
+    card.wait_for(state='hidden')
     sheet.close()

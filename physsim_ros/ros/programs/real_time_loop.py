@@ -22,6 +22,9 @@ from rclpy.experimental import EventsExecutor
 
 # The longest wait for messages before the loop checks whether it is over [s].
 _LONGEST_SPIN = 0.1
+# Longest time for messages after a late tick [ns], as long as a tick simulates. Answers are a part
+# of the next tick: without this bound a flood would lengthen its own time, up to seconds.
+_MOST_MESSAGES_NS = 100_000_000
 
 
 def run_worlds(nodes: Sequence[PhysSimNode], is_over: Callable[[], bool]) -> None:
@@ -83,10 +86,11 @@ class RealTimeLoop:
             if due > ended:
                 self._spin_until(due)
             else:
-                # As long as the tick took: with a period for messages and a second for a crowded
-                # world, a burst of thousands would wait for minutes. The next tick carries out
-                # what has arrived until then.
-                self._handle_waiting(ended + max(self._period, ended - began))
+                # As long as the tick took: with a period for messages and 0.1 s for a crowded
+                # world, a burst of thousands would wait for half a minute. The next tick carries
+                # out what has arrived until then.
+                share = min(ended - began, _MOST_MESSAGES_NS)
+                self._handle_waiting(ended + max(self._period, share))
                 due = time.monotonic_ns()
 
     def _spin_until(self, due: int) -> None:

@@ -80,7 +80,7 @@ const driving = new Driving({connection, people, selection, world});
 const material = new Material({connection, people});
 const panel = new Panel({connection, driving, material, meters, notes, numbers, plots, plotting, records, room, selection, sound,
   stopwatch, trail, view, words, world});
-new EmptyCard({connection, people, selection, world});
+new EmptyCard({connection, gestures, people, selection, view, world});
 const handles = new Handles({arrows, camera, connection, gestures, people, selection, view, world});
 const readings = new Readings({connection, notes, view, world});
 const hints = new Hints({connection, gestures, notes, world});

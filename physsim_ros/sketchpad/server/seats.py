@@ -156,7 +156,7 @@ class Seats:
 
 def _read(path: Path) -> list[_Seat]:
     """Return the seats of a file, without those that are too old; none if it is spoilt."""
-    with suppress(OSError, TypeError, ValueError):
+    with suppress(OSError, TypeError, ValueError, RecursionError):
         seats = [_Seat(**each) for each in json.loads(read_bytes(path, _MOST_BYTES))]
         if all(isinstance(each.name + each.key, str) for each in seats):
             since = time.time() - SEAT_AGE

@@ -68,7 +68,7 @@ export class Keyboard {
       if (undo || redo || edit) event.preventDefault();
       return;
     }
-    if (/^ContextMenu$/.test(key) || key === 'F10' && event.shiftKey) {
+    if (key === 'ContextMenu' || key === 'F10' && event.shiftKey) {
       parts.gestures.emit('menu', parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
       event.preventDefault();
       return;

@@ -8,7 +8,6 @@ import {t} from '../strings.js';
 /** @import {Bounds, Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
-const BESIDE = 0.5; // m between bodies and their copies
 /** Label, axis (0 is x), and the share of the way from the lower edge to the upper one. @type {[string, number, number][]} */
 const ALIGNMENTS = [[t('Left'), 0, 0], [t('Centre'), 0, 0.5], [t('Right'), 0, 1], [t('Top'), 1, 1], [t('Middle'), 1, 0.5], [t('Bottom'), 1, 0]];
 /** @type {[string, number][]} */
@@ -23,10 +22,7 @@ export function severalContent(parts, names) {
   const totals = createElement('p', {className: 'numbers'});
   return {title: t('{count} bodies', {count: names.length}), first: [totals], live: () => showText(totals, totalsOf(parts.world, names)), rest: [
     createElement('p', {}, t('Drag them with the lasso.')),
-    inRow(textButton(t('Copy beside'), () => {
-      const [left, , right] = parts.world.boundsOfAll(names);
-      parts.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
-    }), textButton(t('Plot them'), () => parts.plotting.open(names)), textButton(t('Delete bodies'), () => parts.selection.deleteSelected(), 'danger')),
+    inRow(textButton(t('Copy beside'), () => parts.selection.duplicate()), textButton(t('Plot them'), () => parts.plotting.open(names)), textButton(t('Delete bodies'), () => parts.selection.deleteSelected(), 'danger')),
     ...arrangeButtons(parts, names)]};
 }
 

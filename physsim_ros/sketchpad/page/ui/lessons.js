@@ -55,7 +55,7 @@ export class Lessons {
           // A file that is no lesson has no number, and no picture.
           ...number ? [createElement('img', {src: `/gallery/${encodeURIComponent(name)}.svg`, alt: '', loading: 'lazy'})] : [],
           createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
-          createElement('small', {}, t(question))))))];
+          createElement('small', {}, questionParts(t(question))[1])))))];
   }
 
   /** @param {{name: string, title: string}} lesson */
@@ -91,8 +91,10 @@ export class Lessons {
     this.shown = lesson?.title;
     card.hidden = !lesson;
     if (lesson) {
+      const [given, asked] = questionParts(t(lesson.question));
       card.replaceChildren(createElement('header', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`), this.more),
-        createElement('p', {className: 'question'}, ...questionParts(t(lesson.question))), ...parts.people.viewOnly ? [] : this.#work(lesson));
+        createElement('p', {className: 'question'}, createElement('span', {className: 'given'}, given, ' '), asked),
+        ...parts.people.viewOnly ? [] : this.#work(lesson));
     }
     this.#fold(false);
     this.settled = !lesson;
@@ -144,12 +146,11 @@ export class Lessons {
 
 /**
  * @param {string} text of a question
- * @returns {(Node | string)[]} what is given, and what is asked: from its first sentence with a question mark on
+ * @returns {string[]} what is given, and what is asked: from its first sentence with a question mark on
  */
 function questionParts(text) {
-  const sentences = text.split(/(?<=[.!?]) /), asked = sentences.findIndex((each) => each.endsWith('?'));
-  if (asked < 1) return [text];
-  return [createElement('span', {className: 'given'}, `${sentences.slice(0, asked).join(' ')} `), sentences.slice(asked).join(' ')];
+  const sentences = text.split(/(?<=[.!?]) /), asked = Math.max(sentences.findIndex((each) => each.endsWith('?')), 0);
+  return [sentences.slice(0, asked).join(' '), sentences.slice(asked).join(' ')];
 }
 
 /**

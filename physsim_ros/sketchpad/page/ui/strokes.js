@@ -29,15 +29,16 @@ const STROKES = [
 ];
 const SEEN = 'physsim-strokes';
 
-/** The card beside a canvas on which nothing can move yet, until something can or it is closed. */
+/** The card beside a canvas on which nothing can move yet, until something can or it is closed. It is faint in a gesture, which may pass under it. */
 export class EmptyCard {
-  /** @param {Parts<'connection' | 'people' | 'selection' | 'world'>} parts */
+  /** @param {Parts<'connection' | 'gestures' | 'people' | 'selection' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.closed = false;
     this.element = elementOf('card');
     parts.connection.on('scene', () => this.#update());
     parts.selection.on('change', () => this.#update());
+    parts.view.overlays.push(() => this.element.classList.toggle('faint', parts.gestures.isBusy));
   }
 
   #update() {
