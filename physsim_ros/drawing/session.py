@@ -23,19 +23,18 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.figure import (
     Figure,
     likeliest_group,
+    mark_reading,
     marked_solid,
     MOST_STROKES,
 )
-from physsim_ros.drawing.strokes.meanings import Outcome
 from physsim_ros.drawing.strokes.reading import (
-    Guess,
     in_scene,
     not_recognised,
     Reading,
     reading_of,
 )
 from physsim_ros.drawing.strokes.stroke import resample_stroke
-from physsim_ros.drawing.strokes.waiting import outcomes_over
+from physsim_ros.drawing.strokes.waiting import readings_over
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
@@ -141,7 +140,7 @@ class DrawingSession:
         if not self._marks and marked_solid(self._figures, figure, self.settings):
             # The solid stays the last figure: another reading of it may follow.
             self._marks = (figure,)
-            return self._shown(_mark_reading(figure))
+            return self._shown(mark_reading(figure))
         # A second line may make an x of a mark.
         self._figures.extend(self._marks)
         self._marks = ()
@@ -188,10 +187,11 @@ class DrawingSession:
         if not figure.is_solid:
             return replace(reading, requests=requests)
         earlier = [each for each in self._figures if each is not figure]
-        over = list(outcomes_over(figure, earlier, self.settings))
+        over = list(readings_over(figure, earlier, self.settings))
         figure.requests = requests = sum((each.requests for each in over), requests)
         message = '; '.join((reading.message, *(each.message for each in over)))
-        return replace(reading, requests=requests, message=message)
+        also = tuple(each.meaning for each in over)
+        return replace(reading, requests=requests, message=message, also=also)
 
     def _shown(self, reading: Reading) -> Reading:
         """Return a reading after its preview is made and its names are reserved."""
@@ -294,25 +294,10 @@ def _unrecognised_preview(points: Floats) -> Preview:
     return Preview(lines=(as_tuples(points),), label='not recognised')
 
 
-def _mark_reading(figure: Figure) -> Reading:
-    """Return the reading of a line through a solid: a mark, which has no requests."""
-    mark = Guess(
-        meaning='mark',
-        confidence=figure.guesses[0].confidence if figure.guesses else 1.0,
-        group_confidence=1.0,
-        build=lambda: Outcome(
-            requests=(),
-            subject='',
-            message='a mark on what was drawn before',
-            outline=figure.strokes[0],
-        ),
-    )
-    return reading_of((mark, *figure.guesses), 0)
-
-
 def _reading_preview(reading: Reading) -> Preview:
     label = f'{reading.meaning} {reading.confidence:.0%}'
     for other in reading.guesses[1:2]:
         if other.confidence >= _MENTIONED:
             label += f', or {other.meaning} {other.confidence:.0%}'
+    label = '; '.join((label, *reading.also))
     return Preview(lines=(as_tuples(reading.outline),), label=label)

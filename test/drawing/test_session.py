@@ -226,6 +226,7 @@ def test_a_rod_before_its_bob_is_undone_and_read_anew_with_it() -> None:
 
     assert joined == ['rod']
     assert reading.message.endswith('; a rod from drawn/1 to world')
+    assert reading.also == ('rod',)
     assert again == (['rod'], ['Polygon'])
     assert desk.shapes == ['Chain']
 

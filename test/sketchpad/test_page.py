@@ -24,6 +24,16 @@ def test_a_drawn_circle_becomes_a_body_with_its_reading_beside_it(sheet: Sheet) 
     assert re.search(r'\d+ %', sheet.page.evaluate('heard.notes')[0])
 
 
+def test_the_note_of_a_body_tells_what_the_line_before_it_is_now(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.drag((1.0, 7.5), (1.0, 5.0))
+    sheet.wait_for_new(before)
+    sheet.drag(*circle(1.0, 5.0, 0.5))
+    sheet.until(lambda: len(sheet.page.evaluate('heard.notes')) > 1, 'the second note')
+
+    assert re.fullmatch(r'circle \d+ %; rod.*', sheet.page.evaluate('heard.notes')[1])
+
+
 def test_a_stroke_ends_where_the_pen_is_lifted(sheet: Sheet) -> None:
     # The browser of a busy machine has no move to the last place.
     sheet.page.evaluate(

@@ -293,8 +293,10 @@ def nearest_points(piece: Piece, point: Point) -> Iterator[Point]:
 
 
 def _towards(start: Point, end: Point, length: float) -> Point:
-    """Return the point at a distance from `start` towards `end` [m]."""
-    distance = max(math.dist(start, end), 1e-12)
+    """Return the point at a distance from `start` towards `end`; along x if they are one [m]."""
+    distance = math.dist(start, end)
+    if not distance:
+        return start[0] + length, start[1]
     share = length / distance
     return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
 

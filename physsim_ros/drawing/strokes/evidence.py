@@ -23,7 +23,7 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.resources import files
 import math
 
@@ -66,11 +66,13 @@ class Form:
     :param name: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
     :param weight: how well the stroke fits the form, 0 .. 1
     :param points: (n, 2) float64: the points that describe the form, in the world [m]
+    :param measures: of the fits to the stroke that the form was chosen by, by name
     """
 
     name: str
     weight: float
     points: Floats
+    measures: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,6 +36,7 @@ from physsim_ros.drawing.strokes.meanings import (
     DELETION,
     GRAVITY,
     OPEN,
+    Outcome,
 )
 from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
 from physsim_ros.drawing.strokes.reading import (
@@ -43,6 +44,8 @@ from physsim_ros.drawing.strokes.reading import (
     guesses_of,
     in_scene,
     is_likely,
+    Reading,
+    reading_of,
 )
 from physsim_ros.drawing.strokes.signs import x
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
@@ -267,6 +270,19 @@ def lies_within(line: Figure, solid: Figure) -> bool:
     quarter = COUNT // 4
     points = np.vstack([stroke[slice(quarter, COUNT - quarter)] for stroke in line.strokes])
     return float(_inside(points, outline).mean()) >= _ON_SOLID
+
+
+def mark_reading(line: Figure) -> Reading:
+    """Return the reading of a line within a solid: a mark, which has no requests."""
+    mark = Guess(
+        meaning='mark',
+        confidence=line.guesses[0].confidence if line.guesses else 1.0,
+        group_confidence=1.0,
+        build=lambda: Outcome(
+            requests=(), subject='', message='a mark, which has no effect', outline=line.strokes[0]
+        ),
+    )
+    return reading_of((mark, *line.guesses), 0)
 
 
 def _requests_of(guess: Guess) -> tuple[Request, ...]:

@@ -5,7 +5,8 @@
 The judge of doubt: how sure a reading is. It reads nothing, and changes no reading.
 
 Boosted trees (Friedman, "Greedy function approximation: a gradient boosting machine", 2001)
-correct the log odds that the rules give to a reading, by the weights of all forms of the stroke.
+correct the log odds that the rules give to a reading, by the weights of all forms of the stroke,
+and by how well an ellipse, a rectangle and straight sides fit its outline.
 Each tree asks at most three questions, and adds log odds. Trees are rows of `judge.csv`, made by
 `python -m tools.evaluation.judge` of readings of synthetic hands of the tuning half alone.
 """

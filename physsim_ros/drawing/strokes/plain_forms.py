@@ -119,7 +119,12 @@ def _lineness(features: Features, still: float) -> float:
 
 
 def _shapes(outline: Floats) -> Iterator[Form]:
-    """Yield the shapes that an outline may have, with relative weights."""
+    """
+    Yield the shapes that an outline may have, with relative weights.
+
+    Each has the measures of all of them: the number of corners, the distances from the sides
+    between those and from a rectangle, in shares of the size, the ellipse's error and aspect.
+    """
     ellipse = fitting.ellipse(outline)
     error, aspect = ellipse.error, ellipse.aspect
     wide, narrowed = widened(outline)
@@ -129,6 +134,13 @@ def _shapes(outline: Floats) -> Iterator[Form]:
     # Independent of the corners: a rectangle may have a bent side or a round corner.
     corners, off = fitting.rectangle_of(wide)
     off /= size
+    measures = {
+        'ellipse error': error,
+        'aspect': aspect,
+        'sides error': min(residual, 1.0),
+        'rectangle error': off,
+        'corners': float(len(at)),
+    }
     sides = min(residual, off)
     edgeless = _edgelessness(sides=sides, error=error, aspect=aspect, bulge=_bulge(wide, at))
     circle = edgeless * _ELLIPTIC.below(error)
@@ -136,18 +148,20 @@ def _shapes(outline: Floats) -> Iterator[Form]:
     circular = _CIRCULAR.above(aspect)
     rim = ellipse.center + np.array((ellipse.radius, 0.0))
     disc = np.array((ellipse.center, rim))
-    yield Form(name=DISC, weight=circle * circular, points=disc)
+    yield Form(name=DISC, weight=circle * circular, points=disc, measures=measures)
     # A thinner outline is a line, drawn to and fro.
     _, longer, shorter = principal_axis(outline - outline.mean(axis=0))
     broad = _BROAD.above(math.sqrt(shorter / longer))
     oval = ellipse.corners(_OVAL_SIDES)
-    yield Form(name=OVAL, weight=broad * circle * (1.0 - circular), points=oval)
+    yield Form(name=OVAL, weight=broad * circle * (1.0 - circular), points=oval, measures=measures)
     square = _SQUARE.below(off) * _SQUARER.below(off / max(error, 1e-6))
     if len(at) == 4 and _squareness(found) > square:
         corners, square = found, _squareness(found)
     else:
         corners = narrowed(corners)
-    yield Form(name=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
+    yield Form(
+        name=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners, measures=measures
+    )
     if len(at) >= 3 and crosses_itself(found):
         boundary = outer_boundary(found)
         sided = sided if boundary is not None else 0.0
@@ -159,7 +173,7 @@ def _shapes(outline: Floats) -> Iterator[Form]:
         along = traced(outline)
         boundary = outer_boundary(along) if crosses_itself(along) else along
         found, free = (found, 0.0) if boundary is None else (boundary, free)
-    yield Form(name=POLYGON, weight=broad * (sided + free), points=found)
+    yield Form(name=POLYGON, weight=broad * (sided + free), points=found, measures=measures)
 
 
 def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) -> float:

@@ -103,10 +103,12 @@ class Reading(Outcome):
     :param guesses: one to three: first that of the reading, then the others, the likeliest first
     :param amends: numbers of earlier gestures that the requests replace: the stroke was read
         together with earlier ones, or anew
+    :param also: meanings that earlier strokes now have, over its new body
     """
 
     guesses: tuple[Guess, ...]
     amends: tuple[int, ...] = ()
+    also: tuple[str, ...] = ()
 
     @property
     def meaning(self) -> str:
@@ -181,6 +183,7 @@ def measures_of(guesses: Sequence[Guess], context: Context) -> dict[str, float]:
         'bodies': float(bool(context.scene.names)),
         f'read as {guesses[0].meaning}': 1.0,
         **{f'form {form.name}': form.weight for form in context.forms},
+        **{name: value for form in context.forms for name, value in form.measures.items()},
     }
 
 

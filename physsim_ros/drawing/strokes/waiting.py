@@ -21,11 +21,16 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import stands_on
-from physsim_ros.drawing.strokes.figure import crossing_in, Figure, lies_within
+from physsim_ros.drawing.strokes.figure import crossing_in, Figure, lies_within, mark_reading
 from physsim_ros.drawing.strokes.geometry import COUNT, few_points, point_of
 from physsim_ros.drawing.strokes.joining import joined_strokes
-from physsim_ros.drawing.strokes.meanings import Outcome
-from physsim_ros.drawing.strokes.reading import guesses_of, in_scene, is_likely
+from physsim_ros.drawing.strokes.reading import (
+    guesses_of,
+    in_scene,
+    is_likely,
+    Reading,
+    reading_of,
+)
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
@@ -43,11 +48,11 @@ _HANGS = -0.7
 _MIDDLE = slice(COUNT // 4, COUNT - COUNT // 4, 4)
 
 
-def outcomes_over(
+def readings_over(
     solid: Figure, figures: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[Outcome]:
+) -> Iterator[Reading]:
     """
-    Yield what earlier strokes are over a new body, instead of what they have been.
+    Yield the readings of earlier strokes over a new body, where those are others than before.
 
     :param solid: the new body
     :param figures: drawn before, the earliest first
@@ -65,16 +70,15 @@ def outcomes_over(
         if names & done or not _reaches(group, body, spawn.pose, settings.snap):
             continue
         over = scene.with_body(body, spawn.pose, without=names | walls | done, joints=joints)
-        outcome = _outcome_over(spawn.name, group, over, settings)
-        if outcome is None and len(group) == 1 and _is_mark(group[0], solid):
-            (line,) = group[0].strokes
-            outcome = Outcome(requests=(), subject=spawn.name, message='a mark', outline=line)
-        if outcome is None:
+        reading = _reading_over(spawn.name, group, over, settings)
+        if reading is None and len(group) == 1 and _is_mark(group[0], solid):
+            reading = mark_reading(group[0])
+        if reading is None:
             continue
         done |= names
-        joints += sum(isinstance(each, Join) for each in outcome.requests)
+        joints += sum(isinstance(each, Join) for each in reading.requests)
         gone = (Delete(name=each) for each in sorted(names))
-        yield replace(outcome, requests=(*gone, *outcome.requests))
+        yield replace(reading, requests=(*gone, *reading.requests))
 
 
 def _waiting(
@@ -125,10 +129,10 @@ def _reaches(group: Sequence[Figure], body: Body, pose: Pose, snap: float) -> bo
     return bool(np.any(contains(body.shape.form.pieces, x, y, snap)))
 
 
-def _outcome_over(
+def _reading_over(
     name: str, group: Sequence[Figure], scene: SceneQuery, settings: DrawingSettings
-) -> Outcome | None:
-    """Return what figures are that reach a new body of this name, or None where it is the same."""
+) -> Reading | None:
+    """Return the reading of figures that reach a new body, or None where it is the same."""
     strokes = [stroke for each in group for stroke in each.strokes]
     path = joined_strokes(strokes)
     context = crossing_in(scene, strokes, settings)
@@ -138,16 +142,16 @@ def _outcome_over(
     if not is_likely(guesses, settings) or guesses[0].meaning not in _BY_BODIES:
         return None
     try:
-        outcome = guesses[0].build()
+        reading = reading_of(guesses, 0)
     except Refusal:
         return None
     ends = (point_of(each) for each in path[[0, -1]])
     within = (each for each in ends if name in scene.bodies_at(each))
-    match outcome.requests[0]:
+    match reading.requests[0]:
         case Join(kind=JointKind.ROD | JointKind.ROPE):
             held = not any(stands_on(name, each, scene, _HANGS) for each in within)
         case Join(a=a, b=b):
             held = name in {a, b}
         case _:
-            held = outcome.subject == name
-    return outcome if held else None
+            held = reading.subject == name
+    return reading if held else None

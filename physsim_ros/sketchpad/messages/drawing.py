@@ -88,24 +88,19 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> N
     try:
         reading = read()
     except NotRecognised as refusal:
-        page.send(_reading_content(origin, refusal.values, outline=[], built=False))
+        page.send(_reading_content(origin, refusal.values))
         raise
     check_locked(page.role, reading.requests, page.world)
     check_taken_back(page.role, reading.amends, page.world)
-    outline = reading.outline.tolist()
-    page.send(_reading_content(origin, reading.values, outline=outline, built=True))
+    page.send(_reading_content(origin, reading.values, reading))
     reading = replace(reading, requests=page.with_material(reading.requests))
     submit_reading(page.world.simulation, page.drawing, reading, origin)
 
 
 def _reading_content(
-    origin: Origin,
-    values: tuple[tuple[str, str], ...],
-    *,
-    outline: list[list[float]],
-    built: bool,
+    origin: Origin, values: tuple[tuple[str, str], ...], built: Reading | None = None
 ) -> dict[str, Any]:
-    """Return the message of a reading: its guesses, and whether the first is built."""
+    """Return the message of guesses, and of the reading that is built, if one is."""
     guesses = _guesses(dict(values))
     (meaning, confidence), (second, second_confidence) = [*guesses, ('', 0.0), ('', 0.0)][:2]
     return {
@@ -116,8 +111,9 @@ def _reading_content(
         'runner_up': second,
         'runner_up_confidence': second_confidence,
         'guesses': guesses,
-        'outline': outline,
-        'built': built,
+        'also': built.also if built else (),
+        'outline': built.outline.tolist() if built else (),
+        'built': built is not None,
     }
 
 

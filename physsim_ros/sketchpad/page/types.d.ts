@@ -376,6 +376,8 @@ export interface Reading {
   runner_up: string;
   runner_up_confidence: number;
   guesses: [string, number][];
+  /** Meanings that earlier strokes now have, over its new body. */
+  also: string[];
   outline: Point[];
   built: boolean;
 }

@@ -139,6 +139,25 @@ def test_geometry_comes_with_it() -> None:
         assert np.hypot(*(corners - corner).T).min() < 0.1
 
 
+@pytest.mark.parametrize(
+    ('name', 'fits'),
+    [
+        ('oval', {'ellipse error': 0.0, 'aspect': 0.5}),
+        ('square', {'rectangle error': 0.0, 'sides error': 0.0, 'corners': 4.0}),
+        ('triangle', {'sides error': 0.0, 'corners': 3.0}),
+    ],
+)
+def test_every_form_of_an_outline_has_the_measures_of_all_fits(
+    name: str, fits: dict[str, float]
+) -> None:
+    forms = forms_drawn(RULED[name][1])
+
+    for form in forms:
+        assert form.measures == forms[0].measures
+        # Shares of the size, and corners.
+        assert {each: form.measures[each] for each in fits} == pytest.approx(fits, abs=0.001)
+
+
 def test_a_pentagram_is_a_solid_of_ten_corners_and_an_oval_is_fine_enough_to_roll() -> None:
     star = forms_drawn(STAR)[0].points
     radii = np.hypot(*star.T)

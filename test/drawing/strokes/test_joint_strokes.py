@@ -7,12 +7,13 @@ from collections.abc import Sequence
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.bodies_under import nearest_points
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere, NotRecognised
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Spawn
-from physsim_ros.model.shapes import Box, Disc, Polygon
+from physsim_ros.model.shapes import Box, Circle, Disc, Polygon
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
 import pytest
@@ -322,3 +323,9 @@ def test_a_second_round_arrow_changes_the_motor(wheeled: World) -> None:
 def test_a_round_arrow_about_nothing_is_refused(world: World) -> None:
     with pytest.raises((NothingThere, NotRecognised)):
         draw(world, round_arrow(1.0, 0.4, 0.6, 4.5))
+
+
+def test_a_rod_to_the_exact_centre_of_a_disc_ends_a_radius_from_its_rim() -> None:
+    (rim,) = nearest_points(Circle((1.0, 2.0), 0.5), (1.0, 2.0))
+
+    assert math.dist(rim, (1.0, 2.0)) == 0.5

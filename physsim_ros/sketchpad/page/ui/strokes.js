@@ -119,7 +119,7 @@ export class Readings {
   }
 
   /** @param {Reading} reading */
-  #show({request, meaning, confidence, guesses, outline, built}) {
+  #show({request, meaning, confidence, guesses, also, outline, built}) {
     const stroke = this.strokes.get(request) ?? outline;
     if (!stroke.length) return;
     this.dismiss();
@@ -133,7 +133,7 @@ export class Readings {
         .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: thingWord(guess)}), request, guess));
       // Where somebody has chosen another guess, it is sure.
       const label = guesses.some(([, sure]) => sure > confidence) ? thingWord(meaning) : labelOf(meaning, confidence);
-      const content = [label, ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.parts;
+      const content = [[label, ...also.map(thingWord)].join('; '), ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.parts;
       // A note at the place would cover a running machine.
       this.dismiss = world.paused ? notes.pin(() => at, content, shown) : notes.dock(content, shown);
       return;
