@@ -46,7 +46,7 @@ WORDS = re.compile(r'[A-Za-z]{2,} [A-Za-z(]|^\W*[A-Z][a-z]+')
 # developers.
 OTHER = re.compile(
     r"""\.js(on)?$ | system-ui | \((max|min)-width | ^[#.\[] | ^format: | ^Content-Type$ |
-    ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End)$ |
+    ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End|ContextMenu)$ |
     ^(Shift\+[A-Z]?|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
     ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
     ^(in\ the\ past|set\ (velocity|motion)\ of|(all|several)\ (bodies|joints))$ | \[[NJ]\]$ |

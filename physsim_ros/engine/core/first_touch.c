@@ -20,8 +20,9 @@
 //    rounding as the sub-step ends: one corner alone is in, which turned boxes that slide on a floor.
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc first meets the
 //    other shape.
-// 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over.
-//    That of a disc gets it in each step, since Chipmunk has it point to the corner until the disc has passed it.
+// 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over; at
+//    one behind a face that a disc has met before, it is ignored, as in part 1. That of a disc gets it in each step,
+//    since Chipmunk has it point to the corner until the disc has passed it.
 // 4. What `cpArbiterPreStep` had made of the old contacts is made anew.
 //
 // Cost: 0.3 µs a contact that begins.
@@ -107,6 +108,19 @@ static void ignore(cpArbiter *arbiter) {
     arbiter->count = 0;
 }
 
+// Whether a disc meets the corner of a seam, behind a face that it has met before in this sub-step.
+static bool is_internal(const Touch *touch, const Touch *touches, int count) {
+    if (!is_disc_on_edges(touch->arbiter)) {
+        return false;
+    }
+    for (int number = 0; number < count; number++) {
+        if (is_disc_on_edges(touches[number].arbiter) && is_behind_face(touch, touches + number)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // The velocity at which an overlap is pushed out; Chipmunk has one slop for bodies of all sizes.
 static void set_bias(const cpArbiter *arbiter, double push) {
     for (int number = 0; number < arbiter->count; number++) {
@@ -139,13 +153,25 @@ void correct_first_touches(World *world) {
         if (has_stage(world, STAGE_IMPACT)) {
             move_to_impact(world, touches + number);
         }
+    }
+    int begun = 0;
+    bool *internal = TAKE(arena, bool, count);
+    for (int number = 0; number < count; number++) {
+        internal[number] = has_stage(world, STAGE_EDGES) && is_internal(touches + number, touches, count);
+    }
+    for (int number = 0; number < count; number++) {
+        if (internal[number]) {
+            ignore(touches[number].arbiter);
+            continue;
+        }
         if (has_stage(world, STAGE_EDGES)) {
             slide_over_edge(touches + number);
         }
         write_touch(touches + number);
+        touches[begun++] = touches[number];
     }
     world->own->begun = touches;
-    world->own->begun_count = count;
+    world->own->begun_count = begun;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         if (arbiter->state == ARBITER_FIRST_COLLISION) {

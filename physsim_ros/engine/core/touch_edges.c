@@ -5,7 +5,8 @@
 //
 // Problem: at a seam a corner is in contact, whose normal stops what slides ("ghost collision").
 // Method: a contact at a corner, while a face is entered by no more than the slop and under no more than 10 degrees,
-// gets the normal of that face (`btInternalEdgeUtility` in Bullet).
+// gets the normal of that face (`btInternalEdgeUtility` in Bullet). A disc that has met a face lies before its plane:
+// a corner that it meets later in the sub-step, in that plane or behind it, is none that it can touch.
 // Cost, and what fails without it: `first_touch.c`.
 
 #include "touch_stages.h"
@@ -40,6 +41,15 @@ static bool is_at_corner(const Touch *touch, int side) {
         }
     }
     return false;
+}
+
+bool is_behind_face(const Touch *touch, const Touch *face) {
+    if (touch->shapes[0] != face->shapes[0] || distance_of(face, 0) > distance_of(touch, 0) ||
+        !is_at_corner(touch, 1) || is_at_corner(face, 1)) {
+        return false;
+    }
+    Vec way = sub(touch->places[0][1], face->places[0][1]);
+    return -dot(face->normal, way) <= slop_of(touch->arbiter);
 }
 
 // The velocity of the second shape against the first [m/s]. The spin of a disc does not move its surface along a face.
