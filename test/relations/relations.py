@@ -245,7 +245,7 @@ class _Nearer(Relation):
 
 
 class _Accounted(Relation):
-    """What is reported accounts for all that happens; no other world is played."""
+    """The reported impulses account for the change of momentum; no other world is played."""
 
     def limit(self, scene: Scene) -> float:
         """Return the tolerance [m/s]: as a flight begins or ends, half a sub-step of gravity."""

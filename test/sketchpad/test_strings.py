@@ -199,7 +199,7 @@ def unmarked(sheet: Sheet, texts: str = SEEN) -> set[str]:
 
 
 def left_over(text: str) -> str:
-    """Return what of a text does not come from the table."""
+    """Return the parts of a text that do not come from the table."""
     # A text may stand in another one, and a phrase takes the bracket after it for its name.
     while '⟦' in text:
         text = re.sub(r'⟦[^⟦⟧]*(⟧|$)', '', text)

@@ -87,7 +87,7 @@ BLUR = """() => {
     dispatchEvent(new Event('blur'));
     document.dispatchEvent(new Event('visibilitychange'));
 }"""
-# What may happen while somebody draws.
+# Events that may come while somebody draws.
 MEANWHILE: dict[str, Callable[[Sheet], object]] = {
     'wheel': lambda sheet: sheet.page.mouse.wheel(0, -120),
     'focus': lambda sheet: sheet.page.evaluate(BLUR),

@@ -43,13 +43,26 @@ static bool is_at_corner(const Touch *touch, int side) {
     return false;
 }
 
-bool is_behind_face(const Touch *touch, const Touch *face) {
-    if (touch->shapes[0] != face->shapes[0] || distance_of(face, 0) > distance_of(touch, 0) ||
-        !is_at_corner(touch, 1) || is_at_corner(face, 1)) {
+// Whether the contact of a disc is at a face that it has met before a corner, which lies in its plane or behind it.
+static bool hides(const Touch *face, const Touch *corner) {
+    if (face->shapes[0] != corner->shapes[0] || kind_of(face->shapes[1]) == SHAPE_CIRCLE ||
+        distance_of(face, 0) > distance_of(corner, 0) || is_at_corner(face, 1)) {
         return false;
     }
-    Vec way = sub(touch->places[0][1], face->places[0][1]);
-    return -dot(face->normal, way) <= slop_of(touch->arbiter);
+    Vec way = sub(corner->places[0][1], face->places[0][1]);
+    return -dot(face->normal, way) <= slop_of(corner->arbiter);
+}
+
+bool is_hidden(const Touch *touch, const Touch *touches, int count) {
+    if (!is_at_corner(touch, 1)) {
+        return false;
+    }
+    for (int number = 0; number < count; number++) {
+        if (hides(touches + number, touch)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // The velocity of the second shape against the first [m/s]. The spin of a disc does not move its surface along a face.

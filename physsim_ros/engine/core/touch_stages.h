@@ -11,8 +11,9 @@
 // Replace normal and places of the contact of a disc by those of its impact.
 void move_to_impact(const World *world, Touch *touch);
 
-// Whether the contact of a disc is at a corner in or behind the plane of a face that the disc has met before.
-bool is_behind_face(const Touch *touch, const Touch *face);
+// Whether the contact of a disc is at a corner in or behind the plane of a face that it has met before, of the contacts
+// that begin.
+bool is_hidden(const Touch *touch, const Touch *touches, int count);
 
 // Replace a contact at a seam by one with the face that the shapes approach slowest; return whether it is at one.
 bool slide_over_edge(Touch *touch);
