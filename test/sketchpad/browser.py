@@ -126,6 +126,14 @@ class Page:
     def until(self, predicate: Callable[[], object]) -> None:
         self.browser.until(predicate)
 
+    def until_last(self, kind: str, predicate: Callable[[dict[str, Any]], object]) -> None:
+        """Wait until something holds of the last message of a type."""
+        self.until(lambda: any(map(predicate, self.of_type(kind)[-1:])))
+
+    def until_frame(self, predicate: Callable[[Picture], object]) -> None:
+        """Wait until something holds of the last frame of the course."""
+        self.until(lambda: any(map(predicate, self.frames[-1:])))
+
     def close(self) -> None:
         self.socket.close()
         self.until(lambda: self.closed)

@@ -42,7 +42,7 @@ def test_a_teacher_freezes_the_pages_of_pupils_and_not_the_own(browser: Browser)
     pupil, boss = browser.open_page(), teacher(browser)
     for page, teaches in ((pupil, False), (boss, True)):
         page.until(lambda page=page: page.of_type('welcome'))
-        assert page.of_type('welcome')[0]['teacher'] is teaches
+        assert page.last('welcome')['teacher'] is teaches
     assert boss.ask('freeze', frozen=True)['ok']
     pupil.until(lambda: any(each['frozen'] for each in pupil.of_type('class')))
     for kind, fields in (
@@ -286,7 +286,7 @@ def test_a_lock_belongs_to_its_world(browser: Browser) -> None:
     pupil, boss = browser.open_page(), teacher(browser)
 
     def locked() -> list[str]:
-        told: list[str] = boss.of_type('class')[-1]['locked']
+        told: list[str] = boss.last('class')['locked']
         return told
 
     assert pupil.spawn('drawn/0')['ok']
@@ -328,7 +328,7 @@ def test_people_have_names_and_answers_say_who_did_it(browser: Browser) -> None:
     anna.spawn('a/0')
     ben.until(lambda: any(each.get('subject') == 'a/0' for each in ben.of_type('answer')))
     (told,) = (each for each in ben.of_type('answer') if each['subject'] == 'a/0')
-    assert told['page'] == int(anna.of_type('welcome')[0]['client'])
+    assert told['page'] == int(anna.last('welcome')['client'])
     for name in ('', '  ', 'x' * 25, 'a\nb', 7):
         assert anna.ask('person', name=name)['code'] == 'bad_property'
     anna.close()
@@ -358,7 +358,7 @@ def test_a_page_that_comes_again_with_its_key_is_the_same_person(browser: Browse
     assert anna.spawn('a/0')['ok']
     assert anna.ask('grab', point=[0, 5])['ok']
     assert anna.spawn('a/1', 3.0)['ok']
-    key = quote(anna.of_type('welcome')[0]['person'])
+    key = quote(anna.last('welcome')['person'])
     # Anna's connection is lost, which the server does not know yet.
     again = browser.open_page(f'/ws?person={key}')
     ben.until(lambda: sorted(people(ben)) == [('Page 1', 'draw'), ('Page 2', 'draw')])
@@ -395,7 +395,7 @@ def test_cursors_go_to_all_pages_without_the_world(browser: Browser) -> None:
     for x in range(5):
         anna.send('here', point=[x, 2.5])
     anna.until(lambda: anna.of_type('welcome'))
-    last = [[int(anna.of_type('welcome')[0]['client']), 4.0, 2.5]]
+    last = [[int(anna.last('welcome')['client']), 4.0, 2.5]]
     ben.until(lambda: any(each['cursors'] == last for each in ben.of_type('cursors')))
     assert anna.ask('here', point=[1])['code'] == 'malformed'
 
@@ -444,7 +444,7 @@ def test_a_teacher_sees_answers_to_lessons_and_hands_and_says_something_to_all(
 
     answered = long_answer[:LONGEST_ANSWER]
     boss.until(lambda: (answered, True) in seen())
-    number = int(pupil.of_type('welcome')[0]['client'])
+    number = int(pupil.last('welcome')['client'])
     assert boss.ask('lower_hand', page=number)['ok']
     pupil.last('lower_hand')
     assert not boss.of_type('lower_hand')
@@ -537,7 +537,7 @@ def test_lessons_of_another_directory_reach_the_world(
     pupil = browser.open_page()
 
     def title() -> str:
-        scene = pupil.of_type('scene')[-1]
+        scene = pupil.last('scene')
         return scene['lesson']['title'] if scene['lesson'] else ''
 
     assert 'Mine' in [each['title'] for each in pupil.last('worlds')['lessons']]
@@ -561,9 +561,9 @@ def test_a_page_that_watches_a_class_is_nobody_in_its_world(browser: Browser) ->
     assert watching.ask('freeze', frozen=True)['ok']
     assert watching.ask('service', name='pause')['ok']
     assert watching.spawn('a/0')['ok']
-    watching.until(lambda: watching.frames and watching.frames[-1].count == 1)
+    watching.until_frame(lambda frame: frame.count == 1)
     watching.close()
-    pupil.until(lambda: not pupil.of_type('class')[-1]['watched'])
+    pupil.until_last('class', lambda told: not told['watched'])
     # A pupil who asks for it is somebody all the same.
     browser.open_page('/ws?watch')
     pupil.until(lambda: len(people(pupil)) == 2)
@@ -578,6 +578,4 @@ def test_lessons_are_listed_as_their_files_are_when_a_page_asks(
     (tmp_path / 'lessons').mkdir()
     (tmp_path / 'lessons' / 'mine.yaml').write_text(lesson.replace('Down a slope', 'Mine'))
     pupil.send('list')
-    pupil.until(
-        lambda: 'Mine' in [each['title'] for each in pupil.of_type('worlds')[-1]['lessons']]
-    )
+    pupil.until_last('worlds', lambda told: 'Mine' in [each['title'] for each in told['lessons']])

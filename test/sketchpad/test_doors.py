@@ -45,7 +45,7 @@ class PageDoors(Doors):
         page, count = self.browser.open_page(), len(self.errors)
         assert page.ask('drop')['ok']
         self.run_on()
-        page.until(lambda: page.frames and page.frames[-1].time == self.physsim.time)
+        page.until_frame(lambda frame: frame.time == self.physsim.time)
         assert len(self.errors) == count
 
 

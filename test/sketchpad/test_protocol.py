@@ -62,8 +62,8 @@ def test_a_page_gets_the_poses_of_the_world(browser: Browser) -> None:
     page.send('stroke', points=circle(0.0, 5.0, 0.5))
     page.until(lambda: physsim.names)
     physsim.run(0.5)
-    page.until(lambda: page.frames and page.frames[-1].time == pytest.approx(0.5))
-    picture, scene = page.frames[-1], page.of_type('scene')[-1]
+    page.until_frame(lambda frame: frame.time == pytest.approx(0.5))
+    picture, scene = page.frames[-1], page.last('scene')
     assert [body['name'] for body in scene['bodies']] == list(physsim.names)
     assert picture.epoch == scene['epoch']
     assert picture.poses == pytest.approx(np.array([physsim.pose(physsim.names[0])]), abs=1e-6)
@@ -82,7 +82,7 @@ def test_a_page_that_only_shows_gets_the_contacts_of_a_paused_world(browser: Bro
     page.send('show', contacts=True)
     page.until(lambda: physsim.node.outputs.wants_contacts)
     physsim.node.apply_requests()
-    page.until(lambda: page.frames[-1].flags & Show.CONTACTS)
+    page.until_frame(lambda frame: frame.flags & Show.CONTACTS)
     contacts, steps = page.frames[-1].columns[6:8].view('<u4')
     assert (contacts, steps) == (1, 4)
 
@@ -176,8 +176,8 @@ def test_a_scene_above_the_limit_of_what_is_left_unread_is_shown(
     browser.physsim.run(0.2)
     for page in (first, browser.open_page()):
         page.until(lambda page=page: page.frames and page.ghosts)
-        assert [each['name'] for each in page.of_type('scene')[-1]['bodies']] == ['big/0']
-        assert len(json.dumps(page.of_type('scene')[-1])) > open_pages.MOST_UNREAD
+        assert [each['name'] for each in page.last('scene')['bodies']] == ['big/0']
+        assert len(json.dumps(page.last('scene'))) > open_pages.MOST_UNREAD
         assert not page.closed
         assert page.ask('drop')['ok']
 
@@ -191,7 +191,7 @@ def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:
         page.send('move', point=[0.2 * number, 5.0])
         page.until(lambda x=0.2 * number: grips(physsim)[0].target[0] == x)
         physsim.step()
-    page.until(lambda: page.frames[-1].hands and page.frames[-1].time == physsim.time)
+    page.until_frame(lambda frame: frame.hands and frame.time == physsim.time)
     assert page.frames[-1].hand_lines[0, 2] == pytest.approx(2.0)
     assert page.ask('let_go')['ok']
     assert physsim.twist('a/0').vx > 1.0
@@ -212,10 +212,10 @@ def test_a_page_takes_the_runner_up_of_a_stroke_instead(browser: Browser) -> Non
         assert page.spawn(name, x)['ok']
     line = [[0.03 * number, 5.0, 0.005 * number] for number in range(101)]
     page.ask('stroke', points=line)
-    page.until(lambda: page.of_type('reading')[-1]['meaning'] == 'rod')
-    runner_up = page.of_type('reading')[-1]['runner_up']
+    page.until_last('reading', lambda reading: reading['meaning'] == 'rod')
+    runner_up = page.last('reading')['runner_up']
     assert page.ask('instead', meaning=runner_up)['ok']
-    assert page.of_type('reading')[-1]['meaning'] == runner_up == 'wall'
+    assert page.last('reading')['meaning'] == runner_up == 'wall'
     page.until(lambda: len(physsim.names) == 3)
     assert page.ask('instead', meaning='nothing of the kind')['code'] == 'not_recognised'
 
@@ -227,16 +227,16 @@ def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
         each.send('click', tool='circle', point=[x, 5.0])
         each.ask('click', tool='circle', point=[x + 0.5, 5.0])
     page.ask('copy', name=physsim.names[0], to=[6.0, 5.0])
-    page.until(lambda: len(page.of_type('scene')[-1]['bodies']) == 3)
-    scene = page.of_type('scene')[-1]
+    page.until_last('scene', lambda scene: len(scene['bodies']) == 3)
+    scene = page.last('scene')
     assert [body['density'] for body in scene['bodies']] == [7.0, 1.0, 7.0]
     assert scene['bodies'][0]['color'] == [1.0, 0.0, 0.0, 1.0] == scene['bodies'][2]['color']
     assert [physsim.twist(name).vx for name in physsim.names] == [2.0, 0.0, 0.0]
     # The pieces of a cut are of the material of their body.
     page.send('click', tool='knife', point=[3.0, 9.0])
     assert page.ask('click', tool='knife', point=[3.0, 1.0])['ok']
-    page.until(lambda: len(page.of_type('scene')[-1]['bodies']) == 4)
-    densities = [body['density'] for body in page.of_type('scene')[-1]['bodies']]
+    page.until_last('scene', lambda scene: len(scene['bodies']) == 4)
+    densities = [body['density'] for body in page.last('scene')['bodies']]
     assert sorted(densities) == [1.0, 1.0, 7.0, 7.0]
 
 
@@ -250,7 +250,7 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     assert page.spawn('a/0')['ok']
     before = physsim.names, physsim.pose('a/0')
     assert page.ask('save', name='mine')['ok']
-    page.until(lambda: 'mine' in [each['name'] for each in page.of_type('worlds')[-1]['worlds']])
+    page.until_last('worlds', lambda told: 'mine' in [each['name'] for each in told['worlds']])
     text = page.ask('share')['values']['yaml']
     assert browser.fetch('/world/mine.yaml').body.decode() == text
     assert page.ask('open', name='newtons_cradle')['ok']
@@ -497,8 +497,8 @@ def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -
     assert physsim.names == ('box/0',)
     assert page.ask('service', name='undo')['ok']
     assert len(physsim.names) == 3
-    page.until(lambda: len(page.of_type('scene')[-1]['bodies']) == 3)
-    (box, *_) = page.of_type('scene')[-1]['bodies']
+    page.until_last('scene', lambda scene: len(scene['bodies']) == 3)
+    (box, *_) = page.last('scene')['bodies']
     assert (box['friction'], box['color']) == (0.9, [0.0, 1.0, 0.0, 1.0])
     before = physsim.digest()
     for wrong in (
@@ -534,16 +534,16 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     physsim.run(1.0)
     fallen, digest = physsim.pose('a/0'), physsim.digest()
     assert page.ask('seek', time=0.5)['ok']
-    page.until(lambda: page.of_type('timeline')[-1]['state'] == 'in the past')
-    assert page.of_type('timeline')[-1]['newest'] == pytest.approx(1.0)
+    page.until_last('timeline', lambda timeline: timeline['state'] == 'in the past')
+    assert page.last('timeline')['newest'] == pytest.approx(1.0)
     assert page.ask('change', name='a/0', properties={'velocity': [3, 0]})['ok']
-    page.until(lambda: page.of_type('timeline')[-1]['courses'])
-    (left,) = page.of_type('timeline')[-1]['courses']
+    page.until_last('timeline', lambda timeline: timeline['courses'])
+    (left,) = page.last('timeline')['courses']
     assert (left['from'], left['to']) == pytest.approx((0.5, 1.0))
     physsim.run(0.5)
     page.until(lambda: any(each.time == pytest.approx(1.0) for each in page.ghosts))
     (ghost,) = [each for each in page.ghosts if each.time == pytest.approx(1.0)][-1:]
-    assert ghost.epoch == page.of_type('ghost')[-1]['epoch']
+    assert ghost.epoch == page.last('ghost')['epoch']
     assert ghost.poses[0] == pytest.approx(np.array(fallen), abs=1e-6)
     assert physsim.pose('a/0').x == pytest.approx(1.5, abs=1e-6)
     assert page.ask('course', course=left['id'])['ok']
@@ -591,8 +591,8 @@ def spawned_robot(page: Page) -> None:
 def test_a_page_drives_a_robot_and_undoes_it_as_one(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
     spawned_robot(page)
-    page.until(lambda: page.of_type('scene')[-1]['bodies'])
-    robot = page.of_type('scene')[-1]['bodies'][0]['robot']
+    page.until_last('scene', lambda scene: scene['bodies'])
+    robot = page.last('scene')['bodies'][0]['robot']
     assert (robot['kind'], robot['namespace']) == ('differential', 'tb3_0')
     for velocity in ([0.2, 0, 0], [0.1, 0, 0], [0, 0, 0]):
         page.send('drive', name='tb3/0', velocity=velocity)
@@ -611,14 +611,14 @@ def test_a_page_drives_a_robot_and_undoes_it_as_one(browser: Browser) -> None:
 def test_a_page_moves_a_motor_of_a_robot(browser: Browser) -> None:
     page = browser.open_page()
     assert page.spawn('arm/0', 0, 0, robot='arm')['ok']
-    page.until(lambda: page.of_type('scene')[-1]['joints'])
-    joint = next(each for each in page.of_type('scene')[-1]['joints'] if 'effort' in each)
+    page.until_last('scene', lambda scene: scene['joints'])
+    joint = next(each for each in page.last('scene')['joints'] if 'effort' in each)
     rows = joint['b'], joint['a']
-    page.until(lambda: len(page.frames[-1].poses) > max(rows))
+    page.until_frame(lambda frame: len(frame.poses) > max(rows))
     before = np.diff([page.frames[-1].poses[row, 2] for row in rows if row >= 0] or [0.0])
     assert page.ask('motor', name=joint['name'], position=0.3)['ok']
     browser.physsim.run(3.0)
-    page.until(lambda: page.frames[-1].time > 2.9)
+    page.until_frame(lambda frame: frame.time > 2.9)
     after = np.diff([page.frames[-1].poses[row, 2] for row in rows if row >= 0] or [0.0])
     assert abs(after - before) == pytest.approx(0.3, abs=0.01)
     assert page.ask('motor', name=joint['name'], position=1e9)['code'] == 'bad_property'
@@ -655,7 +655,7 @@ def test_driving_in_the_past_begins_another_course(browser: Browser) -> None:
     page.ask('drop')
     physsim.run(0.4)
     assert physsim.pose('tb3/0').x < 0.0
-    page.until(lambda: page.of_type('timeline')[-1]['courses'])
+    page.until_last('timeline', lambda timeline: timeline['courses'])
 
 
 def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> None:
@@ -664,7 +664,7 @@ def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> N
     wall = {'width': 0.2, 'height': 9}
     assert page.spawn('wall/0', 2.1, 0, box=wall, anchored=True)['ok']
     page.send('show', laser='tb3/0')
-    page.until(lambda: page.frames and page.frames[-1].flags & Show.SCAN)
+    page.until_frame(lambda frame: frame.flags & Show.SCAN)
     # All round: the laser, 360 beams, and the first one again.
     x, y, hit = page.frames[-1].scan
     assert len(x) == 362
@@ -681,7 +681,7 @@ def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> N
     scans = {frame.scan.tobytes() for frame in page.frames}
     assert 4 <= len(scans) <= 6
     page.send('show', laser='')
-    page.until(lambda: not page.frames[-1].flags & Show.SCAN)
+    page.until_frame(lambda frame: not frame.flags & Show.SCAN)
     page.send('show', laser='wall/0')
     page.ask('drop')
     assert not page.frames[-1].flags & Show.SCAN
