@@ -375,15 +375,18 @@ class Cursor(Replay):
         :param subject: name of the body or joint concerned, or ''
         :param author: name of the person who did it; '' is nobody
         """
-        tree, settings = self._tree, self._world.settings
+        tree, (step, serial) = self._tree, self.moment
         tree.add_request(
-            self.moment,
-            request,
-            gesture=gesture,
-            author=author,
-            subject=subject,
-            settings=settings,
-            adds=self._world.has_grown,
+            Node(
+                parent=tree.node(serial),
+                step=step,
+                request=request,
+                settings=self._world.settings,
+                gesture=gesture,
+                author=author,
+                subject=subject,
+                adds=self._world.has_grown,
+            )
         )
         self.serial += 1
         if tree.is_log_long:
