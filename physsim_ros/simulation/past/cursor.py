@@ -9,7 +9,7 @@ checkpoints and with the same requests, until a request changes its course; a di
 reported as `divergence`. At each checkpoint on its way, the world moves into a space that is built
 from it, as it did the first time.
 
-Long work, a seek, an amendment of the past or steps, is made in parts. Meanwhile `moment` and the
+Long work, a seek, an amendment of the past or steps, is made in slices. Meanwhile `moment` and the
 settings are those of the goal, of steps those that are made, and reading `world` finishes the
 work. A seek replaces another one, and steps; an amendment is finished first.
 """
@@ -105,7 +105,7 @@ class Replay:
             reported the first time
         """
         world, tree = self._world, self._tree
-        for _ in world.parts_of_steps(end - world.step_count):
+        for _ in world.slices_of_steps(end - world.step_count):
             if is_new:
                 tree.note_step(world.step_count)
             yield
@@ -167,13 +167,13 @@ class _Work(NamedTuple):
     A seek, an amendment or steps that are under way.
 
     :ivar kind: of it
-    :ivar parts: of the work
+    :ivar slices: of the work
     :ivar goal: the moment to which a seek leads; an amendment leads to the end of the line in
         force
     """
 
     kind: _Kind
-    parts: Iterator[None]
+    slices: Iterator[None]
     goal: Moment | None = None
 
 
@@ -235,29 +235,29 @@ class Cursor(Replay):
         """Whether an amendment is under way."""
         return self._work is not None and self._work.kind is _Kind.AMENDMENT
 
-    def work(self, parts: Iterator[None]) -> None:
-        """Have an amendment be carried out part by part, from now on."""
+    def work(self, slices: Iterator[None]) -> None:
+        """Have an amendment be carried out slice by slice, from now on."""
         self.finish_work()
-        self._work = _Work(_Kind.AMENDMENT, parts)
+        self._work = _Work(_Kind.AMENDMENT, slices)
 
     def continue_work(self) -> bool:
         """
-        Carry out a part, a frame or a request, and return whether work is still under way.
+        Carry out a slice, a frame or a request, and return whether work is still under way.
 
-        Of a frame that takes long, a part is as many sub-steps as a call of the core makes.
+        Of a frame that takes long, a slice is as many sub-steps as a call of the core makes.
         """
-        # Within a part, the world is where it is.
+        # Within a slice, the world is where it is.
         work, self._work = self._work, None
         # An amendment that is refused ends with a seek back.
-        if work is not None and next(work.parts, self) is not self:
+        if work is not None and next(work.slices, self) is not self:
             self._work = work
         return self._work is not None
 
-    def parts_of_work(self) -> Iterator[None]:
+    def slices_of_work(self) -> Iterator[None]:
         """Carry out the work that is under way as a part of other work."""
         work, self._work = self._work, None
         if work is not None:
-            yield from work.parts
+            yield from work.slices
 
     def finish_work(self) -> None:
         """Carry out the rest of the work that is under way."""
@@ -389,15 +389,18 @@ class Cursor(Replay):
         :param subject: name of the body or joint concerned, or ''
         :param author: name of the person who did it; '' is nobody
         """
-        tree, settings = self._tree, self._world.settings
+        tree, (step, serial) = self._tree, self.moment
         tree.add_request(
-            self.moment,
-            request,
-            gesture=gesture,
-            author=author,
-            subject=subject,
-            settings=settings,
-            adds=self._world.has_grown,
+            Node(
+                parent=tree.node(serial),
+                step=step,
+                request=request,
+                settings=self._world.settings,
+                gesture=gesture,
+                author=author,
+                subject=subject,
+                adds=self._world.has_grown,
+            )
         )
         self.serial += 1
         if tree.is_log_long:
@@ -409,9 +412,9 @@ class Cursor(Replay):
         finish(self._parts_of_advance(self.world.step_count + steps))
 
     def begin_advance(self, steps: int) -> None:
-        """Have the world advance by a number of steps, part by part from now on."""
+        """Have the world advance by a number of steps, slice by slice from now on."""
         end = self.world.step_count + steps
-        self._work = _Work(_Kind.STEPS, self._parts_of_advance(end))
+        self._work = _Work(_Kind.STEPS, self._slices_of_advance(end))
 
     def _parts_of_advance(self, end: int) -> Generator[None]:
         """Advance to a step; yield where steps take long."""

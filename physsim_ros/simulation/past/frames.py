@@ -200,7 +200,7 @@ class FrameCache:
         yield from self._replay.parts_of_resumption(keyframe)
         self._replay.replay_shown(keyframe.step)
 
-    def _parts_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
+    def _slices_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
         """Replay a segment from its keyframe; at its end its frames replace those cached."""
         replay, world, frames = self._replay, self._world, []
         # The step may have been shown without the requests before the keyframe.
