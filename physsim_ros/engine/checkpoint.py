@@ -28,8 +28,8 @@ import pymunk
 
 _Result = TypeVar('_Result')
 _Entry = TypeVar('_Entry', Body, RigidBody, Joint)
-# Pieces of bodies, or ends and guides of joints, in a part of a rebuild: at most some 30 ms.
-_PART = 500
+# Pieces of bodies, or ends and guides of joints, in a slice of a rebuild: at most some 30 ms.
+_SLICE = 500
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
@@ -89,36 +89,36 @@ def restore_checkpoint(checkpoint: Checkpoint, dt: float) -> Space:
 
     :param dt: of a sub-step [s]
     """
-    return finish(parts_of_restore(checkpoint, dt))
+    return finish(slices_of_restore(checkpoint, dt))
 
 
-def finish(parts: Generator[None, None, _Result]) -> _Result:
-    """Carry out all parts of work, and return its result."""
+def finish(slices: Generator[None, None, _Result]) -> _Result:
+    """Carry out all slices of work, and return its result."""
     while True:
         try:
-            next(parts)
+            next(slices)
         except StopIteration as end:
             result: _Result = end.value
             return result
 
 
-def parts_of_restore(
+def slices_of_restore(
     checkpoint: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
 ) -> Generator[None, None, Space]:
     """
-    Build a space from a checkpoint; yield before each part but the first, and return the space.
+    Build a space from a checkpoint; yield before each slice but the first, and return the space.
 
     :param dt: of a sub-step [s]
     :param pool: bodies built beforehand, by name, which are used up
     """
-    parts, scene = _parts_of_restore(checkpoint, dt, pool or {}), checkpoint.scene
-    if sum(map(_size, scene.bodies)) + sum(map(_size, scene.joints)) <= _PART:
-        return finish(parts)
+    slices, scene = _slices_of_restore(checkpoint, dt, pool or {}), checkpoint.scene
+    if sum(map(_size, scene.bodies)) + sum(map(_size, scene.joints)) <= _SLICE:
+        return finish(slices)
     yield
-    return (yield from parts)
+    return (yield from slices)
 
 
-def _parts_of_restore(
+def _slices_of_restore(
     checkpoint: Checkpoint, dt: float, pool: Mapping[str, RigidBody]
 ) -> Generator[None, None, Space]:
     scene, memory = checkpoint.scene, checkpoint.memory
@@ -136,10 +136,10 @@ def _parts_of_restore(
 def _restore_bodies(
     space: Space, checkpoint: Checkpoint, pool: Mapping[str, RigidBody]
 ) -> Iterator[None]:
-    """Put the bodies of a checkpoint into a space, at rest; yield after each part."""
+    """Put the bodies of a checkpoint into a space, at rest; yield after each slice."""
     scene, memory = checkpoint.scene, checkpoint.memory
     rigids = []
-    for bodies in _in_parts(scene.bodies):
+    for bodies in _in_slices(scene.bodies):
         rigids += [_rigid_body(body, pool) for body in bodies]
         yield
     states = _body_states(checkpoint)
@@ -149,7 +149,7 @@ def _restore_bodies(
         rigids[row].driven = driven
     for row, acting in zip(scene.actor_rows.tolist(), checkpoint.actors, strict=True):
         rigids[row].acting = acting
-    for some in _in_parts(rigids):
+    for some in _in_slices(rigids):
         space.bodies.add_without_shapes(some)
         yield
     for row, wrench, until in checkpoint.wrenches:
@@ -161,14 +161,14 @@ def _restore_bodies(
     at_rest[:, 3:] = 0.0
     space.core.write_state(at_rest)
     yield
-    for some in _in_parts([rigids[row] for row in sorted(range(len(rigids)), key=_scattered)]):
+    for some in _in_slices([rigids[row] for row in sorted(range(len(rigids)), key=_scattered)]):
         space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in some)
         yield
 
 
 def _restore_joints(space: Space, checkpoint: Checkpoint) -> Iterator[None]:
-    """Put the joints of a checkpoint into a space that has its bodies; yield after each part."""
-    for joints in _in_parts(checkpoint.scene.joints):
+    """Put the joints of a checkpoint into a space that has its bodies; yield after each slice."""
+    for joints in _in_slices(checkpoint.scene.joints):
         for joint in joints:
             space.joints.add(joint)
         yield
@@ -189,12 +189,12 @@ def _size(entry: Body | RigidBody | Joint) -> int:
     return len(body.shape.form.pieces)
 
 
-def _in_parts(entries: Sequence[_Entry]) -> Iterator[Sequence[_Entry]]:
+def _in_slices(entries: Sequence[_Entry]) -> Iterator[Sequence[_Entry]]:
     """Yield bodies or joints in order, some at once that consist of few pieces."""
     begin = size = 0
     for end, entry in enumerate(entries, 1):
         size += _size(entry)
-        if size >= _PART or end == len(entries):
+        if size >= _SLICE or end == len(entries):
             yield entries[begin:end]
             begin, size = end, 0
 

@@ -9,7 +9,7 @@ Law: services, topics, pages and `simulation_interfaces` do it all by this one c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -29,6 +29,7 @@ from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.slices import in_slices, Sliced
 from physsim_ros.simulation.world import beginning_of
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock

@@ -264,7 +264,7 @@ def costs_of_rebuilds(world: Simulation, state: WorldState) -> dict[str, float]:
         times += (time.thread_time() for _ in work)
         return [end - begin for begin, end in pairwise([*times, time.thread_time()])]
 
-    checkpoint = parts_of(cursor.parts_of_keyframe())
+    checkpoint = parts_of(cursor.slices_of_keyframe())
     world.open_world(state)
     world.past.undo()
     # Steps have parts of their own, at most 50 ms each.

@@ -33,8 +33,8 @@ from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
 
-# Constraints that are removed in a part: some 30 ms.
-_PART = 2000
+# Constraints that are removed in a slice: some 30 ms.
+_SLICE = 2000
 # The report of no joints, which frames share (`JointSet.report`).
 NO_REPORT = np.empty(0), np.empty((0, 2)), np.empty(0, np.bool_)
 
@@ -130,11 +130,12 @@ class JointSet:
             self._pm_space.remove(*reversed(constraints))
             count -= max(1, len(constraints))
 
-    def parts_of_removal(self) -> Iterator[None]:
-        """Remove the joints of a space that is not used any more; yield before each part."""
+    def slices_of_removal(self) -> Iterator[None]:
+        """Remove the joints of a space that is not used any more; yield between slices."""
+        self.take_out(_SLICE)
         while self.by_name:
             yield
-            self.take_out(_PART)
+            self.take_out(_SLICE)
 
     def __del__(self) -> None:
         """Remove all joints before Pymunk frees the space: it takes the square of their number."""

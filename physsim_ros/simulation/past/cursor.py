@@ -59,15 +59,15 @@ class Replay:
         """Step and serial of the world as it is."""
         return Moment(self._world.step_count, self.serial)
 
-    def parts_of_resumption(
+    def slices_of_resumption(
         self, keyframe: Keyframe, *, going_over: bool = False
     ) -> Generator[None]:
         """
-        Go to a keyframe; yield after each part.
+        Go to a keyframe; yield after each slice.
 
         :param going_over: whether the world is at that moment now, with the same bits
         """
-        yield from self._world.parts_of_resumption(keyframe.checkpoint, going_over=going_over)
+        yield from self._world.slices_of_resumption(keyframe.checkpoint, going_over=going_over)
         self.serial = keyframe.serial
         self._resumed = keyframe.moment
 
@@ -77,11 +77,11 @@ class Replay:
 
     def resume_at(self, moment: Moment) -> None:
         """Go to a moment of the line, from the keyframe before it."""
-        finish(self.parts_of_resumption(self._tree.keyframe_before(*moment)))
+        finish(self.slices_of_resumption(self._tree.keyframe_before(*moment)))
         finish(self._replay_to(*moment))
 
     def _replay_to(self, step: int, serial: int) -> Generator[None]:
-        """Replay up to a moment of the line, no earlier than now; yield after each part."""
+        """Replay up to a moment of the line, no earlier than now; yield after each slice."""
         world = self._world
         while world.step_count < step:
             yield from self._replay_to_stop(min(step, world.step_count + world.frame_steps))
@@ -139,7 +139,7 @@ class Replay:
     def _enter_checkpoint(self) -> Generator[None]:
         keyframe = self._tree.keyframe_at(*self._here)
         if keyframe is not None and self._resumed != keyframe.moment:
-            yield from self.parts_of_resumption(keyframe, going_over=self.check_digest())
+            yield from self.slices_of_resumption(keyframe, going_over=self.check_digest())
 
     def check_digest(self) -> bool:
         """Return whether the world has the digest of the keyframe here; report a difference."""
@@ -330,16 +330,16 @@ class Cursor(Replay):
         is_within_step = self._world.is_within_step
         is_on_way = keyframe.moment <= self._here <= first
         self._is_elsewhere |= elsewhere or is_within_step or not is_on_way
-        parts = self._parts_of_seek(
+        slices = self._slices_of_seek(
             keyframe if self._is_elsewhere else None, start, goal, with_contacts=with_contacts
         )
-        self._work = _Work(_Kind.SEEK, parts, goal)
+        self._work = _Work(_Kind.SEEK, slices, goal)
 
-    def _parts_of_seek(
+    def _slices_of_seek(
         self, keyframe: Keyframe | None, start: Moment, goal: Moment, *, with_contacts: bool
     ) -> Generator[None]:
         if keyframe is not None:
-            yield from self.parts_of_resumption(keyframe)
+            yield from self.slices_of_resumption(keyframe)
             self._is_elsewhere = False
         yield from self._replay_to(*start)
         self._world.clear_contacts()
@@ -409,14 +409,14 @@ class Cursor(Replay):
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps: by replay up to the head, then by new steps."""
-        finish(self._parts_of_advance(self.world.step_count + steps))
+        finish(self._slices_of_advance(self.world.step_count + steps))
 
     def begin_advance(self, steps: int) -> None:
         """Have the world advance by a number of steps, slice by slice from now on."""
         end = self.world.step_count + steps
         self._work = _Work(_Kind.STEPS, self._slices_of_advance(end))
 
-    def _parts_of_advance(self, end: int) -> Generator[None]:
+    def _slices_of_advance(self, end: int) -> Generator[None]:
         """Advance to a step; yield where steps take long."""
         world, tree = self._world, self._tree
         while (step := world.step_count) < end:
@@ -444,16 +444,16 @@ class Cursor(Replay):
             self._resumed is not None and self._resumed.step == step
         )
         if due and self._tree.keyframe_at(*self._here) is None:
-            yield from self.parts_of_keyframe()
+            yield from self.slices_of_keyframe()
 
     def add_keyframe(self) -> Checkpoint:
         """Make a checkpoint now, the last of the line, continue from it, and return it."""
         self.finish_work()
-        return finish(self.parts_of_keyframe())
+        return finish(self.slices_of_keyframe())
 
-    def parts_of_keyframe(self) -> Generator[None, None, Checkpoint]:
-        """Do as `add_keyframe` in parts, before whose end nothing else is done."""
-        checkpoint = yield from self._world.parts_of_renewal()
+    def slices_of_keyframe(self) -> Generator[None, None, Checkpoint]:
+        """Do as `add_keyframe` in slices, before whose end nothing else is done."""
+        checkpoint = yield from self._world.slices_of_renewal()
         digest = self._world.digest()
         self._resumed = self._tree.add_keyframe(self._here, checkpoint, digest).moment
         return checkpoint

@@ -43,14 +43,14 @@ class _Segment(NamedTuple):
 
     :ivar of: its first checkpoint, its last step, and whether contacts are reported
     :ivar stride: steps from one frame to the next
-    :ivar beginning: parts of the way to that checkpoint
-    :ivar parts: of the replay, a frame each
+    :ivar beginning: slices of the way to that checkpoint
+    :ivar slices: of the replay, a frame each
     """
 
     of: tuple[Keyframe, int, bool]
     stride: int
     beginning: Iterator[None]
-    parts: Iterator[None]
+    slices: Iterator[None]
 
 
 class FrameCache:
@@ -140,7 +140,7 @@ class FrameCache:
             frame = self._world.frame_steps
             stride = frame if step == end or step % frame == 0 else 1
             segment = self._segment_of(step, stride)
-            next(chain(segment.beginning, segment.parts), None)
+            next(chain(segment.beginning, segment.slices), None)
             self._evict(step)
         return self.cached_frame(step)
 
@@ -167,7 +167,7 @@ class FrameCache:
                 yield
             _, end = self._tree.segment(gap)
             left, calls = end - self._world.step_count, max(1, (step - gap) // max(1, steps))
-            yield from islice(segment.parts, -(-left // (calls * stride)))
+            yield from islice(segment.slices, -(-left // (calls * stride)))
             self._evict(step)
 
     def _is_cached(self, step: int) -> bool:
@@ -190,14 +190,14 @@ class FrameCache:
         keyframe, end = self._tree.segment(step)
         of, segment = (keyframe, end, self._world.reports_contacts), self._segment
         if segment is None or segment.of != of or segment.stride > stride:
-            parts = self._parts_of_segment(keyframe, end, stride)
-            segment = _Segment(of, stride, self._parts_to(keyframe), parts)
+            slices = self._slices_of_segment(keyframe, end, stride)
+            segment = _Segment(of, stride, self._slices_to(keyframe), slices)
             self._segment = segment
         return segment
 
-    def _parts_to(self, keyframe: Keyframe) -> Iterator[None]:
-        """Go to a keyframe, as its step was shown; yield after each part."""
-        yield from self._replay.parts_of_resumption(keyframe)
+    def _slices_to(self, keyframe: Keyframe) -> Iterator[None]:
+        """Go to a keyframe, as its step was shown; yield after each slice."""
+        yield from self._replay.slices_of_resumption(keyframe)
         self._replay.replay_shown(keyframe.step)
 
     def _slices_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:

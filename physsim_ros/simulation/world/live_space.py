@@ -21,8 +21,8 @@ from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.checkpoint import (
     BodyPool,
     finish,
-    parts_of_restore,
     restore_checkpoint,
+    slices_of_restore,
     take_checkpoint,
 )
 from physsim_ros.engine.core import sub_step_of
@@ -108,16 +108,16 @@ class LiveSpace:
 
         A world that resumes it later continues with the same bits.
         """
-        return finish(self.parts_of_renewal())
+        return finish(self.slices_of_renewal())
 
-    def parts_of_renewal(self) -> Generator[None, None, Checkpoint]:
-        """Do as `renew` in parts, before whose end nothing else is done; yield after each."""
+    def slices_of_renewal(self) -> Generator[None, None, Checkpoint]:
+        """Do as `renew` in slices, before whose end nothing else is done; yield after each."""
         if self._fresh is not None and self._fresh.is_unchanged(self.space, self.step_count):
             return self._fresh.checkpoint
         checkpoint = take_checkpoint(self.space, self.step_count)
         # Where another seek ends this work, its bodies are in a space that nobody has.
         pool, self._pool = self._pool.bodies, BodyPool()
-        space = yield from parts_of_restore(checkpoint, self._sub_step, pool=pool)
+        space = yield from slices_of_restore(checkpoint, self._sub_step, pool=pool)
         space.copy_reports(self.space)
         self._replace(space, BodyPool(self.space))
         return checkpoint
@@ -130,19 +130,19 @@ class LiveSpace:
         :param going_over: whether the world is at that moment now, with the same bodies; the
             contacts of the unfinished frame are kept then
         """
-        finish(self.parts_of_resumption(checkpoint, going_over=going_over))
+        finish(self.slices_of_resumption(checkpoint, going_over=going_over))
 
-    def parts_of_resumption(
+    def slices_of_resumption(
         self, checkpoint: Checkpoint, *, going_over: bool = False
     ) -> Generator[None]:
-        """Do as `resume` in parts; yield after each."""
-        space, old = (yield from parts_of_restore(checkpoint, self._sub_step)), self.space
+        """Do as `resume` in slices; yield after each."""
+        space, old = (yield from slices_of_restore(checkpoint, self._sub_step)), self.space
         if going_over:
             space.copy_reports(old)
         self._replace(space, BodyPool())
         self.step_count = checkpoint.step
         # To free a space with thousands of joints takes a second.
-        yield from old.joints.parts_of_removal()
+        yield from old.joints.slices_of_removal()
 
     def put_ahead(self, beginning: Beginning | None) -> None:
         """Have the next `begin` take a beginning, if it is that of the same state; or none."""
