@@ -17,7 +17,7 @@ import tempfile
 
 import numpy as np
 from physsim_ros.files import load_world, save_world
-from physsim_ros.model.actors import SocialForce
+from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.transform import NO_WRENCH, rotated
@@ -304,8 +304,8 @@ def _has_units(state):
 
 
 def _has_no_side(state):
-    """Return whether nobody keeps to the right, as pedestrians of social forces do."""
-    return not any(isinstance(held.body.actor, SocialForce) for held in state.bodies)
+    """Return whether nobody turns to the right before others, as pedestrians do."""
+    return not any(isinstance(held.body.actor, Pedestrian) for held in state.bodies)
 
 
 def _is_free(state):

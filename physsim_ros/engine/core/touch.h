@@ -16,6 +16,8 @@ typedef struct Touch {
     int count;        // of points
     Vec normal;       // from the first body to the second
     Vec places[2][2]; // of both points (first index) on either body (second) [m]
+    double met;       // when a disc first met the other shape, as a share of the step; 0 where that is not known
+    bool on_face;     // whether that was at a face
 } Touch;
 
 Touch touch_of(cpArbiter *arbiter);

@@ -45,8 +45,7 @@ static bool is_at_corner(const Touch *touch, int side) {
 
 // Whether the contact of a disc is at a face that it has met before a corner, which lies in its plane or behind it.
 static bool hides(const Touch *face, const Touch *corner) {
-    if (face->shapes[0] != corner->shapes[0] || kind_of(face->shapes[1]) == SHAPE_CIRCLE ||
-        distance_of(face, 0) > distance_of(corner, 0) || is_at_corner(face, 1)) {
+    if (face->shapes[0] != corner->shapes[0] || !face->on_face || face->met > corner->met) {
         return false;
     }
     Vec way = sub(corner->places[0][1], face->places[0][1]);
@@ -54,7 +53,7 @@ static bool hides(const Touch *face, const Touch *corner) {
 }
 
 bool is_hidden(const Touch *touch, const Touch *touches, int count) {
-    if (!is_at_corner(touch, 1)) {
+    if (touch->on_face || !is_at_corner(touch, 1)) {
         return false;
     }
     for (int number = 0; number < count; number++) {

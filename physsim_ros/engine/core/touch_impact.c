@@ -17,6 +17,7 @@
 typedef struct DiscHit {
     double share; // of the way; infinite for never
     Vec normal;   // of the shape
+    bool on_face;
 } DiscHit;
 
 // Where a shape was as the step began, where it would end freely, and where it is.
@@ -42,15 +43,15 @@ static Moments moments_of(const World *world, const Touch *touch, int side) {
         places[0], places[1], places[2], poses[0].yaw * counts, poses[1].yaw * counts, poses[2].yaw * counts};
 }
 
-static void keep_first(DiscHit *hit, double share, Vec normal) {
-    if (share >= 0.0 && share <= 1.0 && share < hit->share) {
-        *hit = (DiscHit){share, normal};
+static void keep_first(DiscHit *hit, DiscHit other) {
+    if (other.share >= 0.0 && other.share <= 1.0 && other.share < hit->share) {
+        *hit = other;
     }
 }
 
 // Where a circle first meets a shape, on a way from `start` that both see from the shape.
 static DiscHit first_hit(Vec start, Vec way, const cpShape *shape, double radius) {
-    DiscHit hit = {INFINITY, {0.0, 0.0}};
+    DiscHit hit = {.share = INFINITY};
     int count = corner_count(shape);
     // Faces, moved outwards by the radius: t of n . (ahead + way t) = r, between their corners.
     for (int number = 0; number < count && count > 1; number++) {
@@ -60,7 +61,7 @@ static DiscHit first_hit(Vec start, Vec way, const cpShape *shape, double radius
         double height = dot(corner.normal, ahead) - radius, share = height / -dot(corner.normal, way);
         double beside = cross(corner.normal, add(ahead, scaled(way, share)));
         if (height >= 0.0 && beside <= 0.0 && beside >= cross(corner.normal, edge)) {
-            keep_first(&hit, share, corner.normal);
+            keep_first(&hit, (DiscHit){share, corner.normal, true});
         }
     }
     // Corners: t of |ahead + way t| = r.
@@ -68,7 +69,7 @@ static DiscHit first_hit(Vec start, Vec way, const cpShape *shape, double radius
         Vec ahead = sub(start, corner_in_world(shape, number).place);
         double a = dot(way, way), b = dot(ahead, way);
         double share = (-b - sqrt(b * b - a * (dot(ahead, ahead) - radius * radius))) / a;
-        keep_first(&hit, share, scaled(add(ahead, scaled(way, share)), 1.0 / radius));
+        keep_first(&hit, (DiscHit){share, scaled(add(ahead, scaled(way, share)), 1.0 / radius), false});
     }
     return hit;
 }
@@ -85,8 +86,7 @@ static double approach_in_step(const World *world, const Touch *touch) {
 
 void move_to_impact(const World *world, Touch *touch) {
     // Chipmunk has the disc first. Pairs that are deeper than they can have approached overlapped before.
-    if (kind_of(touch->shapes[0]) != SHAPE_CIRCLE || kind_of(touch->shapes[1]) == SHAPE_SEGMENT ||
-        -distance_of(touch, 0) > approach_in_step(world, touch)) {
+    if (kind_of(touch->shapes[0]) != SHAPE_CIRCLE || -distance_of(touch, 0) > approach_in_step(world, touch)) {
         return;
     }
     Moments disc = moments_of(world, touch, 0), other = moments_of(world, touch, 1);
@@ -98,6 +98,11 @@ void move_to_impact(const World *world, Touch *touch) {
     start = add(other.now, start);
     DiscHit hit = first_hit(start, way, touch->shapes[1], radius + radius_of(touch->shapes[1]));
     if (!(hit.share > 0.0 && hit.share <= 1.0)) {
+        return;
+    }
+    touch->met = hit.share;
+    touch->on_face = hit.on_face;
+    if (kind_of(touch->shapes[1]) == SHAPE_SEGMENT) {
         return;
     }
     Vec on_other = sub(add(start, scaled(way, hit.share)), scaled(hit.normal, radius));

@@ -71,6 +71,20 @@ def test_a_box_is_stopped_by_a_step(step, speed):
     assert stopped.poses[row, 0] + 0.15 < 1.8
 
 
+@pytest.mark.parametrize('beside', [-0.03, -0.015, -0.002, 0.0, 0.002, 0.015, 0.03])
+def test_a_disc_that_falls_beside_a_seam_bounces_as_from_one_box(beside):
+    def fall(width, count):
+        sim = simulation(friction=0.5, elasticity=0.8)
+        for number in range(count):
+            at = ((number - (count - 1) / 2) * width, -0.25, 0.0)
+            spawn(sim, f'tile/{number}', Box(width=width, height=0.5), at, anchored=True)
+        said = {'velocity': (1.0, -5.0), 'spin': 20.0}
+        row = spawn(sim, 'disc/0', DISC, (beside - 0.1, 0.65, 0.0), **said)
+        return run(sim, 0.3).twists[row]
+
+    assert fall(0.5, 2) == pytest.approx(fall(1.0, 1), abs=1e-9)
+
+
 def test_a_ball_that_falls_on_a_corner_bounces_from_the_corner():
     sim = simulation(gravity=(0.0, 0.0), elasticity=1.0, friction=0.0)
     spawn(sim, 'tile/0', Box(width=0.5, height=0.5), (0.25, -0.25, 0.0), anchored=True)
