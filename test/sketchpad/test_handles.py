@@ -76,6 +76,7 @@ def test_handles_are_not_printed(sheet: Sheet) -> None:
         red, _, blue, _ = sheet.page.evaluate(PIXEL, sheet.page.evaluate('physsim.handles.turn'))
         return bool(blue > red + 100)
 
+    sheet.page.mouse.move(*sheet.place(4.0, 0.6))
     sheet.until(is_blue, 'the handle')
     sheet.page.evaluate("dispatchEvent(new Event('beforeprint'))")
     assert not is_blue()
