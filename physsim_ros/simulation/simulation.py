@@ -352,7 +352,7 @@ class Simulation(FrameMaker):
         """
         Return to a course, at the time that is shown or its last one; return a message.
 
-                :param number: number of the course
+        :param number: number of the course
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
         with self._jump() as past:

@@ -9,7 +9,7 @@ checkpoints and with the same requests, until a request changes its course; a di
 reported as `divergence`. At each checkpoint on its way, the world moves into a space that is built
 from it, as it did the first time.
 
-Long work, a seek, an amendment of the past or steps, is made in parts. Meanwhile `moment` and the
+Long work, a seek, an amendment of the past or steps, is made in slices. Meanwhile `moment` and the
 settings are those of the goal, of steps those that are made, and reading `world` finishes the
 work. A seek replaces another one, and steps; an amendment is finished first.
 """
@@ -77,7 +77,7 @@ class Replay:
         _finish(self._replay_to(*moment))
 
     def _replay_to(self, step: int, serial: int) -> Iterator[None]:
-        """Replay up to a moment of the line, no earlier than now; yield after each part."""
+        """Replay up to a moment of the line, no earlier than now; yield after each slice."""
         world = self._world
         while world.step_count < step:
             yield from self._replay_to_stop(min(step, world.step_count + world.frame_steps))
@@ -101,7 +101,7 @@ class Replay:
             reported the first time
         """
         world, tree = self._world, self._tree
-        for _ in world.parts_of_steps(end - world.step_count):
+        for _ in world.slices_of_steps(end - world.step_count):
             if is_new:
                 tree.note_step(world.step_count)
             yield
@@ -160,13 +160,13 @@ class _Work(NamedTuple):
     A seek, an amendment or steps that are under way.
 
     :ivar kind: of it
-    :ivar parts: of the work
+    :ivar slices: of the work
     :ivar goal: the moment to which a seek leads; an amendment leads to the end of the line in
         force
     """
 
     kind: _Kind
-    parts: Iterator[None]
+    slices: Iterator[None]
     goal: Moment | None = None
 
 
@@ -226,29 +226,29 @@ class Cursor(Replay):
         """Whether an amendment is under way."""
         return self._work is not None and self._work.kind is _Kind.AMENDMENT
 
-    def work(self, parts: Iterator[None]) -> None:
-        """Have an amendment be carried out part by part, from now on."""
+    def work(self, slices: Iterator[None]) -> None:
+        """Have an amendment be carried out slice by slice, from now on."""
         self.finish_work()
-        self._work = _Work(_Kind.AMENDMENT, parts)
+        self._work = _Work(_Kind.AMENDMENT, slices)
 
     def continue_work(self) -> bool:
         """
-        Carry out a part, a frame or a request, and return whether work is still under way.
+        Carry out a slice, a frame or a request, and return whether work is still under way.
 
-        Of a frame that takes long, a part is as many sub-steps as a call of the core makes.
+        Of a frame that takes long, a slice is as many sub-steps as a call of the core makes.
         """
-        # Within a part, the world is where it is.
+        # Within a slice, the world is where it is.
         work, self._work = self._work, None
         # An amendment that is refused ends with a seek back.
-        if work is not None and next(work.parts, self) is not self:
+        if work is not None and next(work.slices, self) is not self:
             self._work = work
         return self._work is not None
 
-    def parts_of_work(self) -> Iterator[None]:
+    def slices_of_work(self) -> Iterator[None]:
         """Carry out the work that is under way as a part of other work."""
         work, self._work = self._work, None
         if work is not None:
-            yield from work.parts
+            yield from work.slices
 
     def finish_work(self) -> None:
         """Carry out the rest of the work that is under way."""
@@ -321,10 +321,10 @@ class Cursor(Replay):
         is_within_step = self._world.is_within_step
         if elsewhere or is_within_step or not keyframe.moment <= self._here <= first:
             self.resume(keyframe)
-        parts = self._parts_of_seek(start, goal, with_contacts=with_contacts)
-        self._work = _Work(_Kind.SEEK, parts, goal)
+        slices = self._slices_of_seek(start, goal, with_contacts=with_contacts)
+        self._work = _Work(_Kind.SEEK, slices, goal)
 
-    def _parts_of_seek(
+    def _slices_of_seek(
         self, start: Moment, goal: Moment, *, with_contacts: bool
     ) -> Iterator[None]:
         yield from self._replay_to(*start)
@@ -375,15 +375,18 @@ class Cursor(Replay):
         :param subject: name of the body or joint concerned, or ''
         :param author: name of the person who did it; '' is nobody
         """
-        tree, settings = self._tree, self._world.settings
+        tree, (step, serial) = self._tree, self.moment
         tree.add_request(
-            self.moment,
-            request,
-            gesture=gesture,
-            author=author,
-            subject=subject,
-            settings=settings,
-            adds=self._world.has_grown,
+            Node(
+                parent=tree.node(serial),
+                step=step,
+                request=request,
+                settings=self._world.settings,
+                gesture=gesture,
+                author=author,
+                subject=subject,
+                adds=self._world.has_grown,
+            )
         )
         self.serial += 1
         if tree.is_log_long:
@@ -392,14 +395,14 @@ class Cursor(Replay):
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps: by replay up to the head, then by new steps."""
-        _finish(self._parts_of_advance(self.world.step_count + steps))
+        _finish(self._slices_of_advance(self.world.step_count + steps))
 
     def begin_advance(self, steps: int) -> None:
-        """Have the world advance by a number of steps, part by part from now on."""
+        """Have the world advance by a number of steps, slice by slice from now on."""
         end = self.world.step_count + steps
-        self._work = _Work(_Kind.STEPS, self._parts_of_advance(end))
+        self._work = _Work(_Kind.STEPS, self._slices_of_advance(end))
 
-    def _parts_of_advance(self, end: int) -> Iterator[None]:
+    def _slices_of_advance(self, end: int) -> Iterator[None]:
         """Advance to a step; yield where steps take long."""
         world, tree = self._world, self._tree
         while (step := world.step_count) < end:
@@ -443,7 +446,7 @@ class Cursor(Replay):
             world.build_bodies(-(-count * steps // max(1, int(spacing * _AHEAD))))
 
 
-def _finish(parts: Iterator[None]) -> None:
-    """Carry out all parts of a work."""
-    for _ in parts:
+def _finish(slices: Iterator[None]) -> None:
+    """Carry out all slices of a work."""
+    for _ in slices:
         pass

@@ -43,12 +43,12 @@ class _Segment(NamedTuple):
 
     :ivar of: its first checkpoint, its last step, and whether contacts are reported
     :ivar stride: steps from one frame to the next
-    :ivar parts: of the replay
+    :ivar slices: of the replay
     """
 
     of: tuple[Keyframe, int, bool]
     stride: int
-    parts: Iterator[None]
+    slices: Iterator[None]
 
 
 class FrameCache:
@@ -159,10 +159,10 @@ class FrameCache:
         missing = (at for at in range(step - apart, before, -apart) if not self._is_cached(at))
         gap = next(missing, None)
         if gap is not None:
-            parts = self._replay_segment(gap, stride)
+            slices = self._replay_segment(gap, stride)
             _, end = self._tree.segment(gap)
             left, calls = end - self._world.step_count, max(1, (step - gap) // max(1, steps))
-            yield from islice(parts, -(-left // (calls * stride)))
+            yield from islice(slices, -(-left // (calls * stride)))
             self._evict(step)
 
     def _is_cached(self, step: int) -> bool:
@@ -178,7 +178,7 @@ class FrameCache:
 
     def _replay_segment(self, step: int, stride: int) -> Iterator[None]:
         """
-        Return the parts of the replay of the segment of a step, of that under way if it suits.
+        Return the slices of the replay of the segment of a step, of that under way if it suits.
 
         :param stride: steps from one frame to the next
         """
@@ -187,11 +187,11 @@ class FrameCache:
         if segment is None or segment.of != of or segment.stride > stride:
             self._replay.resume(keyframe)
             self._replay.replay_shown(keyframe.step)
-            segment = _Segment(of, stride, self._parts_of_segment(keyframe, end, stride))
+            segment = _Segment(of, stride, self._slices_of_segment(keyframe, end, stride))
             self._segment = segment
-        return segment.parts
+        return segment.slices
 
-    def _parts_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
+    def _slices_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
         """Replay a segment from its keyframe; at its end its frames replace those cached."""
         replay, world, frames = self._replay, self._world, []
         # The step may have been shown without the requests before the keyframe.
