@@ -142,7 +142,7 @@ class DrawingSession:
             self._marks = (figure,)
             return self._shown(mark_reading(figure))
         # A second line may make an x of a mark.
-        self._figures.extend(self._marks)
+        self._figures.extend(replace(each, scene=scene) for each in self._marks)
         self._marks = ()
         group = likeliest_group(self._figures, figure, self.settings, self._clock)
         if group is not None:
@@ -187,11 +187,17 @@ class DrawingSession:
         if not figure.is_solid:
             return replace(reading, requests=requests)
         earlier = [each for each in self._figures if each is not figure]
-        over = list(readings_over(figure, earlier, self.settings))
-        figure.requests = requests = sum((each.requests for each in over), requests)
-        message = '; '.join((reading.message, *(each.message for each in over)))
-        also = tuple(each.meaning for each in over)
-        return replace(reading, requests=requests, message=message, also=also)
+        message, also = reading.message, []
+        for (stroke, *_), over in readings_over(figure, earlier, self.settings):
+            requests += over.requests
+            message += f'; {over.message}'
+            also.append(over.meaning)
+            if over.meaning == 'mark':
+                self._marks = (replace(stroke, requests=(), gestures=()),)
+            elif over.meaning == 'velocity':
+                reading = figure.offer_gravity(reading)
+        figure.requests = requests
+        return replace(reading, requests=requests, message=message, also=tuple(also))
 
     def _shown(self, reading: Reading) -> Reading:
         """Return a reading after its preview is made and its names are reserved."""

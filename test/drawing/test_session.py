@@ -231,6 +231,62 @@ def test_a_rod_before_its_bob_is_undone_and_read_anew_with_it() -> None:
     assert desk.shapes == ['Chain']
 
 
+@pytest.mark.parametrize('strokes', [ARROW, [np.vstack((*ARROW, ARROW[0][1:]))]])
+def test_an_arrow_just_before_its_body_is_its_velocity_and_gravity_instead(
+    strokes: Sequence[Way],
+) -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    for stroke in strokes:
+        arrow = desk.draw(stroke)
+
+    ball = desk.draw(0.5 * CIRCLE, after=3.0)
+    moved = desk.frame.snapshot.twists[0, 0], desk.scene.settings.gravity
+    desk.instead('gravity')
+    turned = desk.frame.snapshot.twists[0, 0], desk.scene.settings.gravity
+    again = desk.instead('disc')
+    desk.simulation.undo()
+
+    assert (arrow.meaning, ball.meaning, ball.also) == ('gravity', 'disc', ('velocity',))
+    assert moved == (pytest.approx(1.8, abs=0.05), (0.0, -9.81))
+    assert turned == (0.0, desk.scene.settings.gravity)
+    assert turned[1][0] == pytest.approx(9.81, abs=0.05)
+    assert again.also == ('velocity',)
+    assert desk.shapes == []
+
+
+@pytest.mark.parametrize('between', [circle(5.0, 5.0, 0.5), None])
+def test_an_arrow_that_was_not_drawn_just_before_a_body_has_turned_gravity(
+    between: Floats | None,
+) -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    desk.draw(np.vstack((*ARROW, ARROW[0][1:])))
+    if between is not None:
+        desk.draw(between)
+    ball = desk.draw(0.5 * CIRCLE, after=0.3 if between is not None else 11.0)
+
+    assert ball.also == ()
+    assert desk.scene.settings.gravity[0] == pytest.approx(9.81, abs=0.05)
+
+
+@pytest.mark.parametrize('held', ['anchored', 'on an axle'])
+def test_a_rope_over_a_wheel_may_be_drawn_before_its_weights(held: str) -> None:
+    desk = Desk()
+    wheel = spawning('wheel/0', Disc(radius=0.5), (0.0, 3.0, 0.0), anchored=held == 'anchored')
+    desk.spawn(wheel)
+    if held != 'anchored':
+        desk.draw(circle(0.0, 3.0, 0.1))
+    over = circle(0.0, 3.0, 0.55)[29::-1]
+    desk.draw(np.vstack(([(-0.55, 0.0)], over, [(0.55, 0.0)])), after=2.0)
+    for side in (-0.55, 0.55):
+        desk.draw(circle(side, -0.1, 0.3), after=2.0)
+
+    assert desk.shapes == ['Disc'] * 3
+    (rope,) = (each for each in desk.scene.joints if each.kind is JointKind.ROPE)
+    assert [guide.body for guide in rope.guides] == ['wheel/0']
+
+
 @pytest.mark.parametrize('on_it', [(0.5, 0.25, 0.0), (0.5, -3.0, 0.0)])
 def test_a_wall_that_bears_something_is_no_rod(on_it: tuple[float, float, float]) -> None:
     desk = Desk()

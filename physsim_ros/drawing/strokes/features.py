@@ -55,24 +55,14 @@ class Swings:
     :param count: of swings
     :param height: mean height of a swing, across the advance [m]; 0 where they are fewer than
         `FEWEST`, as are the other figures
-    :param advance: over all swings, in mean heights
+    :param spread: how far apart they lie: above 1 those of a zigzag, below those of a scribble
     :param steady: straightness of the advance, 0 .. 1
     """
 
     count: int
     height: float
-    advance: float
+    spread: float
     steady: float
-
-    @property
-    def spread(self) -> float:
-        """
-        Return how far apart the swings lie: above 1 those of a zigzag, below those of a scribble.
-
-        A scribble of many swings may go far, if each lies close to the one before it.
-        """
-        tooth = self.advance / max(self.count, 1)
-        return min(self.advance / _FAR_APART, tooth / _WIDE_TOOTH)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -131,7 +121,7 @@ def swings_of(points: Floats) -> Swings:
     # Among directions with as many swings, the one with the smallest extent.
     best = int((counts - extent[:, 0] / extent.max() / 2).argmax())
     if counts[best] < FEWEST:
-        return Swings(count=int(counts[best]), height=0.0, advance=0.0, steady=0.0)
+        return Swings(count=int(counts[best]), height=0.0, spread=0.0, steady=0.0)
     bounds = [0, *(np.flatnonzero(changes[best]) + 1).tolist(), len(points)]
     out = place[best] * side[best]
     peaks = [a + int(out[a:b].argmax()) for a, b in itertools.pairwise(bounds)]
@@ -141,10 +131,12 @@ def swings_of(points: Floats) -> Swings:
     total = advances.sum(axis=0)
     whole, steps = float(norms(total)), float(norms(advances).sum())
     height = float(np.abs(cross(strides, total / max(whole, 1e-12))).mean())
+    # In mean heights. A scribble of many swings may go far, if each lies close to the one before.
+    advance = whole / 2 / len(advances) * len(strides) / max(height, 1e-12)
     return Swings(
         count=len(strides),
         height=height,
-        advance=whole / 2 / len(advances) * len(strides) / max(height, 1e-12),
+        spread=min(advance / _FAR_APART, advance / len(strides) / _WIDE_TOOTH),
         steady=whole / max(steps, 1e-12),
     )
 

@@ -44,6 +44,7 @@ from physsim_ros.drawing.strokes.reading import (
     guesses_of,
     in_scene,
     is_likely,
+    MOST_GUESSES,
     Reading,
     reading_of,
 )
@@ -69,7 +70,9 @@ _HEADS = frozenset({POLYGON, DELETION})
 _JOINED = CLOSED | _ARROWS | {'anchor', 'motor'}
 # Signs on a body that two strokes are however slowly they are drawn, and the longest pause between
 # these [s]: two lines across a body, and a rod with barbs at its free end, are nothing else.
-_ON_BODIES, _SLOWLY = frozenset({'anchor', 'velocity'}), 10.0
+_ON_BODIES, SLOWLY = frozenset({'anchor', 'velocity'}), 10.0
+# Confidence that an arrow at whose tail a body is drawn next did turn gravity.
+_TURNED = 0.1
 # The least share of the middle half of a line that lies on a solid whose mark it is.
 _ON_SOLID = 0.6
 
@@ -150,6 +153,16 @@ class Figure:
         """Return whether it is a body of its own."""
         return self.meaning in {DISC, RECTANGLE, POLYGON}
 
+    def offer_gravity(self, reading: Reading) -> Reading:
+        """Return a reading of a body with the guess that the arrow before it did turn gravity."""
+        chosen, *rest = reading.guesses
+        # The body alone is built.
+        turned = replace(chosen, meaning=GRAVITY, confidence=_TURNED)
+        chosen = replace(chosen, confidence=min(chosen.confidence, 1.0 - _TURNED))
+        rest = [each for each in rest if each.meaning != GRAVITY]
+        self.guesses, self.chosen = (chosen, turned, *rest)[:MOST_GUESSES], 0
+        return replace(reading, guesses=self.guesses)
+
     @property
     def other_guesses(self) -> list[int]:
         """Return the indices of the other guesses, beginning with the next likely one."""
@@ -222,12 +235,9 @@ def _contexts_together(
     if cross is not None:
         yield cross, _JOINED if in_time else _ON_BODIES
         return
-    arrow = joined_arrow(strokes)
+    arrow = arrow_in(scene, strokes, settings)
     if arrow is not None:
-        # The looks of the way from the one part to the other tell nothing.
-        whole = _joined(arrow)
-        context = in_scene(whole, scene, settings, lambda it: sign_forms(it, (ARROW,))[0])
-        yield context, _ARROWS if in_time else _ON_BODIES
+        yield arrow, _ARROWS if in_time else _ON_BODIES
     if not in_time:
         return
     # A solid, or a scribble, is part of an arrow alone; several lines may be an arrow so far.
@@ -247,6 +257,17 @@ def crossing_in(
     if cross is None:
         return None
     return in_scene(_joined(joined_strokes(strokes)), scene, settings, lambda _: (cross,))
+
+
+def arrow_in(
+    scene: SceneQuery, strokes: Sequence[Floats], settings: DrawingSettings
+) -> Context | None:
+    """Return strokes in a scene as an arrow if they are a shaft and its head, else None."""
+    arrow = joined_arrow(strokes)
+    if arrow is None:
+        return None
+    # The looks of the way from the one part to the other tell nothing.
+    return in_scene(_joined(arrow), scene, settings, lambda it: sign_forms(it, (ARROW,))[0])
 
 
 def _joined(path: Floats) -> Stroke:
@@ -322,7 +343,7 @@ def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
 def _follows_slowly(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
     """Return whether two strokes, later than `regroup`, may still be a sign on a body."""
     part = figure.is_line and settings.regroup > 0.0
-    return part and later.began - figure.ended <= max(_SLOWLY, settings.regroup)
+    return part and later.began - figure.ended <= max(SLOWLY, settings.regroup)
 
 
 def _is_hatching(figures: Sequence[Figure]) -> bool:

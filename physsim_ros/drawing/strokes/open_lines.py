@@ -68,7 +68,7 @@ def meanings(form: Form, context: Context) -> Iterator[Meaning]:
 def rope_around_wheels(context: Context) -> Meaning | None:
     """Return the meaning of a line from body to body, or to the background, around a wheel."""
     start, end = context.drawn.points[[0, -1]]
-    if not context.wheels or math.dist(start, end) <= context.settings.snap:
+    if math.dist(start, end) <= context.settings.snap:
         return None
     build = partial(outcomes.join, JointKind.ROPE, context)
     return Meaning(name=str(JointKind.ROPE), weight=BETWEEN, build=build)

@@ -134,10 +134,11 @@ def in_scene(
 ) -> Context:
     """Return a stroke with its features and forms in the scene that it was drawn over."""
     features = features_of(stroke)
+    forms = forms_of(features)
     ends = joint_ends(stroke.points, scene, settings.snap)
     return Context(
         features=features,
-        forms=forms_of(features),
+        forms=forms,
         scene=scene,
         settings=settings,
         ends=ends,
@@ -147,7 +148,7 @@ def in_scene(
 
 def meanings_of(context: Context) -> Iterator[Meaning]:
     """Yield the meanings of all forms of a stroke; several forms may have the same one."""
-    rope = open_lines.rope_around_wheels(context)
+    rope = open_lines.rope_around_wheels(context) if context.wheels else None
     for form in context.forms:
         found = _MEANINGS[form.name](form, context)
         if rope is not None and form.name in _OUTLINES:

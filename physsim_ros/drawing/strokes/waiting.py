@@ -4,10 +4,11 @@
 """
 Strokes that wait for a body: the rod of a pendulum before its bob, the axle before its wheel.
 
-Law: a joint or an x that is drawn before its body is what it is when drawn after it. A stroke
-that has been a wall, a small solid or an x over nothing is read again, over the new body. A wall
-on which something lies, or whose end the new body only touches from above or beside, stays one.
-One within the new body is a mark, which has no effect.
+Law: a joint, an x or an arrow that is drawn before its body is what it is when drawn after it. A
+stroke that has been a wall, a small solid or an x over nothing is read again, over the new body,
+and so is an arrow just before it, which turned gravity. A wall on which something lies, or whose
+end the new body only touches from above or beside, stays one. One within the new body is a mark,
+which has no effect; a second line may make an x of it.
 """
 
 from __future__ import annotations
@@ -21,9 +22,17 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import stands_on
-from physsim_ros.drawing.strokes.figure import crossing_in, Figure, lies_within, mark_reading
+from physsim_ros.drawing.strokes.figure import (
+    arrow_in,
+    crossing_in,
+    Figure,
+    lies_within,
+    mark_reading,
+    SLOWLY,
+)
 from physsim_ros.drawing.strokes.geometry import COUNT, few_points, point_of
 from physsim_ros.drawing.strokes.joining import joined_strokes
+from physsim_ros.drawing.strokes.meanings import GRAVITY
 from physsim_ros.drawing.strokes.reading import (
     guesses_of,
     in_scene,
@@ -34,14 +43,15 @@ from physsim_ros.drawing.strokes.reading import (
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Delete, Join, Spawn
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import Configure, Delete, Join, Request, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import Pose, rotated_each
 from physsim_ros.simulation.world.body_description import new_body
 
 # Meanings that a stroke has by the bodies under it.
-_BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor'})
+_BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})
 # The cosine of the slope of a wall's end below which a body hangs from it: 135°.
 _HANGS = -0.7
 # Points of the middle half of a line, at which other bodies show that it is a wall.
@@ -50,9 +60,9 @@ _MIDDLE = slice(COUNT // 4, COUNT - COUNT // 4, 4)
 
 def readings_over(
     solid: Figure, figures: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[Reading]:
+) -> Iterator[tuple[tuple[Figure, ...], Reading]]:
     """
-    Yield the readings of earlier strokes over a new body, where those are others than before.
+    Yield earlier strokes and their readings over a new body, where those are others than before.
 
     :param solid: the new body
     :param figures: drawn before, the earliest first
@@ -77,8 +87,7 @@ def readings_over(
             continue
         done |= names
         joints += sum(isinstance(each, Join) for each in reading.requests)
-        gone = (Delete(name=each) for each in sorted(names))
-        yield replace(reading, requests=(*gone, *reading.requests))
+        yield group, replace(reading, requests=(*_undoing(group), *reading.requests))
 
 
 def _waiting(
@@ -91,9 +100,28 @@ def _waiting(
     for each in there:
         if each not in walls or _is_mark(each, solid) or not _bears(each, solid.scene, snap):
             yield (each,)
-    # Of a stroke that nothing is left of, a person has the last one in mind.
-    if figures and figures[-1].chosen is not None and not figures[-1].requests:
+    # Of strokes that have become no body, a person has the last one in mind.
+    if figures and _is_no_body(figures[-1], solid):
         yield (figures[-1],)
+
+
+def _is_no_body(figure: Figure, solid: Figure) -> bool:
+    """Return whether a figure is a sign over nothing, or turned gravity just before a new body."""
+    match figure.requests:
+        case ():
+            return figure.chosen is not None
+        case (Configure(changes={'gravity': gravity}),):
+            still = solid.scene.settings.gravity == gravity
+            return still and solid.began - figure.ended <= SLOWLY
+    return False
+
+
+def _undoing(figures: Sequence[Figure]) -> Iterator[Request]:
+    """Yield the requests by which what figures have become is gone."""
+    yield from (Delete(name=each) for each in sorted(_names(figures)))
+    for figure in figures:
+        if figure.meaning == GRAVITY:
+            yield Configure(changes={'gravity': figure.scene.settings.gravity})
 
 
 def _names(figures: Sequence[Figure]) -> set[str]:
@@ -117,9 +145,12 @@ def _is_mark(figure: Figure, solid: Figure) -> bool:
 
 
 def _bears(wall: Figure, scene: SceneQuery, snap: float) -> bool:
-    """Return whether other bodies touch the middle of a wall: it is no rod."""
-    points = joined_strokes(wall.strokes)[_MIDDLE]
-    return any({*scene.bodies_at(point_of(each), snap)} - _names((wall,)) for each in points)
+    """Return whether other bodies lie on the middle of a wall: it is no rod."""
+    # The wheels that a rope runs around do not lie on it.
+    held = _names((wall,)).union(each.a for each in scene.joints if each.b == WORLD)
+    middle = map(point_of, joined_strokes(wall.strokes)[_MIDDLE])
+    near = {name for point in middle for name in scene.bodies_at(point, snap)}
+    return any(scene.body(name).dynamic for name in near - held)
 
 
 def _reaches(group: Sequence[Figure], body: Body, pose: Pose, snap: float) -> bool:
@@ -135,7 +166,7 @@ def _reading_over(
     """Return the reading of figures that reach a new body, or None where it is the same."""
     strokes = [stroke for each in group for stroke in each.strokes]
     path = joined_strokes(strokes)
-    context = crossing_in(scene, strokes, settings)
+    context = crossing_in(scene, strokes, settings) or arrow_in(scene, strokes, settings)
     if context is None and len(group) == 1:
         context = in_scene(resample_stroke(path), scene, settings)
     guesses = guesses_of(context) if context is not None else ()

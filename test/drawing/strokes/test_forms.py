@@ -189,7 +189,7 @@ def test_swings_are_counted_and_measured_across_their_advance() -> None:
     assert swings.count == 8
     # m, and shares: corners of a stroke of 128 points are a little cut off.
     assert swings.height == pytest.approx(3.0, rel=0.05)
-    assert swings.advance == pytest.approx(8 / 3, rel=0.1)
+    assert swings.spread == pytest.approx(1 / 3 / 0.23, rel=0.1)
     assert swings.steady == pytest.approx(1.0, abs=0.01)
 
 
