@@ -76,14 +76,14 @@ class ErrorBoundary:
                 self._longest = name, took
 
     @coroutine
-    def parts_of_message(
-        self, name: str, parts: Coroutine[_Awaited, None, _Result]
+    def slices_of_message(
+        self, name: str, slices: Coroutine[_Awaited, None, _Result]
     ) -> Generator[_Awaited, None, _Result]:
-        """Carry out a message in parts, each as `message` does."""
+        """Carry out a message in slices, each as `message` does."""
         while True:
             with self.message(name):
                 try:
-                    awaited = parts.send(None)
+                    awaited = slices.send(None)
                 except StopIteration as end:
                     result: _Result = end.value
                     return result

@@ -17,8 +17,8 @@ from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.simulation.entries import Wait
-from physsim_ros.simulation.parts import Parted
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.slices import Sliced
 
 # Time after which a tick simulates no further publish period [ns], or where the last tick took
 # longer, no further step: requests, services and signals wait at most so long, which a person
@@ -80,7 +80,7 @@ class FrameLoop:
         request_time = _RequestTime(self._rest_ns)
         # In a rewind commands are ignored, and no controller is awaited.
         if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
-            # A short seek is finished first: its parts are no frames for controllers to answer.
+            # A short seek is finished first: its slices are no frames for controllers to answer.
             self.finish_short_seek()
             frames = self._simulation.advance(
                 now_ns,
@@ -143,7 +143,7 @@ class FrameLoop:
             return frame.answers
         return self._report_answers()
 
-    def apply_up_to_seek(self) -> bool:
+    def apply_in_time(self) -> bool:
         """
         Apply the requests before a seek that there is time for; return whether none waits.
 
@@ -151,11 +151,11 @@ class FrameLoop:
         """
         if not self.started:
             return True
-        return self._simulation.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
+        return self._simulation.requests.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
 
-    def submit_call(
+    def make_call(
         self,
-        call: Parted[Sequence[Answer]],
+        call: Sliced[Sequence[Answer]],
         wait: Wait,
         on_told: Callable[[], object] = lambda: None,
     ) -> None:
@@ -167,7 +167,7 @@ class FrameLoop:
         """
         self._simulation.requests.submit_call(call, wait, on_told)
         if self.started:
-            self.apply_up_to_seek()
+            self.apply_in_time()
         elif wait is not Wait.NONE:
             self._simulation.requests.apply_waiting()
             # No tick goes on with a replay that the call began.
@@ -175,7 +175,7 @@ class FrameLoop:
 
     def current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""
-        if self.apply_up_to_seek():
+        if self.apply_in_time():
             self.apply_requests()
         shown = self._outputs.frame
         return self._simulation.world.snapshot() if shown is None else shown.snapshot

@@ -163,7 +163,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         )
         control.services['instead'] = Service(drawing.read_instead)
         control.subscribe(topics)
-        calls = ServiceCalls(simulation.requests, loop.submit_call, boundary)
+        calls = ServiceCalls(simulation.requests, loop.make_call, boundary)
         create_services(self, control.services, calls, on_success=control.note_change)
         self._parameter_services = ParameterServices(self, calls)
         create_simulation_services(self, control, calls)

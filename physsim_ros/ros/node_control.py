@@ -9,15 +9,17 @@ Law: services, topics, pages and `simulation_interfaces` do it all by this one c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
+from physsim_ros.files import on_thread
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Running
 from physsim_ros.model.requests import DeleteAll
-from physsim_ros.model.snapshot import Answer, run_state, Snapshot
+from physsim_ros.model.snapshot import Answer, run_state
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
@@ -26,8 +28,9 @@ from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.parts import in_parts, Parted
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.slices import in_slices, Sliced
+from physsim_ros.simulation.world import beginning_of
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
@@ -47,6 +50,8 @@ class NodeControl:
 
     :ivar values: of the parameters of the node, by name, always up to date
     :ivar services: by their names
+    :ivar current_snapshot: applies the waiting requests, and returns the snapshot that is shown
+    :ivar make_call: makes a call at its time among the requests
     :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
     """
 
@@ -68,6 +73,8 @@ class NodeControl:
         self._is_quitting = False
         self._node = node
         self._loop = loop
+        self.current_snapshot = loop.current_snapshot
+        self.make_call = loop.make_call
         self._outputs = outputs
         self._files = world_files
         self._live = live
@@ -82,7 +89,7 @@ class NodeControl:
             'step': Service(self._step),
             'undo': Service(simulation.undo, Wait.BEHIND_REQUESTS),
             'redo': Service(simulation.redo, Wait.BEHIND_REQUESTS),
-            'reset': Service(simulation.reset, Wait.BEHIND_REQUESTS),
+            'reset': Service(self._reset, Wait.BEHIND_REQUESTS),
             'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
             'load_world': Service(lambda: world_files.load(confined=True), Wait.FOR_SEEK),
             'save_world': Service(world_files.save, Wait.FOR_SEEK),
@@ -136,24 +143,6 @@ class NodeControl:
 
     # Requests
 
-    def current_snapshot(self) -> Snapshot:
-        """Apply the waiting requests, and return the snapshot that is shown."""
-        return self._loop.current_snapshot()
-
-    def submit_call(
-        self,
-        call: Parted[Sequence[Answer]],
-        wait: Wait,
-        on_told: Callable[[], object] = lambda: None,
-    ) -> None:
-        """
-        Make a call at its time among the requests, and tell its answers.
-
-        :param on_told: called when its answers are told
-        :raises Busy: too many requests wait
-        """
-        self._loop.submit_call(call, wait, on_told)
-
     def service(self, name: str) -> Service:
         """Return a service."""
         return self.services[name]
@@ -174,11 +163,11 @@ class NodeControl:
         """
         return await self._perform_with(world, self._files.open_world)
 
-    async def _perform_with(self, world: str, action: Parted[str]) -> str:
+    async def _perform_with(self, world: str, action: Sliced[str]) -> str:
         before = self.values['world_file']
         self.set_parameter('world_file', world)
         try:
-            return await in_parts(action)
+            return await in_slices(action)
         except Exception:
             # Somebody may have set it meanwhile.
             if self.values['world_file'] == world:
@@ -234,7 +223,7 @@ class NodeControl:
         self._outputs.statistics.reset_pace()
         self.simulation.stop_driving()
         self.simulation.requests.submit_seek(stamp, origin)
-        self._loop.apply_up_to_seek()
+        self._loop.apply_in_time()
 
     def _step(self) -> str:
         """
@@ -244,10 +233,16 @@ class NodeControl:
         """
         if self.simulation.speed != 0:
             raise Running('time is running; pause first')
-        if not self._loop.apply_up_to_seek():
+        if not self._loop.apply_in_time():
             return f'at {self.simulation.playback.queue_frame() * 1e-9:.6f} s'
         self._loop.advance_frame()
         return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
+
+    async def _reset(self) -> str:
+        """Go to the beginning, which a thread builds."""
+        simulation = self.simulation
+        begin = partial(beginning_of, simulation.loaded, simulation.physics_rate)
+        return simulation.reset(ahead=await on_thread(begin))
 
     def _run_at(self, speed: float) -> str:
         self.set_speed(speed)

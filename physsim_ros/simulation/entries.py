@@ -14,7 +14,7 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.sizes import request_size
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.parts import Parted
+from physsim_ros.simulation.slices import Sliced
 
 # Memory of a marker as rclpy decodes it [bytes].
 _UNREAD = 2500
@@ -84,12 +84,12 @@ class Call:
     """
     Call a function that reads or replaces the world.
 
-    :param call: the function; it returns answers, and may have parts
+    :param call: the function; it returns answers, and may have slices
     :param wait: the time at which it is called
     :param on_told: called when its answers are told
     """
 
-    call: Parted[Sequence[Answer]]
+    call: Sliced[Sequence[Answer]]
     wait: Wait
     on_told: Callable[[], object]
 

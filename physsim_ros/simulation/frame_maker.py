@@ -135,17 +135,6 @@ class FrameMaker:
         self.playback.seek_shown()
         return self.past
 
-    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
-        """
-        Apply the requests up to a seek.
-
-        :param is_spent: whether there is no time for a further one
-        :return: whether no seek and no call is under way, and no request waits
-        """
-        requests = self.requests
-        requests.apply_up_to_seek(is_spent)
-        return self.playback.is_there and not (requests.has_requests or requests.is_calling)
-
     def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
         """
         Replay up to the goal of a seek whose frame is not cached, or to the end of an amendment.
@@ -155,13 +144,13 @@ class FrameMaker:
         :param is_overdue: whether the work is to continue in another call
         :return: whether it is done
         """
-        is_done = self._replay(self.playback.parts_of_work(), is_overdue)
+        is_done = self._replay(self.playback.slices_of_work(), is_overdue)
         self.requests.note_arrival()
         return is_done
 
-    def _replay(self, parts: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+    def _replay(self, slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
         """Carry out a replay until time is up, and return whether it is done."""
-        if _carry_out(parts, is_overdue):
+        if _carry_out(slices, is_overdue):
             return True
         # The time of this replay is not made up for.
         self.playback.clock.restart()
@@ -254,8 +243,7 @@ class FrameMaker:
         self.requests.apply_up_to_seek(is_spent)
         if not self.finish_seek(is_overdue):
             return ()
-        is_busy = self.requests.has_requests or self.requests.is_calling
-        if self.requests.is_in_gesture or (playback.frames_due and is_busy):
+        if self.requests.is_in_gesture or (playback.frames_due and self.requests.is_busy):
             playback.clock.restart()
             return ()
         if playback.frames_due:
@@ -287,8 +275,8 @@ class FrameMaker:
                 return
             if steps > 0:
                 self._begin_frame(is_read=self.is_read)
-                parts = playback.play(steps, by_steps=by_steps)
-                if any(ends_frame() if ends else is_overdue() for ends in parts):
+                slices = playback.play(steps, by_steps=by_steps)
+                if any(ends_frame() if ends else is_overdue() for ends in slices):
                     self._is_unfinished = not playback.is_there
                 if self._is_unfinished:
                     playback.clock.restart()
@@ -373,6 +361,6 @@ class FrameMaker:
         return frame
 
 
-def _carry_out(parts: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
-    """Carry out parts of work until time is up, and return whether all are done."""
-    return not any(is_overdue() for _ in parts)
+def _carry_out(slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+    """Carry out slices of work until time is up, and return whether all are done."""
+    return not any(is_overdue() for _ in slices)

@@ -213,9 +213,9 @@ class Playback:
             step, self._shown = self._shown.snapshot.step, None
             self._past.cursor.seek(step, with_contacts=False)
 
-    def parts_of_work(self) -> Iterator[None]:
+    def slices_of_work(self) -> Iterator[None]:
         """
-        Carry out the work that is under way; yield after each part but the last.
+        Carry out the work that is under way; yield after each slice but the last.
 
         Nothing is done while a cached frame is shown in place of the goal.
         """
@@ -277,7 +277,7 @@ class Playback:
         """
         Show the frame of an earlier step, no earlier than the oldest.
 
-        Yield after each part of its replay, before which another frame is shown.
+        Yield after each slice of its replay, before which another frame is shown.
         """
         step = max(self._past.tree.oldest, self.step - steps)
         if step < self.step:

@@ -8,7 +8,7 @@ Laws: entries are applied in the order of their arrival, and each is answered on
 hands and drives only if refused. A seek, or a call that sends the world elsewhere, is answered
 when the moment is reached, or when the world is sent elsewhere before. Requests that read or
 change the world wait for the end of a seek; all but answers wait for the end of an amendment, and
-all for that of a call in parts. `waiting_entries` has what replaces a waiting entry, and how many
+all for that of a call in slices. `waiting_entries` has what replaces a waiting entry, and how many
 may wait.
 """
 
@@ -35,23 +35,23 @@ from physsim_ros.simulation.entries import (
     Wait,
 )
 from physsim_ros.simulation.hands import Hands
-from physsim_ros.simulation.parts import at_once, in_parts, Parted, Parts
 from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
+from physsim_ros.simulation.slices import at_once, in_slices, Sliced, Slices
 from physsim_ros.simulation.waiting_entries import WaitingEntries
 
 
 class _UnderWay(NamedTuple):
     """
-    A call in parts that is under way.
+    A call in slices that is under way.
 
     :ivar call: the entry
-    :ivar parts: of it
-    :ivar awaited: for which its next part waits
+    :ivar slices: of it
+    :ivar awaited: for which its next slice waits
     """
 
     call: Call
-    parts: Parts[Sequence[Answer]]
+    slices: Slices[Sequence[Answer]]
     awaited: Future[Any]
 
 
@@ -133,20 +133,20 @@ class RequestQueue:
 
     def submit_call(
         self,
-        call: Parted[Sequence[Answer]],
+        call: Sliced[Sequence[Answer]],
         wait: Wait,
         on_told: Callable[[], object] = lambda: None,
     ) -> None:
         """
         Make a call now, or add it to the requests.
 
-        :param call: may have parts
+        :param call: may have slices
         :param wait: the time at which it is called
         :param on_told: called when its answers are told
         :raises Busy: too many requests wait
         """
         if wait is Wait.NONE:
-            for answer in at_once(in_parts(call)):
+            for answer in at_once(in_slices(call)):
                 self.tell(answer)
             on_told()
             return
@@ -193,9 +193,9 @@ class RequestQueue:
         return following.gesture == self._applied
 
     @property
-    def is_calling(self) -> bool:
-        """Return whether a call in parts is under way, for which all entries wait."""
-        return self._under_way is not None
+    def is_busy(self) -> bool:
+        """Return whether requests wait, or a call in slices is under way, for which all wait."""
+        return self._under_way is not None or self.has_requests
 
     def apply_waiting(self) -> None:
         """Apply all entries, and finish the seeks, calls and amendments that others wait for."""
@@ -210,11 +210,12 @@ class RequestQueue:
         self._past.cursor.finish_amendment()
         self.note_arrival()
 
-    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> None:
+    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
         Apply the entries up to a seek or an amendment; those after it wait for its end.
 
         :param is_spent: whether there is no time for a further entry; asked after each
+        :return: whether no seek and no call is under way, and no request waits
         """
         for entry in self._take(is_spent):
             try:
@@ -226,7 +227,7 @@ class RequestQueue:
                         self._answer(refusal, entry)
                     case Call() as call:
                         self._has_jumped = False
-                        self._carry_out(call, in_parts(call.call))
+                        self._carry_out(call, in_slices(call.call))
                     case Amend() | TakeBack() as change:
                         self._playback.seek_shown()
                         self._past.cursor.work(self._amend(change, entry))
@@ -243,6 +244,7 @@ class RequestQueue:
                             self._answer(answer, entry)
             except Refusal as refusal:
                 self._answer(refusal, entry)
+        return self._playback.is_there and not self.is_busy
 
     def _take(self, is_spent: Callable[[], bool]) -> Iterator[Entry]:
         """
@@ -277,14 +279,14 @@ class RequestQueue:
     def _continue_call(self) -> None:
         """Go on with the call that is under way, if it has what it waits for."""
         if self._under_way is not None and self._under_way.awaited.done():
-            call, parts, _ = self._under_way
+            call, slices, _ = self._under_way
             self._under_way = None
-            self._carry_out(call, parts)
+            self._carry_out(call, slices)
 
-    def _carry_out(self, call: Call, parts: Parts[Sequence[Answer]]) -> None:
-        """Carry out the next part of a call, and collect its answers after the last one."""
+    def _carry_out(self, call: Call, slices: Slices[Sequence[Answer]]) -> None:
+        """Carry out the next slice of a call, and collect its answers after the last one."""
         try:
-            self._under_way = _UnderWay(call, parts, parts.send(None))
+            self._under_way = _UnderWay(call, slices, slices.send(None))
         except StopIteration as end:
             if self._has_jumped and not self._playback.has_arrived:
                 self._answer_arrival = partial(self._answer_call, call, end.value)
@@ -302,7 +304,7 @@ class RequestQueue:
         self.answers.append(Answer(topic=origin.topic, message=told, asker=origin.asker))
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
-        """Change the past in parts, and collect the answers."""
+        """Change the past in slices, and collect the answers."""
         past, author = self._past, entry.origin.author
         results: list[Answer | Refusal]
         try:

@@ -61,7 +61,7 @@ class Robot:
         self.simulation = simulation
         self.name = name
         # After the requests that wait, one of which may spawn it.
-        simulation.apply_up_to_seek()
+        simulation.requests.apply_up_to_seek()
         robot_of_name(simulation.world.space, name)
         simulation.reports_contacts = True
 

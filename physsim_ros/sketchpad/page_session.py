@@ -24,7 +24,7 @@ from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.parts import in_parts, Parted
+from physsim_ros.simulation.slices import in_slices, Sliced
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened
@@ -227,7 +227,7 @@ class PageSession:
         answer = Answer(topic='page', message=message, **details)
         self.send(answer_content(answer, request_of(origin)))
 
-    def perform(self, origin: Origin, action: Parted[str], wait: Wait = Wait.NONE) -> None:
+    def perform(self, origin: Origin, action: Sliced[str], wait: Wait = Wait.NONE) -> None:
         """
         Perform an action at its time, and queue its answer.
 
@@ -237,10 +237,10 @@ class PageSession:
         boundary = self.world.boundary
         self.call(origin, partial(answers_of, origin, action, boundary), wait)
 
-    def call(self, origin: Origin, call: Parted[Sequence[Answer]], wait: Wait) -> None:
+    def call(self, origin: Origin, call: Sliced[Sequence[Answer]], wait: Wait) -> None:
         """Make a call at its time, or refuse it where too many wait."""
         try:
-            self.world.submit_call(call, wait)
+            self.world.make_call(call, wait)
         except Busy as refusal:
             self.refuse(origin, refusal)
 
@@ -263,12 +263,12 @@ def author_of(person: str, role: Role) -> str:
 
 
 async def answers_of(
-    origin: Origin, action: Parted[str], boundary: ErrorBoundary
+    origin: Origin, action: Sliced[str], boundary: ErrorBoundary
 ) -> tuple[Answer]:
     """Perform an action; return the one answer, with its message or with its refusal."""
     topic, asker = origin.topic, origin.asker
     try:
-        message = await boundary.parts_of_message(topic, in_parts(action))
+        message = await boundary.slices_of_message(topic, in_slices(action))
     except Refusal as refusal:
         return (Answer.refused(refusal, topic=topic, asker=asker),)
     except PhysSimError as error:

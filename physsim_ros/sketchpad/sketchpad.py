@@ -179,7 +179,7 @@ class Sketchpad:
         if self._autosave.is_due(now):
             # While too many requests wait, the save is put off.
             with suppress(Busy):
-                self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
+                self._world.make_call(self._save_unsaved, Wait.FOR_SEEK)
         if self._world.recording_address != self._sent_recording:
             self._sent_recording = self._world.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
@@ -249,7 +249,7 @@ class Sketchpad:
             with self._boundary.message(origin.topic):
                 check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
                 check_moment(upload.role, self._world)
-                self._world.submit_call(answers, Wait.FOR_SEEK)
+                self._world.make_call(answers, Wait.FOR_SEEK)
         except Refusal as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
             simulation.requests.refuse(refusal, origin)

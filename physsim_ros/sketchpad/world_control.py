@@ -20,8 +20,8 @@ from physsim_ros.files import on_thread, state_from
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.parts import Parted
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.slices import Sliced
 from physsim_ros.simulation.world import beginning_of
 
 
@@ -65,9 +65,9 @@ class WorldControl(Protocol):
     def current_snapshot(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
 
-    def submit_call(
+    def make_call(
         self,
-        call: Parted[Sequence[Answer]],
+        call: Sliced[Sequence[Answer]],
         wait: Wait,
         on_told: Callable[[], object] = lambda: None,
     ) -> None:
@@ -85,7 +85,7 @@ class WorldControl(Protocol):
         :raises Refusal: it is refused
         """
 
-    def service(self, name: str) -> tuple[Parted[str], Wait]:
+    def service(self, name: str) -> tuple[Sliced[str], Wait]:
         """Return the action of a service, which raises a PhysSimError, and its time."""
 
     async def perform_on(self, service: str, world: str) -> str:

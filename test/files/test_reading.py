@@ -9,7 +9,7 @@ from threading import get_ident
 
 from physsim_ros.files import on_thread
 from physsim_ros.model.errors import BadWorldFile
-from physsim_ros.simulation.parts import at_once, in_parts
+from physsim_ros.simulation.slices import at_once, in_slices
 import pytest
 
 
@@ -23,8 +23,8 @@ def test_an_error_is_raised_by_who_waits(error: Exception) -> None:
         raise error
 
     with pytest.raises(type(error), match='no'):
-        at_once(in_parts(lambda: on_thread(read)))
+        at_once(in_slices(lambda: on_thread(read)))
 
 
 def test_a_function_without_parts_has_its_result_at_once() -> None:
-    assert at_once(in_parts(lambda: 'done')) == 'done'
+    assert at_once(in_slices(lambda: 'done')) == 'done'

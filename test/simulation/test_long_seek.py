@@ -144,7 +144,7 @@ def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation, di
 
 def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
-    assert not simulation.apply_up_to_seek()
+    assert not simulation.requests.apply_up_to_seek()
     times = [simulation.playback.queue_frame(), simulation.playback.queue_frame()]
     assert times == [round(step * SECOND / 240) for step in (484, 488)]
     steps = []
@@ -154,7 +154,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, d
             steps.append(frame.snapshot.step)
             assert simulation.world.digest() == digests[frame.snapshot.step]
     assert steps == [484, 488]
-    assert simulation.apply_up_to_seek()
+    assert simulation.requests.apply_up_to_seek()
 
 
 def test_another_seek_takes_the_place_of_one_and_of_its_frames(simulation, digests):
@@ -195,7 +195,7 @@ def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_plac
     match other:
         case 'seek':
             simulation.requests.submit_seek(SECOND, Origin('~/seek', asker='2'))
-            assert not simulation.apply_up_to_seek()
+            assert not simulation.requests.apply_up_to_seek()
             assert told_of_seeks(simulation) == [('1', 'superseded by a seek to 1.000 s')]
         case 'undo':
             simulation.undo()
@@ -236,7 +236,7 @@ def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewher
             simulation.requests.submit_seek(SECOND, Origin('~/seek'))
         case 'another undo':
             undo('second')
-    simulation.apply_up_to_seek()
+    simulation.requests.apply_up_to_seek()
     assert told == ([] if ends_by == 'replay' else ['first'])
     answers = simulation.requests.take_answers() + simulation.advance_frame().answers
     undone = [each.message for each in answers if each.topic == '~/undo']
@@ -291,6 +291,34 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(simulation, digests):
     simulation.speed = 0.0
     assert first < 600
     assert simulation.world.digest() == digests[first]
+
+
+def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits():
+    many = Simulation(settings=FLOOR)
+    for number in range(600):
+        place = (0.9 * (number % 30), 1.0 + number // 30, 0.0)
+        many.requests.submit(spawning(f'disc/{number}', DISC, place), topic='')
+    many.apply_requests()
+    state, digests = many.save(), set()
+    for parts in range(8):
+        simulation = Simulation(checkpoints=0.1)
+        simulation.begin(state)
+        simulation.run(0.1)
+        cursor = simulation.past.cursor
+        for goal in (0, 20):
+            # A checkpoint is due, for which the world is built anew in more parts than these.
+            cursor.begin_advance(4)
+            assert all(cursor.continue_work() for _ in range(parts))
+            assert simulation.step == 24
+            # The way back is given up, too, for another one.
+            cursor.seek(goal)
+            assert all(cursor.continue_work() for _ in range(parts))
+            cursor.seek(24)
+            assert cursor.world.step_count == 24
+        simulation.run(0.1)
+        digests.add(simulation.world.digest())
+        assert not simulation.past.reports
+    assert len(digests) == 1
 
 
 def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit():
@@ -385,12 +413,12 @@ def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
             simulation.undo()
         case 'queued':
             simulation.requests.submit_seek(SECOND, Origin('~/seek'))
-            assert not simulation.apply_up_to_seek()
+            assert not simulation.requests.apply_up_to_seek()
             assert simulation.past.cursor.is_amending
         case 'told':
             # An answer changes nothing, and does not wait.
             simulation.requests.tell(Answer(topic='~/speed', message='speed 1'))
-            assert not simulation.apply_up_to_seek()
+            assert not simulation.requests.apply_up_to_seek()
             assert [each.message for each in simulation.requests.take_answers()] == ['speed 1']
             assert simulation.past.cursor.is_amending
         case 'contacts':

@@ -86,7 +86,7 @@ def test_requests_wait_for_the_end_of_the_frame(in_sub_steps):
     simulation.advance(SECOND // 60, is_overdue=lambda: True)
     assert simulation.past.cursor.is_working
     simulation.requests.submit(spawning('late/0', DISC, (9.0, 1.0, 0.0)), topic='~/spawn')
-    simulation.apply_up_to_seek()
+    simulation.requests.apply_up_to_seek()
     assert 'late/0' not in simulation.world
     frames = [frame for _, frame in ticks_to_frames(simulation, 3, 200)]
     assert 'late/0' in frames[-1].snapshot.scene.names
@@ -145,7 +145,7 @@ def test_a_step_of_a_crowd_is_cut_between_pedestrians(in_sub_steps, kind):
 
     world = in_sub_steps(scene).world
     # The last wish, and the first sub-step, end no call of their own.
-    assert sum(1 for _ in world.parts_of_steps(1)) == 20 + lib.SUB_STEPS - 1
+    assert sum(1 for _ in world.slices_of_steps(1)) == 20 + lib.SUB_STEPS - 1
     other = whole(scene).world
     other.step(1)
     assert world.digest() == other.digest()

@@ -72,7 +72,6 @@ OF_SIMULATION: dict[str, Call] = {
     'advance': of_simulation(lambda it: it.advance(SECOND)),
     'advance_frame': of_simulation(Simulation.advance_frame),
     'apply_requests': of_simulation(Simulation.apply_requests),
-    'apply_up_to_seek': of_simulation(Simulation.apply_up_to_seek),
     'at_shown_moment': of_simulation(Simulation.at_shown_moment),
     'begin': of_simulation(begun_anew),
     'checkpoint': of_simulation(Simulation.checkpoint),

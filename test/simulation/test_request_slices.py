@@ -11,8 +11,8 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.parts import wrap_future
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.slices import wrap_future
 
 from ..building import BOX, NOWHERE, spawning
 
@@ -100,7 +100,7 @@ def test_a_call_behind_requests_waits_for_them():
         return [Answer(topic='~/undo')]
 
     simulation.requests.submit_call(call, Wait.BEHIND_REQUESTS)
-    simulation.apply_up_to_seek(spent_after(SLICE))
+    simulation.requests.apply_up_to_seek(spent_after(SLICE))
     assert seen == []
     simulation.requests.submit_call(call, Wait.NONE)
     assert seen == [SLICE]
@@ -128,13 +128,13 @@ def test_time_goes_on_while_a_call_waits_for_a_file_and_requests_wait_for_the_ca
     future = begin_reading(simulation)
     for number in range(1, 5):
         assert tick(simulation, number) == 1
-        assert not simulation.apply_up_to_seek()
+        assert not simulation.requests.apply_up_to_seek()
         assert len(simulation.world) == 0
     future.set_result('loaded')
     (frame,) = simulation.advance(5 * FRAME)
     assert simulation.step == 20
     assert [each.message for each in frame.answers] == ['loaded', 'spawned late/0']
-    assert simulation.apply_up_to_seek()
+    assert simulation.requests.apply_up_to_seek()
 
 
 def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file():
@@ -152,7 +152,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file
 def test_who_wants_the_world_at_once_waits_for_the_file():
     simulation = Simulation(settings=NOWHERE)
     future = begin_reading(simulation)
-    assert not simulation.apply_up_to_seek()
+    assert not simulation.requests.apply_up_to_seek()
     Thread(target=future.set_result, args=('loaded',)).start()
     simulation.advance_frame()
     assert len(simulation.world) == 1

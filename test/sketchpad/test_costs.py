@@ -172,7 +172,7 @@ def test_no_message_takes_the_thread_of_the_world_for_long(crowded: PhysSim) -> 
             # A tick applies a request after the other while there is time.
             while node.simulation.requests.has_requests:
                 began = time.thread_time()
-                node.simulation.apply_up_to_seek(lambda: True)
+                node.simulation.requests.apply_up_to_seek(lambda: True)
                 note(began, kind, 'applied')
             crowded.step()
     longest.sort(reverse=True)

@@ -305,7 +305,7 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     shared, chosen = page.send('share'), page.send('draw_with', density=7.0)
     sketchpad = physsim.node.outputs.sketchpad
     page.until(lambda: sketchpad.handle_messages() or page.answers(chosen))
-    assert not simulation.apply_up_to_seek()
+    assert not simulation.requests.apply_up_to_seek()
     assert not page.answers(shared)
     physsim.node.apply_requests()
     page.until(lambda: page.answers(shared))

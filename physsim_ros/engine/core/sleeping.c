@@ -14,11 +14,10 @@
 
 #include "stages.h"
 
-// A body on a spring, or afloat, that accelerates by no more than this is at rest [m/s², rad/s²]: one that swings in 40
-// s is then within 1 mm of where it rests.
-static const double rest_acceleration = 2.5e-5;
-// One that sinks on a damper by no more than this is at rest [m/s, rad/s]: 1 mm in 100 s.
-static const double rest_speed = 1e-5;
+// A body on a spring, or afloat, that is no faster than this while its island falls asleep is at rest [m/s, rad/s]: one
+// that sinks on a damper does so by 1 mm in 160 s, and one that swings in 40 s is within 1 mm of where it rests, or it
+// would be faster before the idle time of half a second has passed.
+static const double rest_speed = 6e-6;
 
 // Count of sub-steps of idle time that one in which a body is too fast for rest takes back, not all. In a pile a
 // contact that bears next to nothing is lost now and then, and its body falls for one sub-step, which would reset the
@@ -29,14 +28,13 @@ static double most_of(Twist twist) {
     return greatest(fabs(twist.v.x), greatest(fabs(twist.v.y), fabs(twist.w)));
 }
 
-static bool moves_on(const World *world, const Body *body) {
+static bool moves_on(const Body *body) {
     Twist now = twist_of(body->engine);
     if (most_of(body->scratch.under) > 0.0 || body->scratch.stirred) {
         return true;
     }
-    double change = most_of(twist_sum(now, body->scratch.twist, -1.0));
-    bool drifts = change > rest_acceleration * world->dt || most_of(now) > rest_speed;
-    return (body->state.free && most_of(now) > 0.0) || ((body->on_spring || body->scratch.afloat) && drifts);
+    double slowest = body->on_spring || body->scratch.afloat ? rest_speed : INFINITY;
+    return (body->state.free && most_of(now) > 0.0) || most_of(now) > slowest;
 }
 
 void forgive_trembling(World *world) {
@@ -51,7 +49,7 @@ void forgive_trembling(World *world) {
 void keep_awake(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        if (body->dynamic && body->engine->idle_time > 0.0 && !sleeps(body) && moves_on(world, body)) {
+        if (body->dynamic && body->engine->idle_time > 0.0 && !sleeps(body) && moves_on(body)) {
             // Chipmunk begins to count idle time anew, of what it touches too.
             world->chipmunk.body_activate(body->engine);
         }

@@ -18,8 +18,8 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Wait
-from physsim_ros.simulation.parts import at_once, in_parts, Parted, Parts
 from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.slices import at_once, in_slices, Sliced, Slices
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 import rclpy.service
@@ -29,9 +29,9 @@ from std_srvs.srv import Trigger
 # Depth of the calls that wait to be read: 50 clients with 20 calls each.
 _QOS = QoSProfile(depth=1000)
 # Fills in a response, with a refusal where the call is not carried out, and returns the answers.
-Fill = Callable[[Refusal | None], Sequence[Answer] | Parts[Sequence[Answer]]]
+Fill = Callable[[Refusal | None], Sequence[Answer] | Slices[Sequence[Answer]]]
 # Makes a call at its time among the requests, and calls the last function when it is told.
-Submit = Callable[[Parted[Sequence[Answer]], Wait, Callable[[], object]], None]
+MakeCall = Callable[[Sliced[Sequence[Answer]], Wait, Callable[[], object]], None]
 
 
 class Service(NamedTuple):
@@ -42,7 +42,7 @@ class Service(NamedTuple):
     :ivar wait: what its calls wait for
     """
 
-    perform: Parted[str]
+    perform: Sliced[str]
     wait: Wait = Wait.NONE
 
 
@@ -51,18 +51,18 @@ class ServiceCalls:
     Calls of services, each in its turn among the requests.
 
     :param requests: the queue of requests, which has the answers
-    :param submit: makes a call at its time among the requests
+    :param make_call: makes a call at its time among the requests
     :param boundary: of the node
     """
 
     def __init__(
         self,
         requests: RequestQueue,
-        submit: Submit,
+        make_call: MakeCall,
         boundary: ErrorBoundary,
     ) -> None:
         self._requests = requests
-        self._submit = submit
+        self._make_call = make_call
         self._boundary = boundary
 
     async def fill(
@@ -70,10 +70,10 @@ class ServiceCalls:
     ) -> Sequence[Answer]:
         """Fill in a response, and return the answers."""
         try:
-            parts = in_parts(partial(fill, refusal))
-            return await self._boundary.parts_of_message(topic, parts)
+            slices = in_slices(partial(fill, refusal))
+            return await self._boundary.slices_of_message(topic, slices)
         except Failed as failed:
-            return await in_parts(partial(fill, failed))
+            return await in_slices(partial(fill, failed))
 
     def add(self, topic: str, response: Any, fill: Fill, wait: Wait) -> Future:
         """
@@ -89,7 +89,7 @@ class ServiceCalls:
 
         try:
             with self._boundary.reading(topic):
-                self._submit(partial(self.fill, topic, fill), wait, send)
+                self._make_call(partial(self.fill, topic, fill), wait, send)
         except (Busy, Failed) as refusal:
             for answer in at_once(self.fill(topic, fill, refusal)):
                 self._requests.tell(answer)
@@ -145,7 +145,7 @@ def create_services(
         try:
             if refused is not None:
                 raise refused
-            response.message = await in_parts(services[name].perform)
+            response.message = await in_slices(services[name].perform)
             on_success()
         except Refusal as refusal:
             response.message = f'{refusal.code}: {refusal}'

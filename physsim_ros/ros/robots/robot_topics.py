@@ -141,42 +141,14 @@ class RobotTopics:
         self._below = f'{root}/{namespace}/' if namespace else f'{root}/'
         self._publishers: list[Publisher] = []
         self._topics: list[_Topic] = []
-        latched = DurabilityPolicy.TRANSIENT_LOCAL
-        kind = None if robot_tf is RobotTf.NONE else tf_message_type()
-        if kind is not None:
-            below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
-            # Before the readings, which are looked up in it by their stamps.
-            if robot.drive is not None or robot.links:
-                transforms = partial(self._transforms, kind)
-                latency = robot.odometry.latency
-                self._add(kind, 'tf', transforms, latency=latency, below=below, depth=TF_DEPTH)
-            fixed = self._publisher(kind, 'tf_static', below=below, durability=latched)
-            if fixed is not None:
-                fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
-        self._add(Odometry, 'ground_truth', self.truth)
-        if robot.drive is not None:
-            rate, latency = robot.odometry.rate, robot.odometry.latency
-            self._add(Odometry, 'odom', self.odometry, rate=rate, latency=latency)
-        if (battery := robot.battery) is not None:
-            state = partial(self._battery, battery)
-            self._add(BatteryState, BATTERY_TOPIC, state, rate=battery.rate)
+        # Before the readings, which are looked up in them by their stamps.
+        self._add_transforms(robot_tf)
+        self._add_motion()
         # Lasers as they are published, by the name of their topic.
         self._lasers: dict[str, Laser] = {}
-        for sensor in robot.sensors:
-            if isinstance(sensor, Laser) and lasers:
-                self._lasers[sensor.name] = self._changed(sensor, lasers)
-            kind = READINGS[type(sensor)].kind
-            message = partial(self.reading, sensor)
-            self._add(
-                kind,
-                sensor.name,
-                message,
-                rate=sensor.rate,
-                latency=sensor.latency,
-                sensor=sensor,
-            )
+        self._add_readings(lasers)
         self._description = self._publisher(
-            String, 'robot_description', depth=1, durability=latched
+            String, 'robot_description', depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL
         )
         # Colour and shape of the last description.
         self._described: object = None
@@ -190,6 +162,45 @@ class RobotTopics:
     def command_topics(self) -> list[CommandTopic]:
         """Return the topics of its commands."""
         return [*([] if self.commands is None else [self.commands]), *self._motors]
+
+    def _add_transforms(self, robot_tf: RobotTf) -> None:
+        """Add the transforms that move, and publish those that do not."""
+        kind, robot = tf_message_type(), self.robot
+        if kind is None or robot_tf is RobotTf.NONE:
+            return
+        below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
+        if robot.drive is not None or robot.links:
+            transforms, latency = partial(self._transforms, kind), robot.odometry.latency
+            self._add(kind, 'tf', transforms, latency=latency, below=below, depth=TF_DEPTH)
+        latched = DurabilityPolicy.TRANSIENT_LOCAL
+        fixed = self._publisher(kind, 'tf_static', below=below, durability=latched)
+        if fixed is not None:
+            fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
+
+    def _add_motion(self) -> None:
+        """Add ground truth, and odometry and battery if it has them."""
+        self._add(Odometry, 'ground_truth', self.truth)
+        if self.robot.drive is not None:
+            odometry = self.robot.odometry
+            rate, latency = odometry.rate, odometry.latency
+            self._add(Odometry, 'odom', self.odometry, rate=rate, latency=latency)
+        if (battery := self.robot.battery) is not None:
+            state = partial(self._battery, battery)
+            self._add(BatteryState, BATTERY_TOPIC, state, rate=battery.rate)
+
+    def _add_readings(self, lasers: Mapping[str, Any]) -> None:
+        """Add the readings of sensors; of lasers with some fields in place of their own."""
+        for sensor in self.robot.sensors:
+            if isinstance(sensor, Laser) and lasers:
+                self._lasers[sensor.name] = self._changed(sensor, lasers)
+            self._add(
+                READINGS[type(sensor)].kind,
+                sensor.name,
+                partial(self.reading, sensor),
+                rate=sensor.rate,
+                latency=sensor.latency,
+                sensor=sensor,
+            )
 
     def _changed(self, laser: Laser, changes: Mapping[str, Any]) -> Laser:
         """Return a laser with other fields; itself, if that is refused."""

@@ -19,7 +19,7 @@ from physsim_ros.ros.simulation_services.simulation_states import SimulationStat
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
 from physsim_ros.simulation.entries import Wait
-from physsim_ros.simulation.parts import at_once, in_parts, Parts
+from physsim_ros.simulation.slices import at_once, in_slices, Slices
 from rclpy.action import ActionServer
 from rclpy.node import Node
 from rclpy.task import Future
@@ -28,7 +28,7 @@ from simulation_interfaces.action import SimulateSteps
 from simulation_interfaces.msg import Result
 
 # Fills in the response to a request, and returns a message about what was done.
-_Perform = Callable[[Any, Any], str | Parts[str]]
+_Perform = Callable[[Any, Any], str | Slices[str]]
 
 
 class SimulationServices:
@@ -95,7 +95,7 @@ class SimulationServices:
         try:
             if refused is not None:
                 raise refused
-            message = await in_parts(partial(perform, request, response))
+            message = await in_slices(partial(perform, request, response))
         except (CodedRefusal, Refusal) as error:
             refusal, result.result = result_of(error)
         else:

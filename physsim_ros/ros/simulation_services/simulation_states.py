@@ -17,7 +17,7 @@ from physsim_ros.model.requests import DeleteBodies, Restore
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.results import coded
 from physsim_ros.ros.simulation_services.worlds import Worlds
-from physsim_ros.simulation.parts import at_once, in_parts
+from physsim_ros.simulation.slices import at_once, in_slices
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
@@ -189,7 +189,7 @@ class SimulationStates:
         )
 
     def _perform(self, service: str) -> str:
-        return at_once(in_parts(self._control.services[service].perform))
+        return at_once(in_slices(self._control.services[service].perform))
 
     @property
     def _state(self) -> int:

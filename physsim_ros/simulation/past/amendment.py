@@ -5,7 +5,7 @@
 Amendment: requests of the past are replaced, and the world is simulated again up to its moment.
 
 Laws: later requests are carried out again in their order, each at its step; the future of the
-moment is dropped. Between two parts of the work the line in force counts as reached up to that
+moment is dropped. Between two slices of the work the line in force counts as reached up to that
 moment, though not all of it is simulated yet.
 """
 
@@ -27,7 +27,7 @@ def amend(
     past: Past, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
 ) -> Generator[None, None, list[Answer | Refusal]]:
     """
-    Replace the requests of earlier gestures, in parts; see `_Amendment`.
+    Replace the requests of earlier gestures, in slices; see `_Amendment`.
 
     :return: for each request its answer, or its refusal
     :raises NotAlone: too much would be simulated again; nothing is changed
@@ -40,7 +40,7 @@ def amend(
 
 def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Refusal]]:
     """
-    Take back the last gesture of a person, and simulate again up to this moment, in parts.
+    Take back the last gesture of a person, and simulate again up to this moment, in slices.
 
     What others have done since is done again as it was asked.
 
@@ -140,7 +140,7 @@ class _Amendment:
         cursor, tree = self._cursor, self._tree
         start = self._step, self._serial
         cursor.follow(tree.node(self._serial), self._step, start)
-        yield from cursor.parts_of_work()
+        yield from cursor.slices_of_work()
         for request in self._requests:
             self.done.append(self._apply(request, self._gesture, self._author))
             yield

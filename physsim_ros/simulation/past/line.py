@@ -21,6 +21,7 @@ from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.requests import Axle, Cut, HandRequest, Join, Pin, Request, Restore, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.sizes import request_size
 from physsim_ros.model.snapshot import Contacts, Snapshot
 
 
@@ -97,15 +98,15 @@ class Node:
     :param request: that was applied; of a root, the one that loads the state
     :param settings: of the world after the request
     :param gesture: number of its gesture; requests of one gesture are undone together
-    :param gesture_start: serial of the first request of the gesture
     :param author: name of the person who did it; '' is nobody
     :param subject: name of the body or joint concerned, or ''
     :param adds: whether it has added a body or joint
-    :param size: memory of the request [bytes]
     :param shown: whether its step was shown with it; in a running world, a request is first shown
         in the next frame
 
     :ivar serial: number of requests from the beginning of the world to this one
+    :ivar gesture_start: serial of the first request of the gesture
+    :ivar size: memory of the request [bytes], that of a root is not counted
     :ivar after: step of the last checkpoint of its parent before it; -1 is none
     :ivar loaded: the state that was loaded last
     :ivar total: memory of all requests from the beginning to this one [bytes]
@@ -119,13 +120,13 @@ class Node:
     request: Request
     settings: WorldSettings
     gesture: int = 0
-    gesture_start: int = 0
     author: str = ''
     subject: str = ''
     adds: bool = False
-    size: int = 0
     shown: bool = False
     serial: int = field(init=False, default=0)
+    gesture_start: int = field(init=False, default=0)
+    size: int = field(init=False, default=0)
     after: int = field(init=False, default=-1)
     loaded: Loaded = field(init=False)
     total: int = field(init=False, default=0)
@@ -147,7 +148,8 @@ class Node:
     def __post_init__(self) -> None:
         self.end, parent = self.step, self.parent
         if parent is not None:
-            self.serial, self.total = parent.serial + 1, parent.total + self.size
+            self.serial, self.size = parent.serial + 1, request_size(self.request)
+            self.total = parent.total + self.size
             steps = (keyframe.step for keyframe in parent.keyframes)
             self.after = max((step for step in steps if step <= self.step), default=-1)
             self.loaded = parent.loaded

@@ -16,9 +16,8 @@ from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import Within
-from physsim_ros.model.requests import Request, Restore
-from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.sizes import checkpoint_size, frame_size, request_size
+from physsim_ros.model.requests import Restore
+from physsim_ros.model.sizes import checkpoint_size, frame_size
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.line import (
     CachedFrame,
@@ -196,41 +195,12 @@ class Tree(LineInForce):
         self._drop_old()
         return min(steps) if kept else 0
 
-    def add_request(
-        self,
-        moment: Moment,
-        request: Request,
-        *,
-        gesture: int,
-        author: str,
-        subject: str,
-        settings: WorldSettings,
-        adds: bool,
-    ) -> None:
-        """
-        Add a request that changed the world at a moment of this line, and follow it.
-
-        :param author: name of the person who did it; '' is nobody
-        :param subject: name of the body or joint concerned, or ''
-        :param settings: of the world after the request
-        :param adds: whether it has added a body or joint
-        """
-        step, serial = moment
-        start = self._gesture_starts.get(gesture, serial + 1)
-        node = Node(
-            parent=self.node(serial),
-            step=step,
-            request=request,
-            settings=settings,
-            gesture=gesture,
-            gesture_start=min(start, serial + 1),
-            author=author,
-            subject=subject,
-            adds=adds,
-            size=request_size(request),
-        )
+    def add_request(self, node: Node) -> None:
+        """Add the node of a request that changed the world, and follow it."""
+        start = self._gesture_starts.get(node.gesture, node.serial)
+        node.gesture_start = min(start, node.serial)
         self.size += node.size
-        self.follow(node, step)
+        self.follow(node, node.step)
 
     def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> Keyframe:
         """Add a checkpoint at the tip."""

@@ -267,11 +267,11 @@ class World(LiveSpace):
         :return: bodies that left the range of numbers and were removed
         :raises StepFailed: in place of any error
         """
-        for _ in self.parts_of_steps(count):
+        for _ in self.slices_of_steps(count):
             pass
         return tuple(self.take_lost())
 
-    def parts_of_steps(self, count: int) -> Iterator[None]:
+    def slices_of_steps(self, count: int) -> Iterator[None]:
         """
         Make a number of steps; yield where they take long, within a step too.
 

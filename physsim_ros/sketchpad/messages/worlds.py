@@ -16,7 +16,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.parts import in_parts, Parted
+from physsim_ros.simulation.slices import in_slices, Sliced
 from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
@@ -134,9 +134,9 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
 
 
-async def _saving(page: PageSession, save: Parted[str]) -> str:
+async def _saving(page: PageSession, save: Sliced[str]) -> str:
     """Save the world, note that it is saved, and return the message about it."""
-    done = await in_parts(save)
+    done = await in_slices(save)
     page.shared.autosave.note_saved()
     page.shared.list_worlds(None)
     return done

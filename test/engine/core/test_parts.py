@@ -84,6 +84,17 @@ def lcp_solutions(matrix, rates):
             yield found
 
 
+def solved_lcp(call, matrix, rates):
+    """Return whether the core solves contacts, and their impulses."""
+    count = len(rates)
+    padded = np.zeros((8, 8))
+    padded[:count, :count] = matrix
+    impulses, pointer = call.array(np.zeros(8))
+    at_matrix = call.ffi.cast('double (*)[8]', call.array(padded)[1])
+    at_rates = call.array(np.pad(rates, (0, 8 - count)))[1]
+    return call.lib.call_lcp(count, at_matrix, at_rates, pointer), impulses[:count]
+
+
 @pytest.mark.parametrize('seed', SEEDS)
 def test_impulses_of_contacts_are_the_only_ones_of_all_sets_of_contacts(call, seed):
     random = np.random.default_rng(seed)
@@ -92,36 +103,42 @@ def test_impulses_of_contacts_are_the_only_ones_of_all_sets_of_contacts(call, se
     matrix = root @ root.T * np.outer(*[10 ** random.uniform(-1, 1, count)] * 2)
     matrix = (matrix + matrix.T) / 2
     rates = random.normal(size=count)
-    padded = np.zeros((8, 8))
-    padded[:count, :count] = matrix
-    impulses, pointer = call.array(np.zeros(8))
 
-    solved = call.lib.call_lcp(
-        count,
-        call.ffi.cast('double (*)[8]', call.array(padded)[1]),
-        call.array(np.pad(rates, (0, 8 - count)))[1],
-        pointer,
-    )
+    solved, impulses = solved_lcp(call, matrix, rates)
 
     (wanted,) = lcp_solutions(matrix, rates)
     assert solved
     scale = np.sqrt(np.diag(matrix))
-    assert impulses[:count] * scale == pytest.approx(wanted * scale, rel=1e-6, abs=1e-6)
+    assert impulses * scale == pytest.approx(wanted * scale, rel=1e-6, abs=1e-6)
 
 
 @pytest.mark.parametrize('count', range(1, 9))
 def test_contacts_that_say_the_same_share_an_impulse(call, count):
-    impulses, pointer = call.array(np.zeros(8))
-
-    solved = call.lib.call_lcp(
-        count,
-        call.ffi.cast('double (*)[8]', call.array(np.full((8, 8), 0.7))[1]),
-        call.array(np.full(8, -2.1))[1],
-        pointer,
-    )
+    solved, impulses = solved_lcp(call, np.full((count, count), 0.7), np.full(count, -2.1))
 
     assert solved
-    assert impulses[:count] == pytest.approx(np.full(count, 3.0 / count), rel=1e-5)
+    assert impulses == pytest.approx(np.full(count, 3.0 / count), rel=1e-5)
+
+
+# Two contacts that push a body nearly against each other.
+WEDGE = np.array([[1.0, -0.9], [-0.9, 1.0]])
+
+
+def test_a_contact_that_presses_by_ever_so_little_presses(call):
+    # The first guess has both contacts part.
+    solved, impulses = solved_lcp(call, WEDGE, np.array([1.0, -2e-7]))
+
+    assert solved
+    assert impulses == pytest.approx([0.0, 2e-7], rel=1e-6, abs=1e-12)
+
+
+@pytest.mark.parametrize(('closeness', 'is_solved'), [(1e-5, True), (1e-7, False)])
+def test_a_body_wedged_between_two_that_do_not_move_has_no_solution(call, closeness, is_solved):
+    matrix = np.array([[1.0, closeness - 1.0], [closeness - 1.0, 1.0]])
+
+    solved, _ = solved_lcp(call, matrix, np.array([-1.0, -1.0]))
+
+    assert solved == is_solved
 
 
 # Rows with bounds
@@ -146,6 +163,23 @@ def mixed_solutions(matrix, wanted, lower, upper):
             yield found
 
 
+def solved_rows(call, inverses, ends, jacobians, *columns):
+    """Return how many rows the core leaves wrong, impulses, and changes of velocities."""
+    impulses, at_impulses = call.array(np.zeros(len(ends)))
+    changes, at_changes = call.array(np.zeros((len(inverses), 3)))
+    wrong = call.lib.call_mixed_lcp(
+        len(inverses),
+        call.array(inverses)[1],
+        len(ends),
+        call.array(ends, 'int')[1],
+        call.array(np.arange(len(ends)), 'int')[1],
+        *(call.array(each)[1] for each in (jacobians, *columns)),
+        at_impulses,
+        at_changes,
+    )
+    return wrong, impulses, changes
+
+
 @pytest.mark.parametrize('seed', SEEDS)
 def test_impulses_of_rows_are_the_only_ones_of_all_sets_of_bounds(call, seed):
     random = np.random.default_rng(seed)
@@ -158,8 +192,6 @@ def test_impulses_of_rows_are_the_only_ones_of_all_sets_of_bounds(call, seed):
     lower = random.choice([-np.inf, 0.0, -0.3], rows)
     upper = random.choice([np.inf, 0.2], rows)
     softness = random.uniform(0.01, 0.1, rows)
-    impulses, at_impulses = call.array(np.zeros(rows))
-    changes, at_changes = call.array(np.zeros((bodies, 3)))
     dense = np.zeros((rows, 3 * bodies))
     for row, (a, b) in enumerate(ends):
         dense.reshape(rows, bodies, 3)[row, [a, b]] = jacobians[row].reshape(2, 3)
@@ -170,15 +202,8 @@ def test_impulses_of_rows_are_the_only_ones_of_all_sets_of_bounds(call, seed):
     )
     matrix = dense * inverse_mass @ dense.T + np.diag(softness * linear)
 
-    wrong = call.lib.call_mixed_lcp(
-        bodies,
-        call.array(inverses)[1],
-        rows,
-        call.array(ends, 'int')[1],
-        call.array(np.arange(rows), 'int')[1],
-        *(call.array(each)[1] for each in (jacobians, wanted, lower, upper, softness)),
-        at_impulses,
-        at_changes,
+    wrong, impulses, changes = solved_rows(
+        call, inverses, ends, jacobians, wanted, lower, upper, softness
     )
 
     first, *others = mixed_solutions(matrix, wanted, lower, upper)
@@ -186,6 +211,25 @@ def test_impulses_of_rows_are_the_only_ones_of_all_sets_of_bounds(call, seed):
     assert impulses == pytest.approx(first, rel=1e-6, abs=1e-6)
     assert all(first == pytest.approx(other, rel=1e-6, abs=1e-6) for other in others)
     assert changes.ravel() == pytest.approx(inverse_mass * (dense.T @ impulses), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ('cosine', 'wanted', 'exact'),
+    [(-0.9, (-1.0, 2e-6), (0.0, 2e-6)), (0.0, (1.0, -2e-8), (1.0, 0.0))],
+    ids=['one that presses a little', 'none that pulls a little'],
+)
+def test_rows_are_on_their_sides_to_their_rounding(call, cosine, wanted, exact):
+    inverses = np.array([[0.0, 0.0], [1.0, 1.0]])
+    across = (1.0 - cosine * cosine) ** 0.5
+    jacobians = np.array([[0.0] * 3 + [1.0, 0.0, 0.0], [0.0] * 3 + [cosine, across, 0.0]])
+    lower, upper, softness = np.zeros(2), np.full(2, np.inf), np.full(2, 1e-12)
+
+    wrong, impulses, _ = solved_rows(
+        call, inverses, [[0, 1], [0, 1]], jacobians, wanted, lower, upper, softness
+    )
+
+    assert wrong == 0
+    assert impulses == pytest.approx(exact, rel=1e-6, abs=1e-9)
 
 
 # Orders of elimination

@@ -80,6 +80,24 @@ def test_a_slow_swing_on_a_spring_does_not_sleep_where_it_turns_round():
         assert pose(world, 'bob/0')[1] == pytest.approx(exact, abs=1e-3)
 
 
+def test_what_sinks_on_a_damper_at_a_tenth_of_a_millimetre_a_second_sinks_on():
+    world = on_spring(1.0, 1.0, 0.1, 1000.0)
+
+    world.step(7200)
+
+    # m; a time constant of 1000 s, after 30 s
+    assert pose(world, 'bob/0')[1] == pytest.approx(0.1 * -math.expm1(-0.03), abs=1e-5)
+
+
+def test_a_swing_of_a_millimetre_in_forty_seconds_does_not_sleep_where_it_turns_round():
+    world = on_spring(40.0, 1.0, 0.001, 0.0)
+
+    for second in range(1, 41):
+        world.step(240)
+        exact = 0.001 * (1.0 - math.cos(math.sqrt(1 / 40) * second))
+        assert pose(world, 'bob/0')[1] == pytest.approx(exact, abs=1e-5)
+
+
 def test_what_comes_to_rest_on_a_damped_spring_sleeps_there():
     world = on_spring(1.0, 100.0, 0.05, 6.0)
 

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Work in parts: what takes seconds and does not concern the world is done elsewhere.
+Work in slices: what takes seconds and does not concern the world is done elsewhere.
 
-Law: a part ends where the work waits for that, as for a file that another thread reads. Until then
-the world's thread steps the world and handles messages.
+Law: a slice ends where the work waits for that, as for a file that another thread reads. Until
+then the world's thread steps the world and handles messages.
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from typing import Any, TypeAlias, TypeVar
 
 _Result = TypeVar('_Result')
 # Work on the world's thread: a coroutine that awaits results of other threads by `wrap_future`.
-Parts: TypeAlias = Coroutine[Future[Any], None, _Result]
-# A function whose work may have parts.
-Parted: TypeAlias = Callable[[], _Result | Parts[_Result]]
+Slices: TypeAlias = Coroutine[Future[Any], None, _Result]
+# A function whose work may have slices.
+Sliced: TypeAlias = Callable[[], _Result | Slices[_Result]]
 
 
-async def in_parts(function: Parted[_Result]) -> _Result:
-    """Return the result of a function whose work may have parts."""
+async def in_slices(function: Sliced[_Result]) -> _Result:
+    """Return the result of a function whose work may have slices."""
     result = function()
     return await result if isinstance(result, Coroutine) else result
 
@@ -35,11 +35,11 @@ def wrap_future(future: Future[_Result]) -> Generator[Future[_Result], None, _Re
     return future.result()
 
 
-def at_once(parts: Parts[_Result]) -> _Result:
-    """Carry out all parts now, wait for their threads, and return the result."""
+def at_once(slices: Slices[_Result]) -> _Result:
+    """Carry out all slices now, wait for their threads, and return the result."""
     while True:
         try:
-            wait((parts.send(None),))
+            wait((slices.send(None),))
         except StopIteration as end:
             result: _Result = end.value
             return result
