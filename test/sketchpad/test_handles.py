@@ -10,7 +10,7 @@ import math
 
 import pytest
 
-from .chromium import Sheet
+from .chromium import PIXEL, Sheet
 
 # The texts that are written on the canvas from now on.
 SPY = """() => {
@@ -69,6 +69,17 @@ def number(sheet: Sheet, label: str, text: str) -> None:
     field = sheet.page.get_by_label(label, exact=True)
     field.fill(text)
     field.press('Enter')
+
+
+def test_handles_are_not_printed(sheet: Sheet) -> None:
+    def is_blue() -> bool:
+        red, _, blue, _ = sheet.page.evaluate(PIXEL, sheet.page.evaluate('physsim.handles.turn'))
+        return bool(blue > red + 100)
+
+    sheet.page.mouse.move(*sheet.place(4.0, 0.6))
+    sheet.until(is_blue, 'the handle')
+    sheet.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    assert not is_blue()
 
 
 def test_labels_and_notes_are_written_on_the_world(sheet: Sheet) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import circle, Sheet, started_world
+from .chromium import circle, POINTER, Sheet, started_world
 from ..outside import Outside
 
 
@@ -36,17 +36,9 @@ def test_the_note_of_a_body_tells_what_the_line_before_it_is_now(sheet: Sheet) -
 
 def test_a_stroke_ends_where_the_pen_is_lifted(sheet: Sheet) -> None:
     # The browser of a busy machine has no move to the last place.
-    sheet.page.evaluate(
-        """([from, to, end]) => {
-            const canvas = document.querySelector('canvas');
-            canvas.setPointerCapture = () => {};
-            for (const [type, [x, y]] of [['down', from], ['move', to], ['up', end]]) {
-                canvas.dispatchEvent(new PointerEvent(`pointer${type}`, {clientX: x, clientY: y,
-                    pointerId: 1, pointerType: 'mouse', bubbles: true}));
-            }
-        }""",
-        [sheet.place(*point) for point in ((-2.0, 5.0), (-1.0, 5.0), (2.0, 5.0))],
-    )
+    places = [sheet.place(*point) for point in ((-2.0, 5.0), (-1.0, 5.0), (2.0, 5.0))]
+    path = [[kind, *place] for kind, place in zip(('down', 'move', 'up'), places, strict=True)]
+    sheet.page.evaluate(POINTER, ['mouse', 1, 1, path])
     sheet.wait('Object.keys(physsim.bodies).length === 4')
     grey, wall = sheet.color_at(1.5, 5.5), sheet.color_at(1.5, 5.0)
     assert grey != wall

@@ -30,7 +30,7 @@ from physsim_ros.sketchpad.messages.fields import person
 from physsim_ros.sketchpad.server.page_handlers import PAGE
 import pytest
 
-from .chromium import Sheet
+from .chromium import Sheet, WORLD
 from .scripts import texts_of
 from .test_locks import ATTEMPTS
 from .test_locks import WORLD as LOCKED
@@ -267,8 +267,8 @@ def test_all_that_the_page_tells_comes_from_its_table(marked: Sheet) -> None:
     assert unmarked(marked, '() => [...window.told]') == set()
 
 
-# Answers to messages, and phrases of what can be undone, as a page tells them.
-CROSSED = """async ([world, attempts]) => {
+# What is done, or refused, by messages, and phrases of what can be undone, as a page tells them.
+CROSSED = """async ([world, attempts, done, after]) => {
     const {Words} = await import('/page/words.js'), {SILENT} = await import('/page/ui/notes.js');
     const heard = {}, told = new Set(), waiting = new Map();
     const words = new Words({on: (type, hear) => { heard[type] = hear; }});
@@ -281,7 +281,7 @@ CROSSED = """async ([world, attempts]) => {
             told.add(words.phrase(message.undo.replace('undo ', '')));
         }
         if (message.type !== 'answer' || !message.request) return;
-        if (message.ok && !SILENT.test(message.message)) told.add(words.tell(message));
+        if (message.ok === done && !SILENT.test(message.message)) told.add(words.tell(message));
         waiting.get(message.request)?.();
     };
     await new Promise((resolve) => { socket.onopen = resolve; });
@@ -294,6 +294,7 @@ CROSSED = """async ([world, attempts]) => {
         for (const [j, message] of messages.entries()) await ask(`${i} ${j}`, message);
         await ask(`${i} undo`, {type: 'service', name: 'undo'});
     }
+    await fetch('/world', {method: 'POST', body: after});
     socket.close();
     return [...told];
 }"""
@@ -314,9 +315,78 @@ def test_all_that_is_answered_to_a_message_comes_from_the_table(marked: Sheet) -
     clicks = [{'type': 'click', **fields} for fields in ATTEMPTS['click']]
     tools = groupby(clicks, itemgetter('tool'))
     attempts += [list(gestures)[:3] for tool, gestures in tools if tool not in NO_BUTTON]
-    told = marked.page.evaluate(CROSSED, [LOCKED, attempts])
+    told = marked.page.evaluate(CROSSED, [LOCKED, attempts, True, WORLD])
     assert len(told) > 60
     assert not {text for text in told if re.search(r'[a-z]{2}', left_over(text))}
+
+
+MACHINE = """
+format: 1
+bodies:
+- {name: a/0, circle: {radius: 0.5}, at: [0, 5]}
+- {name: a/1, circle: {radius: 0.5}, at: [1, 5]}
+- {name: a/2, circle: {radius: 1}, at: [9, 2], anchored: true, sensor: true, medium: {density: 2}}
+joints:
+- {name: spring/0, kind: spring, a: a/0, b: a/1, points: [[0, 5], [1, 5]]}
+- {name: rope/0, kind: rope, a: a/0, b: a/1, points: [[0, 5], [1, 5]]}
+- {name: slider/0, kind: slider, a: a/1, points: [[1, 5], [2, 5]]}
+- {name: axle/0, kind: axle, a: a/0, points: [[0, 5]]}
+- {name: motor/0, kind: motor, a: a/1, points: [[1, 5]]}
+- {name: gear/0, kind: gear, a: a/0, b: a/1, points: [[0.5, 5]], ratio: -1}
+"""
+# Numbers that the panel has fields for, by what they are of.
+OF_BODIES = [
+    'mass',
+    'density',
+    'friction',
+    'elasticity',
+    'spin',
+    'belt',
+    'rolling_resistance',
+    'charge',
+]
+OF_WATER = ['density', 'viscosity', 'gusts']
+OF_AIR = ['damping', 'air_density', 'air_viscosity', 'gusts', 'gravitation']
+OF_JOINTS = {
+    'spring/0': ['stiffness', 'rest_length', 'damping', 'break_force'],
+    'rope/0': ['length', 'rate', 'max_force'],
+    'slider/0': ['rate', 'friction', 'lower', 'upper'],
+    'axle/0': ['stiffness', 'rest_angle', 'damping', 'lower'],
+    'motor/0': ['rate', 'max_torque'],
+    'gear/0': ['ratio'],
+}
+
+
+def typed(number: float) -> Iterator[dict[str, Any]]:
+    """Give messages of a page in each of whose fields that number was typed."""
+    bodies: list[dict[str, Any]] = [{key: number} for key in OF_BODIES]
+    bodies += [{'at': [number, 5, 0]}, {'at': [0, 5, number]}, {'velocity': [number, 0]}]
+    bodies += [{'forces': [{'force': [number, 0]}]}, {'label': 'x' * 201}]
+    for properties in bodies:
+        yield {'type': 'change', 'name': 'a/0', 'properties': properties}
+    for medium in ({'density': 1, key: number} for key in OF_WATER):
+        yield {'type': 'change', 'name': 'a/2', 'properties': {'medium': medium}}
+    for name, keys in OF_JOINTS.items():
+        for key in keys:
+            yield {'type': 'change_joint', 'name': name, 'properties': {key: number}}
+    for key in OF_AIR:
+        yield {'type': 'air', key: number}
+    yield {'type': 'air', 'wind': [number, 0]}
+    yield {'type': 'gravity', 'gravity': [0, number]}
+    yield {'type': 'change_joint', 'name': 'slider/0', 'properties': {'lower': 2, 'upper': 1}}
+    yield {'type': 'move_bodies', 'names': ['a/0'], 'by': [number, 0]}
+    yield {'type': 'copy', 'name': 'a/0', 'to': [number, 0]}
+    yield {'type': 'open', 'name': 'nowhere'}
+
+
+@pytest.mark.slow
+def test_what_is_wrong_with_a_number_that_was_typed_comes_from_the_table(marked: Sheet) -> None:
+    press(marked, 'Pause')
+    messages = [message for number in (-1e300, -1, 0, 1e-9, 1e300) for message in typed(number)]
+    told = marked.page.evaluate(CROSSED, [MACHINE, [messages], False, WORLD])
+    assert len(told) > 20
+    units = re.compile(r'(?<=\d )(m|m/s|m/s²|N)$')
+    assert not {text for text in told if re.search('[a-z]{2}', units.sub('', left_over(text)))}
 
 
 def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
@@ -350,11 +420,11 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, addr
         'höchstens 1 Körper': lambda: check_limit('max_bodies', 2, CROWDED),
         'höchstens 1 Teile von Körpern': lambda: check_limit('max_shapes', 2, CROWDED),
         'höchstens 1 Verbindungen': lambda: check_limit('max_joints', 2, CROWDED),
-        'radius ist 1e-06 m; erlaubt ist 0.001 bis 100000 m': lambda: Disc(radius=1e-6),
+        '1e-06 liegt nicht zwischen 0.001 und 100000': lambda: Disc(radius=1e-6),
         'ein Name hat 1 bis 64 Zeichen': lambda: check_world_name('x' * 65),
         'ein Name hat 1 bis 24 Zeichen': lambda: person('', 'name'),
         'ein Name hat weder „/“ noch „.“': lambda: check_world_name('a/b'),
-        'keine eigene Welt heißt mine': lambda: OwnWorlds(Path('/nowhere')).delete('mine'),
+        'keine Welt heißt mine': lambda: OwnWorlds(Path('/nowhere')).delete('mine'),
     }
     messages = []
     for refuse in refused.values():

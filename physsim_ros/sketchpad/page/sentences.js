@@ -18,13 +18,6 @@ export const THINGS = new Map([
   ['settings', t('settings')],
 ]);
 
-/** What the server calls the numbers of a body, where it refuses one. */
-export const NUMBERS = new Map([
-  ['friction', t('friction')], ['density', t('density')], ['elasticity', t('bounciness')], ['mass', t('mass')],
-  ['spin', t('spin')], ['radius', t('radius')], ['width', t('width')], ['height', t('height')],
-  ['thickness', t('thickness')],
-]);
-
 /** Verbs before the name of a body, and what is said of it. */
 export const VERBS = new Map([
   ['spawned', t('{thing} added')], ['changed', t('{thing} changed')], ['moved', t('{thing} moved')],
@@ -97,7 +90,7 @@ export const SENTENCES = [
   [/^the world would have \d+ bodies; .* is (\d+)$/, t('at most $1 bodies')],
   [/^the world would have \d+ convex pieces; .* is (\d+)$/, t('at most $1 parts of bodies')],
   [/^the world would have \d+ joints; .* is (\d+)$/, t('at most $1 joints')],
-  [/^.+ reaches further than (\S+) m$/, t('further than $1 m')],
+  [/^.+ (?:is|reaches) (?:further|further away|faster|stronger|greater) than /, t('more than') + ' '],
   [/^.+ is \S+ m long; below (\S+) m it is a slip of the hand$/, t('shorter than $1 m')],
   [/^a piece of .+ would be too thin to be simulated$/, t('a piece would be too thin')],
   [/^there is no gravity to turn; .*/, t('there is no gravity to turn')],
@@ -106,11 +99,13 @@ export const SENTENCES = [
   [/^a name has (?:at most|1 to) (\d+) characters$/, t('a name has 1 to $1 characters')],
   [/^.+ cannot be a name: it has no .+$/, t('a name has no "/" and no "."')],
   [/^nothing of (.+) is kept$/, t('nothing of $1 is kept')],
-  [/^there is no world (.+) of your own$/, t('there is no world $1 of your own')],
-  [/^(\S+) is (\S+(?: m)?); it must lie between (\S+) and /, t('$1 is $2; it must lie between $3 and') + ' '],
-  [/^pose is further away than /, t('position is further away than') + ' '],
-  [/^pose is /, t('position is') + ' '],
-  [/^the yaw of pose /, t('the angle') + ' '],
+  [/^there is no world '?(.+?)'?( of your own|;.*)$/, t('there is no world $1')],
+  [/^\w+ is (\S+)(?: m)?; it must lie between (\S+) and (\S+).*/, t('$1 does not lie between $2 and $3')],
+  [/^the body would weigh (\S+) kg; (\S+) to (\S+) kg .*/, t('$1 kg does not lie between $2 and $3')],
+  [/^\w+ is \S+; it must not be 0$/, t('it must not be 0')],
+  [/^lower is (\S+) and upper (\S+); .*/, t('the least, $1, is above the greatest, $2')],
+  [/^label has more than (\d+) characters$/, t('more than $1 characters')],
+  [/^the yaw of .+ is too large$/, t('the angle is too large')],
   [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')],
   [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')],
   [/^redid (.+?)(, at .*)?$/, t('Redone: $1')],

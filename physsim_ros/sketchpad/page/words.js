@@ -4,7 +4,7 @@
  * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
  */
 
-import {GESTURES, NUMBERS, SENTENCES, THINGS, VERBS} from './sentences.js';
+import {GESTURES, SENTENCES, THINGS, VERBS} from './sentences.js';
 import {localized, refusalText, t} from './strings.js';
 
 /** @import {Body, Connection} from './types.js' */
@@ -102,8 +102,7 @@ export class Words {
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
     if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
-    const named = message.replace(/^\w+(?= is )/, (word) => NUMBERS.get(word) ?? word);
-    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), named))).replace(/\d\.\d/g, localized);
+    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message))).replace(/\d\.\d/g, localized);
     return ok ? told : refusalText(code, told);
   }
 

@@ -56,6 +56,11 @@ export class Gestures extends Emitter {
       else this.cancel(pointerId);
     });
     canvas.addEventListener('pointerleave', ({pointerType}) => pointerType === 'touch' || this.emit('point'));
+    // No pointer is on paper: what is shown beside one is not printed.
+    addEventListener('beforeprint', () => {
+      this.emit('point');
+      view.draw();
+    });
     canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
     // The click after a tap would go to the panel that the tap has opened.
     canvas.addEventListener('touchend', (event) => event.cancelable && event.preventDefault());

@@ -131,6 +131,8 @@ export class Lessons {
       solution.open = right;
       if (!right) return;
       this.#fold(false);
+      // On a small page the card is scrolled.
+      solution.scrollIntoView({block: 'nearest'});
       this.solved.add(title);
       localStorage.setItem(SOLVED, JSON.stringify([...this.solved]));
     }, shown);

@@ -115,7 +115,9 @@ function histogramOf(results) {
       bar.style.width = `${100 * there.filter(({right}) => right === isRight).length / answers.length}%`;
       return bar;
     });
-    return createElement('li', {}, `${digits((first + i) * step, 4)} … ${digits((first + i + 1) * step, 4)}`, createElement('span', {}, ...bars), String(there.length || ''));
+    const [from, to] = [first + i, first + i + 1].map((place) => digits(place * step, 4));
+    const range = there.some(({figure}) => figure >= (last + 1) * step) ? `≥ ${from}` : there.some(({figure}) => figure < first * step) ? `< ${to}` : `${from} … ${to}`;
+    return createElement('li', {}, range, createElement('span', {}, ...bars), String(there.length || ''));
   });
 }
 

@@ -39,10 +39,10 @@ export class SceneView {
     this.drawn = -1; // version of the world
     new ResizeObserver(() => this.#resize()).observe(canvas);
     watchTheme(() => this.#repaint());
-    addEventListener('beforeprint', () => this.#draw());
+    addEventListener('beforeprint', () => this.draw());
     this.#resize();
     const loop = () => {
-      if (this.dirty || this.drawn !== world.version) this.#draw();
+      if (this.dirty || this.drawn !== world.version) this.draw();
       requestAnimationFrame(loop);
     };
     requestAnimationFrame(loop);
@@ -63,7 +63,8 @@ export class SceneView {
     this.dirty = true;
   }
 
-  #draw() {
+  /** Draw the world as it is now. */
+  draw() {
     const {ctx, camera, palette, world} = this;
     this.dirty = false;
     this.drawn = world.version;
