@@ -12,8 +12,9 @@ each checkpoint that is taken.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 from physsim_ros.engine.bodies import BODY_STATE, build_body, RigidBody, wake_bodies
@@ -21,9 +22,14 @@ from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, write_impulses
 from physsim_ros.model.checkpoint import Checkpoint
 from physsim_ros.model.garbage_collection import suspended_collection
-from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.states import Records
 import pymunk
+
+_Result = TypeVar('_Result')
+_Entry = TypeVar('_Entry', Body, RigidBody, Joint)
+# Pieces of bodies, or ends and guides of joints, in a slice of a rebuild: at most some 30 ms.
+_SLICE = 500
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
@@ -77,18 +83,65 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
 
 
 @suspended_collection()
-def restore_checkpoint(
-    checkpoint: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
-) -> Space:
+def restore_checkpoint(checkpoint: Checkpoint, dt: float) -> Space:
     """
-    Build a space from a checkpoint.
+    Return a space that is built from a checkpoint.
 
     :param dt: of a sub-step [s]
-    :param pool: bodies built beforehand, by name
     """
+    return finish(slices_of_restore(checkpoint, dt))
+
+
+def finish(slices: Generator[None, None, _Result]) -> _Result:
+    """Carry out all slices of work, and return its result."""
+    while True:
+        try:
+            next(slices)
+        except StopIteration as end:
+            result: _Result = end.value
+            return result
+
+
+def slices_of_restore(
+    checkpoint: Checkpoint, dt: float, *, pool: Mapping[str, RigidBody] | None = None
+) -> Generator[None, None, Space]:
+    """
+    Build a space from a checkpoint; yield before each slice but the first, and return the space.
+
+    :param dt: of a sub-step [s]
+    :param pool: bodies built beforehand, by name, which are used up
+    """
+    slices, scene = _slices_of_restore(checkpoint, dt, pool or {}), checkpoint.scene
+    if sum(map(_size, scene.bodies)) + sum(map(_size, scene.joints)) <= _SLICE:
+        return finish(slices)
+    yield
+    return (yield from slices)
+
+
+def _slices_of_restore(
+    checkpoint: Checkpoint, dt: float, pool: Mapping[str, RigidBody]
+) -> Generator[None, None, Space]:
     scene, memory = checkpoint.scene, checkpoint.memory
     space = Space(scene.settings, dt, first_shape=memory.walls, lesson=scene.lesson)
-    rigids = [_rigid_body(body, pool or {}) for body in scene.bodies]
+    yield from _restore_bodies(space, checkpoint, pool)
+    write_impulses(space.pm_space, space.shapes, memory, dt)
+    space.core.write_state(checkpoint.state)
+    yield
+    yield from _restore_joints(space, checkpoint)
+    for grip in checkpoint.grips:
+        space.grips.put(grip)
+    return space
+
+
+def _restore_bodies(
+    space: Space, checkpoint: Checkpoint, pool: Mapping[str, RigidBody]
+) -> Iterator[None]:
+    """Put the bodies of a checkpoint into a space, at rest; yield after each slice."""
+    scene, memory = checkpoint.scene, checkpoint.memory
+    rigids = []
+    for bodies in _in_slices(scene.bodies):
+        rigids += [_rigid_body(body, pool) for body in bodies]
+        yield
     states = _body_states(checkpoint)
     for rigid, first_shape, state in zip(rigids, memory.ids.tolist(), states, strict=True):
         rigid.first_shape, rigid.state = first_shape, state
@@ -96,7 +149,9 @@ def restore_checkpoint(
         rigids[row].driven = driven
     for row, acting in zip(scene.actor_rows.tolist(), checkpoint.actors, strict=True):
         rigids[row].acting = acting
-    space.bodies.add_without_shapes(rigids)
+    for some in _in_slices(rigids):
+        space.bodies.add_without_shapes(some)
+        yield
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
     for row, coming in checkpoint.coming:
@@ -105,23 +160,43 @@ def restore_checkpoint(
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
     space.core.write_state(at_rest)
-    space.shapes.put_back(
-        (rigids[row].first_shape, rigids[row].pm_body.shapes)
-        for row in sorted(range(len(rigids)), key=_scattered)
-    )
-    write_impulses(space.pm_space, space.shapes, memory, dt)
-    space.core.write_state(checkpoint.state)
-    for joint in scene.joints:
-        space.joints.add(joint)
+    yield
+    for some in _in_slices([rigids[row] for row in sorted(range(len(rigids)), key=_scattered)]):
+        space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in some)
+        yield
+
+
+def _restore_joints(space: Space, checkpoint: Checkpoint) -> Iterator[None]:
+    """Put the joints of a checkpoint into a space that has its bodies; yield after each slice."""
+    for joints in _in_slices(checkpoint.scene.joints):
+        for joint in joints:
+            space.joints.add(joint)
+        yield
     space.joints.set_commands(checkpoint.commands, checkpoint.step)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()
-    space.joints.set_impulses(memory.joints)
-    space.joints.set_totals(memory.totals)
-    for grip in checkpoint.grips:
-        space.grips.put(grip)
-    return space
+    yield
+    space.joints.set_impulses(checkpoint.memory.joints)
+    space.joints.set_totals(checkpoint.memory.totals)
+
+
+def _size(entry: Body | RigidBody | Joint) -> int:
+    """Return the count of pieces of a body, or of ends and guides of a joint."""
+    if isinstance(entry, Joint):
+        return 2 + len(entry.guides)
+    body = entry.body if isinstance(entry, RigidBody) else entry
+    return len(body.shape.form.pieces)
+
+
+def _in_slices(entries: Sequence[_Entry]) -> Iterator[Sequence[_Entry]]:
+    """Yield bodies or joints in order, some at once that consist of few pieces."""
+    begin = size = 0
+    for end, entry in enumerate(entries, 1):
+        size += _size(entry)
+        if size >= _SLICE or end == len(entries):
+            yield entries[begin:end]
+            begin, size = end, 0
 
 
 def _body_states(checkpoint: Checkpoint) -> Records:

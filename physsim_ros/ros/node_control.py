@@ -10,10 +10,12 @@ Law: services, topics, pages and `simulation_interfaces` do it all by this one c
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
+from physsim_ros.files import on_thread
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Running
 from physsim_ros.model.requests import DeleteAll
@@ -28,6 +30,7 @@ from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.slices import in_slices, Sliced
+from physsim_ros.simulation.world import beginning_of
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
@@ -86,7 +89,7 @@ class NodeControl:
             'step': Service(self._step),
             'undo': Service(simulation.undo, Wait.BEHIND_REQUESTS),
             'redo': Service(simulation.redo, Wait.BEHIND_REQUESTS),
-            'reset': Service(simulation.reset, Wait.BEHIND_REQUESTS),
+            'reset': Service(self._reset, Wait.BEHIND_REQUESTS),
             'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
             'load_world': Service(lambda: world_files.load(confined=True), Wait.FOR_SEEK),
             'save_world': Service(world_files.save, Wait.FOR_SEEK),
@@ -234,6 +237,12 @@ class NodeControl:
             return f'at {self.simulation.playback.queue_frame() * 1e-9:.6f} s'
         self._loop.advance_frame()
         return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
+
+    async def _reset(self) -> str:
+        """Go to the beginning, which a thread builds."""
+        simulation = self.simulation
+        begin = partial(beginning_of, simulation.loaded, simulation.physics_rate)
+        return simulation.reset(ahead=await on_thread(begin))
 
     def _run_at(self, speed: float) -> str:
         self.set_speed(speed)

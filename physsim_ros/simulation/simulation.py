@@ -301,17 +301,20 @@ class Simulation(FrameMaker):
         self._view = View(saved.frame, saved.before)
         self.playback.changed = False
 
-    def reset(self, seed: int | None = None) -> str:
+    def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> str:
         """
         Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message.
 
         :param seed: seed of all noise from then on; None is that of the state
+        :param ahead: the beginning of the state, which any thread makes
         :raises BadProperty: the seed is out of range
         """
         with self._jump() as past:
             self.requests.hands.clear()
             self.stop_driving()
+            past.cursor.world.put_ahead(ahead)
             done = past.reset(seed)
+            past.cursor.world.put_ahead(None)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
     def open_world(self, world: WorldState | Beginning) -> str:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 import gc
+from itertools import pairwise
 import json
 import math
 import time
@@ -16,6 +17,7 @@ from physsim_ros import Robot, Simulation
 from physsim_ros.files import load_mapping, state_from
 from physsim_ros.model.actors import ACTORS
 from physsim_ros.model.attraction import MOST_ATTRACTING
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.robots.drives import DRIVES
 from physsim_ros.model.robots.sensors import SENSORS
@@ -28,6 +30,9 @@ import pytest
 WHOLE, PART = 2**18, 2**16
 # CPU time of the whole by that of the part: 4 where work is proportional, 16 by the square.
 MOST = 8.0
+# Greatest CPU time for which a checkpoint or an undo stops the world's thread [s]; a busy machine
+# may take twice as long.
+LONGEST_PART = 0.25
 # CPU time of the part below which the ratio says nothing [s].
 LEAST = 0.02
 Entries = Iterator[tuple[str, dict[str, Any]]]
@@ -241,13 +246,30 @@ def costs_of(entries: Callable[[int], Entries], length: int) -> dict[str, float]
     note('world', lambda: world.begin(state))
     world.advance_frame()
     note('frame', world.advance_frame)
-    note('checkpoint', world.past.cursor.add_keyframe)
+    costs |= costs_of_rebuilds(world, state)
     scanner = next((body.name for body in world.world.scene.bodies if body.robot), None)
     if entries is lasers and scanner is not None:
         # Those of one robot: a node reads them at their own rates.
         robot = Robot(world, scanner)
         note('readings', lambda: [robot.scan(f's{each}') for each in range(64)])
     return costs
+
+
+def costs_of_rebuilds(world: Simulation, state: WorldState) -> dict[str, float]:
+    """Return the CPU time of a checkpoint, and of the longest part of it and of an undo [s]."""
+    cursor = world.past.cursor
+
+    def parts_of(work: Iterator[object]) -> list[float]:
+        times = [time.thread_time()]
+        times += (time.thread_time() for _ in work)
+        return [end - begin for begin, end in pairwise([*times, time.thread_time()])]
+
+    checkpoint = parts_of(cursor.slices_of_keyframe())
+    world.open_world(state)
+    world.past.undo()
+    # Steps have parts of their own, at most 50 ms each.
+    undo = parts_of(iter(cursor.continue_work, False))
+    return {'checkpoint': sum(checkpoint), 'longest part': max(*checkpoint, *undo)}
 
 
 def least_costs(entries: Callable[[int], Entries], length: int) -> dict[str, float]:
@@ -295,5 +317,6 @@ def test_a_file_four_times_as_long_takes_some_four_times_as_long(
     part, whole = (least_costs(entries, length) for length in (PART, WHOLE))
     row = ', '.join(f'{what} {1e3 * took:.0f} ms' for what, took in whole.items())
     print(f'{entries.__name__}: {row}')  # noqa: T201 - the table
+    assert whole['longest part'] < LONGEST_PART
     for what, took in whole.items():
         assert took < MOST * max(part[what], LEAST), what

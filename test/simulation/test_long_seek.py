@@ -293,6 +293,34 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(simulation, digests):
     assert simulation.world.digest() == digests[first]
 
 
+def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits():
+    many = Simulation(settings=FLOOR)
+    for number in range(600):
+        place = (0.9 * (number % 30), 1.0 + number // 30, 0.0)
+        many.requests.submit(spawning(f'disc/{number}', DISC, place), topic='')
+    many.apply_requests()
+    state, digests = many.save(), set()
+    for parts in range(8):
+        simulation = Simulation(checkpoints=0.1)
+        simulation.begin(state)
+        simulation.run(0.1)
+        cursor = simulation.past.cursor
+        for goal in (0, 20):
+            # A checkpoint is due, for which the world is built anew in more parts than these.
+            cursor.begin_advance(4)
+            assert all(cursor.continue_work() for _ in range(parts))
+            assert simulation.step == 24
+            # The way back is given up, too, for another one.
+            cursor.seek(goal)
+            assert all(cursor.continue_work() for _ in range(parts))
+            cursor.seek(24)
+            assert cursor.world.step_count == 24
+        simulation.run(0.1)
+        digests.add(simulation.world.digest())
+        assert not simulation.past.reports
+    assert len(digests) == 1
+
+
 def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     for number in range(40):

@@ -11,7 +11,7 @@ the engine; a `max_force` that is not reached changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 import itertools
 import math
@@ -33,6 +33,8 @@ from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
 
+# Constraints that are removed in a slice: some 30 ms.
+_SLICE = 2000
 # The report of no joints, which frames share (`JointSet.report`).
 NO_REPORT = np.empty(0), np.empty((0, 2)), np.empty(0, np.bool_)
 
@@ -121,10 +123,19 @@ class JointSet:
         del self.by_name[name], self._serials[name]
 
     def take_out(self, count: int) -> None:
-        """Remove up to a number of the last joints, before the bodies are used elsewhere."""
+        """Remove about a number of the last constraints, before the bodies are used elsewhere."""
         self._drop_table()
-        for name in list(reversed(self.by_name))[:count]:
-            self._pm_space.remove(*reversed(self.by_name.pop(name).constraints))
+        while self.by_name and count > 0:
+            constraints = self.by_name.popitem()[1].constraints
+            self._pm_space.remove(*reversed(constraints))
+            count -= max(1, len(constraints))
+
+    def slices_of_removal(self) -> Iterator[None]:
+        """Remove the joints of a space that is not used any more; yield between slices."""
+        self.take_out(_SLICE)
+        while self.by_name:
+            yield
+            self.take_out(_SLICE)
 
     def __del__(self) -> None:
         """Remove all joints before Pymunk frees the space: it takes the square of their number."""

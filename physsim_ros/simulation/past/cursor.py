@@ -16,10 +16,11 @@ work. A seek replaces another one, and steps; an amendment is finished first.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from enum import Enum
 from typing import NamedTuple
 
+from physsim_ros.engine.checkpoint import finish
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
@@ -58,25 +59,28 @@ class Replay:
         """Step and serial of the world as it is."""
         return Moment(self._world.step_count, self.serial)
 
-    def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
+    def slices_of_resumption(
+        self, keyframe: Keyframe, *, going_over: bool = False
+    ) -> Generator[None]:
         """
-        Go to a keyframe.
+        Go to a keyframe; yield after each slice.
 
         :param going_over: whether the world is at that moment now, with the same bits
         """
-        self._world.resume(keyframe.checkpoint, going_over=going_over)
+        yield from self._world.slices_of_resumption(keyframe.checkpoint, going_over=going_over)
         self.serial = keyframe.serial
         self._resumed = keyframe.moment
 
     def replay_shown(self, step: int) -> None:
         """Replay up to a step of the line, with the requests with which it was shown."""
-        _finish(self._replay_to(step, self._tree.serial_shown_at(step)))
+        finish(self._replay_to(step, self._tree.serial_shown_at(step)))
 
-    def replay_to(self, moment: Moment) -> None:
-        """Replay up to a moment of the line, no earlier than now."""
-        _finish(self._replay_to(*moment))
+    def resume_at(self, moment: Moment) -> None:
+        """Go to a moment of the line, from the keyframe before it."""
+        finish(self.slices_of_resumption(self._tree.keyframe_before(*moment)))
+        finish(self._replay_to(*moment))
 
-    def _replay_to(self, step: int, serial: int) -> Iterator[None]:
+    def _replay_to(self, step: int, serial: int) -> Generator[None]:
         """Replay up to a moment of the line, no earlier than now; yield after each slice."""
         world = self._world
         while world.step_count < step:
@@ -84,16 +88,16 @@ class Replay:
             yield
         yield from self._apply_logged(serial)
 
-    def _replay_to_stop(self, end: int) -> Iterator[None]:
+    def _replay_to_stop(self, end: int) -> Generator[None]:
         """Replay up to the next step with a request or a checkpoint, or to the end."""
         tree, world = self._tree, self._world
         yield from self._apply_logged(tree.serial_at(world.step_count))
-        self.enter_checkpoint()
+        yield from self._enter_checkpoint()
         stop = tree.next_stop(world.step_count, end)
         yield from self._make_steps(stop, is_new=stop > tree.head)
         yield from self._apply_logged(tree.serial_shown_at(world.step_count))
 
-    def _make_steps(self, end: int, *, is_new: bool) -> Iterator[None]:
+    def _make_steps(self, end: int, *, is_new: bool) -> Generator[None]:
         """
         Make the steps up to one with a request or a checkpoint; yield where they take long.
 
@@ -117,10 +121,10 @@ class Replay:
                     'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
                 )
 
-    def _apply_logged(self, serial: int) -> Iterator[None]:
+    def _apply_logged(self, serial: int) -> Generator[None]:
         """Apply the logged requests of this step up to a serial; yield after each."""
         for node in self._tree.nodes_between(self.serial, serial):
-            self.enter_checkpoint()
+            yield from self._enter_checkpoint()
             try:
                 self._world.replay(node.request)
             except Refusal as refusal:
@@ -130,9 +134,12 @@ class Replay:
 
     def enter_checkpoint(self) -> None:
         """Move into a space that is built from the checkpoint of this moment, if there is one."""
+        finish(self._enter_checkpoint())
+
+    def _enter_checkpoint(self) -> Generator[None]:
         keyframe = self._tree.keyframe_at(*self._here)
         if keyframe is not None and self._resumed != keyframe.moment:
-            self.resume(keyframe, going_over=self.check_digest())
+            yield from self.slices_of_resumption(keyframe, going_over=self.check_digest())
 
     def check_digest(self) -> bool:
         """Return whether the world has the digest of the keyframe here; report a difference."""
@@ -182,6 +189,8 @@ class Cursor(Replay):
     def __init__(self, world: World, tree: Tree, reports: list[Answer]) -> None:
         super().__init__(world, tree, reports)
         self._work: _Work | None = None
+        # Whether the world is where no way along the line in force leads to the goal of a seek.
+        self._is_elsewhere = False
         # A tip, and the step up to which it needs neither a request nor a checkpoint.
         self._stretch: tuple[Node | None, int] = (None, 0)
 
@@ -283,7 +292,7 @@ class Cursor(Replay):
         self._begin_line(loaded, checkpoint)
 
     def _begin_line(self, loaded: WorldState, checkpoint: Checkpoint) -> None:
-        self._work, self.serial = None, 0
+        self._work, self._is_elsewhere, self.serial = None, False, 0
         self._tree.begin(loaded, checkpoint, self._world.digest())
         self._resumed = self.moment
 
@@ -319,14 +328,19 @@ class Cursor(Replay):
         keyframe = tree.keyframe_before(*first)
         # A seek that this one replaces has also come to a moment of the line.
         is_within_step = self._world.is_within_step
-        if elsewhere or is_within_step or not keyframe.moment <= self._here <= first:
-            self.resume(keyframe)
-        slices = self._slices_of_seek(start, goal, with_contacts=with_contacts)
+        is_on_way = keyframe.moment <= self._here <= first
+        self._is_elsewhere |= elsewhere or is_within_step or not is_on_way
+        slices = self._slices_of_seek(
+            keyframe if self._is_elsewhere else None, start, goal, with_contacts=with_contacts
+        )
         self._work = _Work(_Kind.SEEK, slices, goal)
 
     def _slices_of_seek(
-        self, start: Moment, goal: Moment, *, with_contacts: bool
-    ) -> Iterator[None]:
+        self, keyframe: Keyframe | None, start: Moment, goal: Moment, *, with_contacts: bool
+    ) -> Generator[None]:
+        if keyframe is not None:
+            yield from self.slices_of_resumption(keyframe)
+            self._is_elsewhere = False
         yield from self._replay_to(*start)
         self._world.clear_contacts()
         yield from self._replay_to(*goal)
@@ -395,14 +409,14 @@ class Cursor(Replay):
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps: by replay up to the head, then by new steps."""
-        _finish(self._slices_of_advance(self.world.step_count + steps))
+        finish(self._slices_of_advance(self.world.step_count + steps))
 
     def begin_advance(self, steps: int) -> None:
         """Have the world advance by a number of steps, slice by slice from now on."""
         end = self.world.step_count + steps
         self._work = _Work(_Kind.STEPS, self._slices_of_advance(end))
 
-    def _slices_of_advance(self, end: int) -> Iterator[None]:
+    def _slices_of_advance(self, end: int) -> Generator[None]:
         """Advance to a step; yield where steps take long."""
         world, tree = self._world, self._tree
         while (step := world.step_count) < end:
@@ -412,16 +426,16 @@ class Cursor(Replay):
             tip, until = self._stretch
             if tip is not tree.tip or self.serial != tip.serial or step >= until:
                 yield from self._apply_logged(tree.serial_at(step))
-                self._make_checkpoint()
+                yield from self._make_checkpoint()
                 until = tree.next_stop(step, step + tree.spacing)
                 self._stretch = tree.tip, until
             yield from self._make_steps(min(end, until), is_new=True)
 
     # Checkpoints
 
-    def _make_checkpoint(self) -> None:
+    def _make_checkpoint(self) -> Generator[None]:
         """Make a checkpoint if one is due, or if a request followed the last one at its step."""
-        self.enter_checkpoint()
+        yield from self._enter_checkpoint()
         step = self._world.step_count
         # Another line has run from this node before: its checkpoints are used.
         if step < self._tree.tip.end:
@@ -430,11 +444,17 @@ class Cursor(Replay):
             self._resumed is not None and self._resumed.step == step
         )
         if due and self._tree.keyframe_at(*self._here) is None:
-            self.add_keyframe()
+            yield from self.slices_of_keyframe()
 
     def add_keyframe(self) -> Checkpoint:
         """Make a checkpoint now, the last of the line, continue from it, and return it."""
-        checkpoint, digest = self.world.renew(), self.world.digest()
+        self.finish_work()
+        return finish(self.slices_of_keyframe())
+
+    def slices_of_keyframe(self) -> Generator[None, None, Checkpoint]:
+        """Do as `add_keyframe` in slices, before whose end nothing else is done."""
+        checkpoint = yield from self._world.slices_of_renewal()
+        digest = self._world.digest()
         self._resumed = self._tree.add_keyframe(self._here, checkpoint, digest).moment
         return checkpoint
 
@@ -444,9 +464,3 @@ class Cursor(Replay):
         if not world.is_built_ahead:
             count = len(world) + len(world.scene.joints)
             world.build_bodies(-(-count * steps // max(1, int(spacing * _AHEAD))))
-
-
-def _finish(slices: Iterator[None]) -> None:
-    """Carry out all slices of a work."""
-    for _ in slices:
-        pass

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
 from collections.abc import Callable, Iterator
-from itertools import islice
+from itertools import chain, islice
 from typing import NamedTuple
 
 import numpy as np
@@ -43,11 +43,13 @@ class _Segment(NamedTuple):
 
     :ivar of: its first checkpoint, its last step, and whether contacts are reported
     :ivar stride: steps from one frame to the next
-    :ivar slices: of the replay
+    :ivar beginning: slices of the way to that checkpoint
+    :ivar slices: of the replay, a frame each
     """
 
     of: tuple[Keyframe, int, bool]
     stride: int
+    beginning: Iterator[None]
     slices: Iterator[None]
 
 
@@ -102,8 +104,7 @@ class FrameCache:
         moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
         # The replay that is under way begins anew.
         self._segment = None
-        self._replay.resume(tree.keyframe_before(*moment))
-        self._replay.replay_to(moment)
+        self._replay.resume_at(moment)
         return self._world.saver()
 
     def add_frame(self, frame: CachedFrame) -> None:
@@ -138,7 +139,8 @@ class FrameCache:
             _, end = self._tree.segment(step)
             frame = self._world.frame_steps
             stride = frame if step == end or step % frame == 0 else 1
-            next(self._replay_segment(step, stride), None)
+            segment = self._segment_of(step, stride)
+            next(chain(segment.beginning, segment.slices), None)
             self._evict(step)
         return self.cached_frame(step)
 
@@ -159,10 +161,13 @@ class FrameCache:
         missing = (at for at in range(step - apart, before, -apart) if not self._is_cached(at))
         gap = next(missing, None)
         if gap is not None:
-            slices = self._replay_segment(gap, stride)
+            segment = self._segment_of(gap, stride)
+            # Not `yield from`, which would end it where this work is dropped.
+            for _ in segment.beginning:
+                yield
             _, end = self._tree.segment(gap)
             left, calls = end - self._world.step_count, max(1, (step - gap) // max(1, steps))
-            yield from islice(slices, -(-left // (calls * stride)))
+            yield from islice(segment.slices, -(-left // (calls * stride)))
             self._evict(step)
 
     def _is_cached(self, step: int) -> bool:
@@ -176,20 +181,24 @@ class FrameCache:
         before, _ = self._tree.segment(keyframe.step)
         return before.step
 
-    def _replay_segment(self, step: int, stride: int) -> Iterator[None]:
+    def _segment_of(self, step: int, stride: int) -> _Segment:
         """
-        Return the slices of the replay of the segment of a step, of that under way if it suits.
+        Return the replay of the segment of a step, that under way if it suits.
 
         :param stride: steps from one frame to the next
         """
         keyframe, end = self._tree.segment(step)
         of, segment = (keyframe, end, self._world.reports_contacts), self._segment
         if segment is None or segment.of != of or segment.stride > stride:
-            self._replay.resume(keyframe)
-            self._replay.replay_shown(keyframe.step)
-            segment = _Segment(of, stride, self._slices_of_segment(keyframe, end, stride))
+            slices = self._slices_of_segment(keyframe, end, stride)
+            segment = _Segment(of, stride, self._slices_to(keyframe), slices)
             self._segment = segment
-        return segment.slices
+        return segment
+
+    def _slices_to(self, keyframe: Keyframe) -> Iterator[None]:
+        """Go to a keyframe, as its step was shown; yield after each slice."""
+        yield from self._replay.slices_of_resumption(keyframe)
+        self._replay.replay_shown(keyframe.step)
 
     def _slices_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
         """Replay a segment from its keyframe; at its end its frames replace those cached."""

@@ -12,19 +12,26 @@ into a space that is built from it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Sequence
 from functools import partial
 import math
 from typing import NamedTuple
 
 from physsim_ros.engine.bodies import RigidBody
-from physsim_ros.engine.checkpoint import BodyPool, restore_checkpoint, take_checkpoint
+from physsim_ros.engine.checkpoint import (
+    BodyPool,
+    finish,
+    restore_checkpoint,
+    slices_of_restore,
+    take_checkpoint,
+)
 from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.saved_state import begin_at, checkpoint_of, saved_state
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import no_body, no_frame
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.latency import delay
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
@@ -55,7 +62,9 @@ class LiveSpace:
         self._sub_step = sub_step_of(physics_rate)
         self.step_count = 0
         self._ahead: Beginning | None = None
-        self._replace(Space(settings, self._sub_step), BodyPool())
+        self._fresh: Beginning | None = None
+        self._pool = BodyPool()
+        self._replace(Space(settings, self._sub_step), self._pool)
 
     @property
     def settings(self) -> WorldSettings:
@@ -92,20 +101,28 @@ class LiveSpace:
             saved_state, take_checkpoint(self.space, self.step_count), dt=self._sub_step
         )
 
+    @suspended_collection()
     def renew(self) -> Checkpoint:
         """
         Move into a space that is built from a checkpoint of this moment; return that checkpoint.
 
         A world that resumes it later continues with the same bits.
         """
+        return finish(self.slices_of_renewal())
+
+    def slices_of_renewal(self) -> Generator[None, None, Checkpoint]:
+        """Do as `renew` in slices, before whose end nothing else is done; yield after each."""
         if self._fresh is not None and self._fresh.is_unchanged(self.space, self.step_count):
             return self._fresh.checkpoint
         checkpoint = take_checkpoint(self.space, self.step_count)
-        space = restore_checkpoint(checkpoint, self._sub_step, pool=self._pool.bodies)
+        # Where another seek ends this work, its bodies are in a space that nobody has.
+        pool, self._pool = self._pool.bodies, BodyPool()
+        space = yield from slices_of_restore(checkpoint, self._sub_step, pool=pool)
         space.copy_reports(self.space)
         self._replace(space, BodyPool(self.space))
         return checkpoint
 
+    @suspended_collection()
     def resume(self, checkpoint: Checkpoint, *, going_over: bool = False) -> None:
         """
         Go back, or forward, to a checkpoint.
@@ -113,14 +130,22 @@ class LiveSpace:
         :param going_over: whether the world is at that moment now, with the same bodies; the
             contacts of the unfinished frame are kept then
         """
-        space = restore_checkpoint(checkpoint, self._sub_step)
+        finish(self.slices_of_resumption(checkpoint, going_over=going_over))
+
+    def slices_of_resumption(
+        self, checkpoint: Checkpoint, *, going_over: bool = False
+    ) -> Generator[None]:
+        """Do as `resume` in slices; yield after each."""
+        space, old = (yield from slices_of_restore(checkpoint, self._sub_step)), self.space
         if going_over:
-            space.copy_reports(self.space)
+            space.copy_reports(old)
         self._replace(space, BodyPool())
         self.step_count = checkpoint.step
+        # To free a space with thousands of joints takes a second.
+        yield from old.joints.slices_of_removal()
 
-    def put_ahead(self, beginning: Beginning) -> None:
-        """Have the next `begin` take a beginning, if it is that of the same state."""
+    def put_ahead(self, beginning: Beginning | None) -> None:
+        """Have the next `begin` take a beginning, if it is that of the same state; or none."""
         self._ahead = beginning
 
     def begin(self, state: WorldState, step: int) -> None:
