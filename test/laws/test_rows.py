@@ -1,7 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Law 36: of a row of elastic bodies as many leave as came."""
+"""
+Law 36: of a row of elastic bodies as many leave as came.
+
+Where they have a restitution of e, each impact hands on (1 + e)/2 of the velocity.
+"""
 
 import itertools
 
@@ -29,14 +33,14 @@ ROWS = {
 FLIGHTS = (0.02, 0.024, 0.0273, 1 / 30, 0.036)
 
 
-def row(kind, *, struck, gap, flight, speed, rate):
+def row(kind, *, struck, gap, flight, speed, rate, elasticity=1.0):
     """Make a world in which some bodies of a row, of 1 kg each, fly at the others."""
     sim = Simulation(physics_rate=rate, settings=WorldSettings(gravity=NOWHERE))
     for number, shape in enumerate(ROWS[kind]):
         flies = number < struck
         x = number * (2 * HALF + gap) - (flight if flies else 0.0)
         velocity = (speed if flies else 0.0), 0.0
-        properties = Properties(elasticity=1.0, friction=0.0, mass=1.0, velocity=velocity)
+        properties = Properties(elasticity=elasticity, friction=0.0, mass=1.0, velocity=velocity)
         sim.perform(
             Spawn(name=f'row/{number}', shape=shape, pose=(x, 0.0, 0.0), properties=properties)
         )
@@ -57,3 +61,17 @@ def test_as_many_leave_a_row_as_came(report, struck, rate, gap, kind):
         for number, each in enumerate(speeds):
             exact = float(number >= COUNT - struck)
             report.check(36, f'row of 5 {kind} at {rate:g} Hz, speed', each, exact, 0.02, 'v')
+
+
+@pytest.mark.parametrize('elasticity', [0.76, 0.9])
+@pytest.mark.parametrize('gap', [0.0, 0.001], ids=['touching', '1 mm apart'])
+@pytest.mark.parametrize('speed', [1.0, 5.0])
+def test_each_impact_along_a_row_hands_on_the_same_share(report, speed, gap, elasticity):
+    sim = row('discs', struck=1, gap=gap, flight=0.0273, speed=speed, rate=240.0,
+              elasticity=elasticity)  # fmt: skip
+
+    sim.world.step(72)
+
+    exact = ((1.0 + elasticity) / 2.0) ** (COUNT - 1)
+    last = sim.world.snapshot().twists[-1, 0] / speed
+    report.check(36, f'row of 5 discs, e = {elasticity}, last one', last, exact, 1e-4, 'v')

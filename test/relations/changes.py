@@ -527,10 +527,28 @@ def compounds(state):
     return with_bodies(state, body)
 
 
+def _held_apart(joints, half_of):
+    """Yield slack ropes between bodies that do not collide as wholes, where one is a half."""
+    count = itertools.count()
+    for joint in joints:
+        if joint.collide or WORLD in (joint.a, joint.b):
+            continue
+        parts = [[name, *half_of.get(name, ())] for name in (joint.a, joint.b)]
+        for a, b in list(itertools.product(*parts))[1:]:
+            yield Joint(
+                name=f'slack/{next(count)}',
+                kind=JointKind.ROPE,
+                a=a,
+                b=b,
+                seat=Seat(0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0),
+                properties=JointProperties(length=1e4),
+            )
+
+
 def welded(state):
     """Make two halves of a few boxes, which a pin holds together."""
     chosen = {held.body.name for held in few_plain(state) if is_splittable(held)}
-    bodies, others, joints = [], [], list(state.joints)
+    bodies, others, joints, half_of = [], [], list(state.joints), {}
     for held in state.bodies:
         if held.body.name not in chosen:
             bodies.append(held)
@@ -552,6 +570,7 @@ def welded(state):
             )
             twist = (vx - spin * arm[1], vy + spin * arm[0], spin)
             (others if number else bodies).append(replace(held, body=made, twist=twist))
+        half_of[body.name] = (others[-1].body.name,)
         joints.append(
             Joint(
                 name=f'weld/{len(others)}',
@@ -562,6 +581,7 @@ def welded(state):
                 properties=JointProperties(),
             )
         )
+    joints += _held_apart(state.joints, half_of)
     return replace(state, bodies=(*bodies, *others), joints=tuple(joints))
 
 

@@ -6,10 +6,12 @@
 import math
 
 from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.shapes import Disc
 from physsim_ros.sensing import read_wheels
 import pytest
 
 from .worlds import add_robot, plane
+from ..building import command, join, spawn
 
 DRIVE = {
     'kind': 'differential',
@@ -72,3 +74,25 @@ def test_an_omni_has_three_wheels():
     assert second == pytest.approx(-10.0)
     assert first + third == pytest.approx(10.0)
     assert math.isclose(sum(wheels.positions), 0.0, abs_tol=1e-9)
+
+
+@pytest.mark.parametrize('first', ['robot/0', 'wheel/0'])
+def test_a_wheel_on_an_axle_is_read_against_the_robot_whichever_of_the_two_is_named_first(first):
+    world = plane()
+    # Another body, after them in the scene.
+    row = robot(world, pose=(1.0, 2.0, 0.5))
+    spawn(world, 'wheel/0', Disc(radius=0.05), (1.0, 2.0, -0.7), mass=0.1)
+    spawn(world, 'other/0', Disc(radius=0.05), (3.0, 2.0, 2.0), spin=3.0)
+    second = {'robot/0': 'wheel/0', 'wheel/0': 'robot/0'}[first]
+    join(world, 'axle', [(1.0, 2.0)], a=first, b=second)
+    command(world, 'wheel/0', twist=(0.0, 0.0, 4.0))
+
+    world.step(60)
+
+    wheels, seen = read_wheels(world.snapshot(), row), world.snapshot()
+    wheel = seen.scene.names.index('wheel/0')
+    turned, rate = seen.poses[wheel, 2] - seen.poses[row, 2], seen.twists[wheel] - seen.twists[row]
+    assert wheels.names[-1] == 'joint_0'
+    assert turned > -0.3
+    assert wheels.positions[-1] == pytest.approx(turned)
+    assert wheels.velocities[-1] == pytest.approx(rate[2])

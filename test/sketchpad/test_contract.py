@@ -165,9 +165,9 @@ def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
     button = sheet.page.get_by_role('button', name='Rectangle', exact=True)
     button.hover()
     tip.get_by_text('from corner to corner').wait_for()
-    button.focus()
+    sheet.page.get_by_role('button', name='Circle', exact=True).focus()
     sheet.page.keyboard.press('ArrowRight')
-    tip.get_by_text('Polygon (G)').wait_for()
+    tip.get_by_text('Circle by diameter (D)').wait_for()
     sheet.press('Circle')
     assert tip.count() == 0
     assert 'corner to corner' in button.get_attribute('title')

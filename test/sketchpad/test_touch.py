@@ -37,12 +37,18 @@ def test_a_second_finger_turns_the_body_that_is_placed(chromium: Any, address: s
     sheet.close()
 
 
-def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> None:
+def before_a_circle(
+    chromium: Any, address: str
+) -> tuple[Sheet, set[str], list[tuple[float, float]]]:
+    """Return a sheet, the names of its bodies, and the places of a circle that is to be drawn."""
     sheet = Sheet(chromium, address, has_touch=True)
     sheet.begin()
-    before = sheet.names()
+    return sheet, sheet.names(), [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
+
+
+def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> None:
+    sheet, before, places = before_a_circle(chromium, address)
     fingers = Fingers(sheet)
-    places = [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
     fingers.put(places[0])
     for place in places[1:]:
         fingers.move(place)
@@ -64,11 +70,8 @@ def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> Non
 def test_a_palm_does_not_end_the_stroke_of_a_stylus(
     chromium: Any, address: str, ends: Callable[[Fingers], None]
 ) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
-    before = sheet.names()
+    sheet, before, places = before_a_circle(chromium, address)
     stylus, palm = Stylus(sheet), Fingers(sheet)
-    places = [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
     corner = sheet.place(0.0, 0.0)
     stylus.put(places[0])
     stylus.move(places[1:8])
@@ -147,10 +150,7 @@ def test_a_stroke_is_drawn_to_its_end_whatever_happens_meanwhile(
 def test_the_stroke_of_a_stylus_whose_end_is_not_told_ends_where_it_was(
     chromium: Any, address: str, end: str
 ) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
-    before = sheet.names()
-    places = [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
+    sheet, before, places = before_a_circle(chromium, address)
     down, *moves = [['move', *place] for place in places]
     sheet.page.evaluate(POINTER, ['pen', 1, 9, [['down', *down[1:]], *moves]])
     last = ['cancel', 0, 0] if end == 'cancel' else ['move', 900, 600]

@@ -17,7 +17,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.evidence import Form, Limit
-from physsim_ros.drawing.strokes.geometry import circle_outline, point_of, principal_axis, size_of
+from physsim_ros.drawing.strokes.geometry import circle_outline, point_of, size_of
 from physsim_ros.drawing.strokes.meanings import Context, Meaning, Outcome
 from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
 from physsim_ros.model.arrays import Floats
@@ -25,8 +25,6 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.transform import Point
 
-# The least aspect of the corners of a polygon that may be a small circle.
-_LEAST_ROUND = Limit(0.4, 0.03)
 # The size of an axle or a weld, in shares of the greatest.
 _SMALL = Limit(1.0, 0.06)
 # The greatest diameter of an axle, and side of a weld, in side lengths of a square of the lesser
@@ -47,20 +45,15 @@ def disc_meanings(form: Form, context: Context) -> Iterator[Meaning]:
 
 def oval_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and polygon, which is not regularised."""
-    circle = point_of(form.points.mean(axis=0)), size_of(form.points) / 3
-    return _axle_or_body(form, circle, (POLYGON, outcomes.smooth_polygon), context)
+    return _axle_or_body(form, _circle_of(form), (POLYGON, outcomes.smooth_polygon), context)
 
 
 def polygon_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a polygon, and axle or weld: small circles are drawn with corners, squares askew."""
-    points, body = form.points, (POLYGON, outcomes.polygon)
-    if len(points) < _LEAST_CORNERS:
+    body = POLYGON, outcomes.polygon
+    if len(form.points) < _LEAST_CORNERS:
         return _weld_or_body(form, body, context)
-    middle = points.mean(axis=0)
-    _, along, across = principal_axis(points - middle)
-    circle = point_of(middle), size_of(points) / 3
-    roundness = _LEAST_ROUND.above(math.sqrt(across / along))
-    return _axle_or_body(form, circle, body, context, roundness)
+    return _axle_or_body(form, _circle_of(form), body, context)
 
 
 def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
@@ -68,16 +61,20 @@ def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     return _weld_or_body(form, (RECTANGLE, outcomes.rectangle), context)
 
 
+def _circle_of(form: Form) -> tuple[Point, float]:
+    """Return centre and radius of the axle that an outline of several corners may be [m]."""
+    return point_of(form.points.mean(axis=0)), size_of(form.points) / 3
+
+
 def _axle_or_body(
-    form: Form, circle: tuple[Point, float], body: Body, context: Context, roundness: float = 1.0
+    form: Form, circle: tuple[Point, float], body: Body, context: Context
 ) -> Iterator[Meaning]:
     """
     Yield an axle and a body.
 
     :param circle: centre and radius of the axle [m]
-    :param roundness: factor on the share of the axle, 0 .. 1
     """
-    share = roundness * _axle_share(*circle, context)
+    share = _axle_share(*circle, context)
     return _either(form, share, ('axle', partial(_build_axle, *circle, context)), body, context)
 
 

@@ -23,7 +23,6 @@ from physsim_ros.drawing.strokes.fitting import rectangle, traced
 from physsim_ros.drawing.strokes.geometry import (
     angles,
     loop_roundness,
-    principal_axis,
     size_of,
     widened,
 )
@@ -40,9 +39,8 @@ _SWINGING = Limit(5.5, 0.25)
 # relatability of its ends: 99 of 100 people leave less than 11.5 %; a question mark has 17 %, and
 # ends that do not go on across it.
 _OPEN, _RELATED = Limit(0.134, 0.01), 0.045
-# Of the swings of a line that trembles: the distance between its ends is above the first, in
-# shares of the length, or the height of the swings below the second, in shares of the size.
-_STRAIGHT, _FLAT = Limit(0.9, 0.02), Limit(0.06, 0.006)
+# The greatest height of the swings of a line that trembles, in shares of the size.
+_FLAT = Limit(0.06, 0.006)
 # The number of loops of a line, whose bends may have none: those of an x have one.
 _LOOPS = Limit(0.5, 0.1)
 # The greatest length of a loop that is a mistake of the hand, in shares of the length.
@@ -57,10 +55,9 @@ _SQUARE, _SQUARER = Limit(0.0222, 0.003), Limit(0.27, 0.03)
 # their mean: of a square it is 0.11. The distance of an outline from straight sides between its
 # corners (rms), in shares of its size: that of a circle from a pentagon is 0.02.
 _ELLIPTIC, _SIDED = Limit(0.1, 0.01), Limit(0.022, 0.003)
-# The ratio of the axes of inertia of an outline: below, it is a line that was drawn to and fro.
-_BROAD = Limit(0.02, 0.003)
 # Of four corners of a rectangle: their mean distance from the corners of the nearest one, in mean
-# sides, and the mean deviation of their angles from right ones [rad]: a rhomb of 73° has 0.3.
+# sides, and the mean deviation of their angles from right ones [rad]: a rhomb of 73° has 0.3, and
+# an eight more.
 _OFF, _SLANT = Limit(0.115, 0.012), Limit(0.3, 0.024)
 # The least aspect of a circle as people draw it: from 0.5 to 0.63 no outline tells circles from
 # ovals, wheels are drawn more often, and the other reading is offered. The number of sides of an
@@ -107,9 +104,8 @@ def _lineness(features: Features, still: float) -> float:
 
     :param still: weight of its having no swings
     """
-    stroke, swings, points = features.stroke, features.swings, features.stroke.points
-    straight = float(norms(points[-1] - points[0])) / stroke.length
-    calm = max(still, _STRAIGHT.above(straight), _FLAT.below(swings.height / stroke.size))
+    points = features.stroke.points
+    calm = max(still, _FLAT.below(features.measures['height']))
     # Small loops come from bends, and from setting the pen down; narrow ones from retraced tips.
     loops = sum(
         each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
@@ -149,19 +145,15 @@ def _shapes(outline: Floats) -> Iterator[Form]:
     rim = ellipse.center + np.array((ellipse.radius, 0.0))
     disc = np.array((ellipse.center, rim))
     yield Form(name=DISC, weight=circle * circular, points=disc, measures=measures)
-    # A thinner outline is a line, drawn to and fro.
-    _, longer, shorter = principal_axis(outline - outline.mean(axis=0))
-    broad = _BROAD.above(math.sqrt(shorter / longer))
     oval = ellipse.corners(_OVAL_SIDES)
-    yield Form(name=OVAL, weight=broad * circle * (1.0 - circular), points=oval, measures=measures)
+    yield Form(name=OVAL, weight=circle * (1.0 - circular), points=oval, measures=measures)
     square = _SQUARE.below(off) * _SQUARER.below(off / max(error, 1e-6))
     if len(at) == 4 and _squareness(found) > square:
         corners, square = found, _squareness(found)
     else:
         corners = narrowed(corners)
-    yield Form(
-        name=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners, measures=measures
-    )
+    weight = (1.0 - edgeless) * square
+    yield Form(name=RECTANGLE, weight=weight, points=corners, measures=measures)
     if len(at) >= 3 and crosses_itself(found):
         boundary = outer_boundary(found)
         sided = sided if boundary is not None else 0.0
@@ -173,7 +165,7 @@ def _shapes(outline: Floats) -> Iterator[Form]:
         along = traced(outline)
         boundary = outer_boundary(along) if crosses_itself(along) else along
         found, free = (found, 0.0) if boundary is None else (boundary, free)
-    yield Form(name=POLYGON, weight=broad * (sided + free), points=found, measures=measures)
+    yield Form(name=POLYGON, weight=sided + free, points=found, measures=measures)
 
 
 def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) -> float:

@@ -73,12 +73,13 @@ static void list_jointed(World *world) {
 }
 
 // Mark bodies that springs pull, and those in islands of joints that hang by a spring from something fixed, or that
-// motors hold there: such a body has no half-step lead.
+// motors hold there: such a body is not in free flight (`half_step.c`).
 static void mark_sprung(World *world) {
     arena_reset(&world->own->arena);
     int *parents = sets_of(world);
     bool *hangs = TAKE(&world->own->arena, bool, world->body_count);
     bool *swings = TAKE(&world->own->arena, bool, world->body_count);
+    bool *turns = TAKE(&world->own->arena, bool, world->body_count);
     for (int place = 0; place < world->body_count; place++) {
         world->bodies[place].on_spring = false;
     }
@@ -104,11 +105,12 @@ static void mark_sprung(World *world) {
     }
     for (int number = 0; number < world->motor_count; number++) {
         const Joint *joint = world->joints + world->motors[number].joint;
-        swings[root_of(parents, joint->a)] = swings[root_of(parents, joint->b)] = true;
+        turns[root_of(parents, joint->a)] = turns[root_of(parents, joint->b)] = true;
     }
     for (int place = 0; place < world->body_count; place++) {
         int root = root_of(parents, place);
         world->bodies[place].sprung = hangs[root] && swings[root];
+        world->bodies[place].motored = hangs[root] && turns[root];
     }
 }
 

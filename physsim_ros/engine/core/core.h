@@ -70,7 +70,8 @@ typedef struct Body {
     uint8_t sensor;        // its contacts have no effect
     uint8_t joined;        // a joint ends on it; the core sets it
     uint8_t jointed;       // a joint with rows ends on it; the core sets it
-    uint8_t sprung;        // in an island that a spring or a motor holds to something fixed; the core sets it
+    uint8_t sprung;        // in an island that a spring holds to something fixed; the core sets it
+    uint8_t motored;       // in one that a motor holds to something fixed; the core sets it
     uint8_t on_spring;     // a spring pulls it, and forces move it; the core sets it
     uint8_t towed;         // it rolls on an axle without a motor
     uint8_t expires;       // the steps of Python end with it

@@ -9,6 +9,9 @@
 // acceleration; what is reported is the true one. A body is in free flight if its velocity changed in the last step by
 // its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly.
 //
+// A body on a spring is never in free flight. As it begins, its velocity gets half a step of what its weight and its
+// springs change that by; from then on it leads, as that of a body on a rod does.
+//
 // Support graph.
 // Problem: where a floor, an anchor or a joint is removed, Chipmunk still warm starts with the impulses that carried
 // the pile on it, which would accelerate its bodies upward; and a body that falls from that moment on has no lead
@@ -26,6 +29,7 @@
 //
 // Cost: a comparison of velocities before and after each step.
 
+#include "joint_parts.h"
 #include "stages.h"
 #include <string.h>
 
@@ -38,6 +42,11 @@ typedef struct Support {
     int *parents;
     const Body *released; // whose neighbours are looked for
 } Support;
+
+// Whether springs or motors hold the island of a body.
+static bool is_held(const Body *body) {
+    return body->sprung || body->motored;
+}
 
 // Whether a body may have lost what it rested on.
 static bool is_loose(const Body *body) {
@@ -121,7 +130,7 @@ static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
     bool released = false;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        free[place_of(world, body->engine)] = body->state.free && !body->sprung;
+        free[place_of(world, body->engine)] = body->state.free && !is_held(body);
         released = released || is_loose(body);
     }
     if (!released || !has_stage(world, STAGE_SUPPORT)) {
@@ -147,16 +156,39 @@ static void forget_impulses(const Body *body) {
     }
 }
 
+// Whether a body that hangs on springs begins its first step.
+static bool begins_on_spring(const Body *body) {
+    return body->state.free && body->dynamic && body->sprung && !body->motored;
+}
+
+// Find half of what the coming step changes velocities by, of bodies that begin on springs (body_count); the rest 0.
+static const Twist *half_changes(World *world) {
+    Twist *changes = TAKE(&world->own->arena, Twist, world->body_count);
+    bool *begins = TAKE(&world->own->arena, bool, world->body_count), any = false;
+    for (int number = 0; number < active_count(world); number++) {
+        const Body *body = active_at(world, number);
+        int place = place_of(world, body->engine);
+        begins[place] = begins_on_spring(body);
+        changes[place] = begins[place] ? body->state.lead : (Twist){0};
+        any = any || begins[place];
+    }
+    if (any) {
+        pull_springs(world, begins, changes, world->dt / 2.0);
+    }
+    return changes;
+}
+
 void begin_half_step(World *world) {
     Arena *arena = &world->own->arena;
     uint8_t *free = TAKE(arena, uint8_t, world->body_count), *unsupported = TAKE(arena, uint8_t, world->body_count);
     find_start(world, free, unsupported);
+    const Twist *changes = half_changes(world);
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         int place = place_of(world, body->engine);
         if (free[place] != body->state.free) {
             world->chipmunk.body_activate(body->engine);
-            set_twist(body->engine, with_lead(body, free[place]));
+            set_twist(body->engine, twist_sum(with_lead(body, free[place]), changes[place], 1.0));
             body->state.free = free[place];
         }
         if (unsupported[place]) {
@@ -202,7 +234,7 @@ void find_free(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->state.free = false;
-        if (!body->dynamic || body->sprung || body->braking > 0.0 || sleeps(body) ||
+        if (!body->dynamic || is_held(body) || body->braking > 0.0 || sleeps(body) ||
             !has_stage(world, STAGE_HALF_STEP)) {
             continue;
         }

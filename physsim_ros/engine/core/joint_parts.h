@@ -12,4 +12,7 @@ double *impulse_at(const Part *part, int component);
 // Have springs with a greatest force obey it.
 void prepare_springs(World *world);
 
+// Add what springs change the velocities of some bodies by in a time [s]; `pulled` and `changes` (body_count).
+void pull_springs(World *world, const bool *pulled, Twist *changes, double lapse);
+
 #endif

@@ -95,7 +95,8 @@ static void find_slide(const Touch *touch, int side, Vec velocity, Slide *best) 
 }
 
 bool slide_over_edge(Touch *touch) {
-    if (!is_at_corner(touch, 0) || !is_at_corner(touch, 1)) {
+    // A disc is at its only corner, so that the other shape is asked first.
+    if (!is_at_corner(touch, 1) || !is_at_corner(touch, 0)) {
         return false;
     }
     Vec velocity = relative_velocity(touch);

@@ -27,9 +27,8 @@ from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.requests import Anchor
 from physsim_ros.model.transform import cross
 
-# The least number of points by which a line is followed beyond the crossing, of `COUNT`, and the
-# least number of those of either line.
-_BEYOND, _FEWEST = 8, 5
+# The least number of points by which a line is followed beyond the crossing, of `COUNT`.
+_BEYOND = 8
 # Of two lines that are an x for certain: their least straightness (distance of the ends by
 # length), and the least share of either beyond the crossing. Of 2,770 arrows by people in two
 # strokes, at most 0.6 % are such lines, and most x's.
@@ -48,8 +47,6 @@ def _candidates(features: Features) -> Iterator[Candidate]:
     until = int(first + max(0.5 * first, _BEYOND)) + 1
     since = int(last - max(0.5 * (count - last), _BEYOND))
     one, other = stroke.points[:until], stroke.points[since:]
-    if min(len(one), len(other)) < _FEWEST:
-        return
     (_, along, bent), (_, beside, curved) = line(one), line(other)
     before, after = first / count, 1.0 - last / count
     yield Candidate(

@@ -81,11 +81,21 @@ export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, c
 
 /**
  * @param {Curve[]} curves
+ * @param {number} axis 0 is x
+ * @returns {[number, number]} least and greatest value; Infinity and -Infinity where there are no points
+ */
+export function spanOf(curves, axis) {
+  let least = Infinity, most = -Infinity;
+  for (const {points} of curves) for (const {[axis]: value} of points) [least, most] = [Math.min(least, value), Math.max(most, value)];
+  return [least, most];
+}
+
+/**
+ * @param {Curve[]} curves
  * @returns {[number, number]} least and greatest height of the chart
  */
 function heightsOf(curves) {
-  let least = Infinity, most = -Infinity;
-  for (const {points} of curves) for (const [, y] of points) [least, most] = [Math.min(least, y), Math.max(most, y)];
+  const [least, most] = spanOf(curves, 1);
   if (least > most) return [0, 1];
   const margin = Math.max((most - least) * MARGIN, Math.abs(most) * 0.02, 0.05);
   return [least - margin, most + margin];

@@ -3,7 +3,7 @@
 
 import {csvOf} from '../csv.js';
 import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
-import {drawChart, EVERY} from './chart.js';
+import {drawChart, EVERY, spanOf} from './chart.js';
 import {QUANTITIES, toldOf} from './quantities.js';
 import {digits, threeDigits} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
@@ -298,8 +298,7 @@ function sumOf(curves) {
  * @returns {number[]} least and greatest x
  */
 function rangeOf(curves) {
-  let least = Infinity, most = -Infinity;
-  for (const {points} of curves) for (const [x] of points) [least, most] = [Math.min(least, x), Math.max(most, x)];
+  const [least, most] = spanOf(curves, 0);
   if (least > most) return [0, 1];
   return most - least > 1e-6 ? [least, most] : [least - 0.5, most + 0.5];
 }
