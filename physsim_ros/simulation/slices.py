@@ -35,6 +35,29 @@ def wrap_future(future: Future[_Result]) -> Generator[Future[_Result], None, _Re
     return future.result()
 
 
+async def with_checks(function: Sliced[_Result], check: Callable[[], object]) -> _Result:
+    """Return the result of a function; what a check raises before a slice is raised in that."""
+    return await _checked(in_slices(function), check)
+
+
+@coroutine
+def _checked(
+    slices: Slices[_Result], check: Callable[[], object]
+) -> Generator[Future[Any], None, _Result]:
+    while True:
+        try:
+            try:
+                check()
+            except Exception as refusal:  # noqa: BLE001 - the function undoes what it has begun
+                awaited = slices.throw(refusal)
+            else:
+                awaited = slices.send(None)
+        except StopIteration as end:
+            result: _Result = end.value
+            return result
+        yield awaited
+
+
 def at_once(slices: Slices[_Result]) -> _Result:
     """Carry out all slices now, wait for their threads, and return the result."""
     while True:

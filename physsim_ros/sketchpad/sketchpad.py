@@ -21,6 +21,7 @@ from physsim_ros.files import OwnWorlds, text_of
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.entries import Origin, Wait
+from physsim_ros.simulation.slices import Sliced, with_checks
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
@@ -240,15 +241,16 @@ class Sketchpad:
         simulation = self._simulation
 
         async def answers() -> tuple[Answer]:
-            load = partial(open_content, simulation, upload.content)
-            (answer,) = await answers_of(origin, load, self._boundary)
+            load: Sliced[str] = partial(open_content, simulation, upload.content)
+            check = partial(check_moment, upload.role, self._world)
+            call = partial(with_checks, load, check)
+            (answer,) = await answers_of(origin, call, self._boundary)
             upload.reply(answer)
             return (answer,)
 
         try:
             with self._boundary.message(origin.topic):
                 check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
-                check_moment(upload.role, self._world)
                 self._world.make_call(answers, Wait.FOR_SEEK)
         except Refusal as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))

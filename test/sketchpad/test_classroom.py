@@ -10,10 +10,14 @@ import json
 import math
 from pathlib import Path
 import time
+from types import ModuleType
 from typing import Any
 from urllib.parse import quote
 
 from physsim_ros.files import shipped_lessons
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.ros import node_control, world_files
+from physsim_ros.simulation.world import Beginning, beginning_of
 from physsim_ros.sketchpad import Role
 from physsim_ros.sketchpad.messages.classroom import LONGEST_ANSWER, LONGEST_MESSAGE
 from physsim_ros.sketchpad.results import Results, results_file
@@ -240,6 +244,35 @@ def test_time_brings_no_locked_body_back_or_away_but_for_a_teacher(browser: Brow
     assert browser.physsim.node.simulation.world.digest() == before
     assert boss.ask('service', name='reset')['ok']
     assert browser.physsim.names == ()
+
+
+@pytest.mark.parametrize(
+    ('kind', 'fields', 'module'),
+    [
+        ('open', {'name': 'demo'}, world_files),
+        ('service', {'name': 'load_world', 'world': 'demo'}, world_files),
+        ('service', {'name': 'reset'}, node_control),
+    ],
+)
+def test_a_lock_holds_though_a_thread_builds_the_world_that_a_pupil_wants(
+    browser: Browser,
+    monkeypatch: pytest.MonkeyPatch,
+    kind: str,
+    fields: dict[str, str],
+    module: ModuleType,
+) -> None:
+    pupil = browser.open_page()
+    assert pupil.spawn('a/0')['ok']
+
+    def build(state: WorldState, physics_rate: float) -> Beginning:
+        # The world's thread of a test waits for this one.
+        browser.physsim.node.control.set_parameter('sketchpad_locked', 'a/*')
+        return beginning_of(state, physics_rate)
+
+    monkeypatch.setattr(module, 'beginning_of', build)
+    assert pupil.ask(kind, **fields)['code'] == 'frozen'
+    assert browser.physsim.names == ('a/0',)
+    assert not browser.physsim.node.control.values['world_file']
 
 
 def test_what_is_locked_is_not_taken_back_by_who_made_it(browser: Browser) -> None:

@@ -16,7 +16,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.slices import in_slices, Sliced
+from physsim_ros.simulation.slices import in_slices, Sliced, with_checks
 from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
@@ -77,14 +77,23 @@ def _world_text(value: object, name: str) -> dict[str, Any]:
 def service(page: PageSession, origin: Origin, name: str, world: str = '') -> None:
     """Perform the action of a service, on the world file of a name where one is given."""
     origin = origin._replace(topic=f'~/{name}')
-    if name in ('clear', 'load_world', 'reset', 'undo', 'redo'):
-        check_moment(page.role, page.world)
     action, wait = page.world.service(name)
     if world:
         if name not in ('load_world', 'save_world'):
             raise BadWorldFile(f'~/{name} takes no world', field='world')
         action = partial(page.world.perform_on, name, world)
-    page.perform(origin, partial(_saving, page, action) if name == 'save_world' else action, wait)
+    if name == 'save_world':
+        page.perform(origin, partial(_saving, page, action), wait)
+    elif name in ('clear', 'load_world', 'reset', 'undo', 'redo'):
+        _replace_bodies(page, origin, action, wait)
+    else:
+        page.perform(origin, action, wait)
+
+
+def _replace_bodies(page: PageSession, origin: Origin, action: Sliced[str], wait: Wait) -> None:
+    """Perform an action unless a body is locked, be it while a thread reads the file."""
+    check = partial(check_moment, page.role, page.world)
+    page.perform(origin, partial(with_checks, action, check), wait)
 
 
 @message('speed', '~/speed', speed=number)
@@ -102,9 +111,8 @@ def seek(page: PageSession, origin: Origin, time: int) -> None:
 @message('course', '~/timeline', course=Whole(0, 2**31))
 def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
     """Return to a course of events that was left, by its number."""
-    check_moment(page.role, page.world)
     action = partial(page.world.simulation.return_to_course, course)
-    page.perform(origin, action, Wait.BEHIND_REQUESTS)
+    _replace_bodies(page, origin, action, Wait.BEHIND_REQUESTS)
 
 
 # World files
@@ -113,8 +121,7 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 @message('open', '~/load_world', name=_world_name)
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
     """Begin with a world at time 0, which undo reverts."""
-    check_moment(page.role, page.world)
-    page.perform(origin, partial(page.world.open_world, name), Wait.FOR_SEEK)
+    _replace_bodies(page, origin, partial(page.world.open_world, name), Wait.FOR_SEEK)
 
 
 @message('save', '~/save_world', name=_world_name, replace=Optional(flag))
