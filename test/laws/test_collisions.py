@@ -7,7 +7,8 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.model.requests import Command
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import ChangeBody, Command
 from physsim_ros.model.shapes import Box, Chain, Disc
 import pytest
 
@@ -409,3 +410,35 @@ def test_faces_that_meet_as_a_sub_step_ends_meet_as_a_whole(report):
     for now in steps(sim, 240):
         spin = np.abs(now.twists[:, 2]).max()
         report.check(3, 'boxes on a floor that meet, spin', spin, 0.0, 0.02, 'rad/s')
+
+
+@pytest.mark.parametrize('gap', [0.003, 0.05, 0.13])
+@pytest.mark.parametrize('speed', [0.2, 1.0, 10.0, 60.0])
+@pytest.mark.parametrize('shape', [Disc(radius=0.5), Box(width=1.0, height=1.0)], ids=repr)
+def test_a_body_whose_velocity_is_set_in_each_frame_slides_along_a_wall(report, shape, speed, gap):
+    sim = simulation(gravity=NOWHERE, elasticity=0.0)
+    wall = Box(width=0.05, height=200.0)
+    spawn(sim, 'wall/0', wall, (0.525 + gap, 0.0, 0.0), anchored=True, friction=0.0)
+    row = spawn(sim, 'body/0', shape)
+
+    velocity, deepest = (speed, 0.3 * speed), 0.0
+    for _ in range(60):
+        sim.perform(ChangeBody(name='body/0', properties=Properties(velocity=velocity)))
+        x, y, _ = sim.advance_frame().snapshot.poses[row]
+        deepest = max(deepest, x - gap)
+
+    report.check(25, 'velocity that is set towards a wall, penetration', deepest, 0.0, 1e-4, 'm')
+    report.check(25, 'the same, way along the wall', y, 0.3 * speed, 1e-9, 'm')
+
+
+def test_a_body_whose_velocity_is_set_in_each_frame_pushes_another_ahead(report):
+    sim = simulation(gravity=NOWHERE, elasticity=0.0)
+    shape = Box(width=1.0, height=1.0)
+    spawn(sim, 'box/0', shape)
+    spawn(sim, 'box/1', shape, (1.3123, 0.0, 0.0))
+    for _ in range(60):
+        sim.perform(ChangeBody(name='box/0', properties=Properties(velocity=(2.0, 0.0))))
+        end = sim.advance_frame().snapshot
+    overlap = 1.0 - (end.poses[1, 0] - end.poses[0, 0])
+    report.check(25, 'velocity that is set towards a loose box, overlap', overlap, 0.0, 5e-4, 'm')
+    report.check(25, 'speed of the loose box', end.twists[1, 0], 2.0, 1e-9, 'm/s')
