@@ -63,8 +63,12 @@ static void place(MovingShape *side, double share) {
 
 static int foremost(const MovingShape *side, Vec axis) {
     int best = 0;
+    double most = dot(axis, side->corners[0].place);
     for (int number = 1; number < side->count; number++) {
-        best = dot(axis, side->corners[number].place) > dot(axis, side->corners[best].place) ? number : best;
+        double ahead = dot(axis, side->corners[number].place);
+        if (ahead > most) {
+            best = number, most = ahead;
+        }
     }
     return best;
 }
