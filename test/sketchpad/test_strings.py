@@ -267,7 +267,8 @@ def test_all_that_the_page_tells_comes_from_its_table(marked: Sheet) -> None:
     assert unmarked(marked, '() => [...window.told]') == set()
 
 
-# What is done, or refused, by messages, and phrases of what can be undone, as a page tells them.
+# This script sends messages, and returns the page's sentences for what was done, or refused, and
+# its phrases for what can be undone.
 CROSSED = """async ([world, attempts, done, after]) => {
     const {Words} = await import('/page/words.js'), {SILENT} = await import('/page/ui/notes.js');
     const heard = {}, told = new Set(), waiting = new Map();

@@ -61,7 +61,8 @@ static double true_approach(const World *world, const cpArbiter *arbiter) {
     return approach;
 }
 
-// Have bodies enter what they touch no further, if their velocities were set: they have entered it for at most a step.
+// Time the impacts of bodies whose velocities were set while they touch others. Chipmunk has moved them by one sub-step
+// since then, so that the overlap that is taken back is that of one sub-step at most.
 static void time_throws(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);

@@ -115,7 +115,7 @@ class LiveSpace:
         if self._fresh is not None and self._fresh.is_unchanged(self.space, self.step_count):
             return self._fresh.checkpoint
         checkpoint = take_checkpoint(self.space, self.step_count)
-        # Where another seek ends this work, its bodies are in a space that nobody has.
+        # A seek may replace this work: the bodies then stay in the unfinished space.
         pool, self._pool = self._pool.bodies, BodyPool()
         space = yield from slices_of_restore(checkpoint, self._sub_step, pool=pool)
         space.copy_reports(self.space)
