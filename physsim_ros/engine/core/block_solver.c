@@ -32,8 +32,8 @@
 
 // Points that are solved together, at most: of four boxes on each other and the ground, eight are.
 enum { CLUSTER_POINTS = LCP_ROWS };
-// Contacts of a cluster, at most; shapes of more pieces are left to Chipmunk.
-enum { CLUSTER_CONTACTS = 64 };
+// Bodies that move, at most: two that meet, and each further one brings a point.
+enum { CLUSTER_BODIES = CLUSTER_POINTS + 1 };
 // Normals of one face differ by the tilt of the bodies that lie on it [1].
 static const double same_normal = 1e-3;
 
@@ -50,11 +50,11 @@ typedef struct Spot {
     cpContact *contact;
 } Spot;
 
-// The contacts of an impact, and all others that they reach through bodies that move; their outermost points.
+// Two bodies that hit each other, those that they reach through contacts, and the outermost points of these.
 typedef struct Cluster {
-    cpArbiter *contacts[CLUSTER_CONTACTS];
+    const cpBody *bodies[CLUSTER_BODIES];
     Spot spots[CLUSTER_POINTS];
-    int count, points;
+    int body_count, count;
     bool too_many;
 } Cluster;
 
@@ -74,9 +74,18 @@ static bool is_movable(const cpBody *body) {
     return body->m_inv > 0.0;
 }
 
-static bool is_in_cluster(const Cluster *cluster, const cpArbiter *arbiter) {
+static bool has_body(const Cluster *cluster, const cpBody *body) {
+    for (int number = 0; number < cluster->body_count; number++) {
+        if (cluster->bodies[number] == body) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool has_spot(const Cluster *cluster, const cpContact *contact) {
     for (int number = 0; number < cluster->count; number++) {
-        if (cluster->contacts[number] == arbiter) {
+        if (cluster->spots[number].contact == contact) {
             return true;
         }
     }
@@ -107,16 +116,15 @@ static double place_along(const cpArbiter *face, Spot spot) {
 static void add_spot(Cluster *cluster, Spot spot) {
     Spot *ends[2];
     int count = 0;
-    for (int number = 0; number < cluster->points; number++) {
+    for (int number = 0; number < cluster->count && count < 2; number++) {
         if (share_face(spot.arbiter, cluster->spots[number].arbiter)) {
-            assert(count < 2);
             ends[count++] = cluster->spots + number;
         }
     }
     if (count < 2) {
-        cluster->too_many = cluster->points == CLUSTER_POINTS;
+        cluster->too_many = cluster->count == CLUSTER_POINTS;
         if (!cluster->too_many) {
-            cluster->spots[cluster->points++] = spot;
+            cluster->spots[cluster->count++] = spot;
         }
         return;
     }
@@ -129,16 +137,22 @@ static void add_spot(Cluster *cluster, Spot spot) {
     }
 }
 
-static void add_to_cluster(Cluster *cluster, cpArbiter *arbiter) {
-    if (cluster->count == CLUSTER_CONTACTS) {
-        cluster->too_many = true;
-        return;
-    }
-    cluster->contacts[cluster->count++] = arbiter;
+// Add the points of a contact to a cluster, and its bodies.
+static void add_contact(Cluster *cluster, cpArbiter *arbiter) {
     // Far away a distance can be lost in rounding, and with it the direction.
     bool has_normal = arbiter->n.x != 0.0 || arbiter->n.y != 0.0;
     for (int number = 0; number < arbiter->count && has_normal && !cluster->too_many; number++) {
-        add_spot(cluster, (Spot){arbiter, arbiter->contacts + number});
+        Spot spot = {arbiter, arbiter->contacts + number};
+        if (!has_spot(cluster, spot.contact)) {
+            add_spot(cluster, spot);
+        }
+    }
+    const cpBody *bodies[2] = {arbiter->body_a, arbiter->body_b};
+    for (int end = 0; end < 2 && arbiter->count > 0 && has_normal && !cluster->too_many; end++) {
+        if (is_movable(bodies[end]) && !has_body(cluster, bodies[end])) {
+            assert(cluster->body_count < CLUSTER_BODIES);
+            cluster->bodies[cluster->body_count++] = bodies[end];
+        }
     }
 }
 
@@ -169,18 +183,12 @@ static int list_hits(World *world, Hit *hits) {
     return count;
 }
 
-// Add what the contacts of a cluster reach through bodies that move.
+// Add all contacts of the bodies of a cluster, and the bodies that they reach.
 static void add_neighbours(Cluster *cluster) {
-    for (int number = 0; number < cluster->count && !cluster->too_many; number++) {
-        cpBody *bodies[2] = {cluster->contacts[number]->body_a, cluster->contacts[number]->body_b};
-        for (int end = 0; end < 2; end++) {
-            const cpBody *body = bodies[end];
-            cpArbiter *each = is_movable(body) ? body->arbiterList : NULL;
-            for (; each != NULL && !cluster->too_many; each = next_of(each, body)) {
-                if (!is_in_cluster(cluster, each)) {
-                    add_to_cluster(cluster, each);
-                }
-            }
+    for (int number = 0; number < cluster->body_count; number++) {
+        const cpBody *body = cluster->bodies[number];
+        for (cpArbiter *each = body->arbiterList; each != NULL && !cluster->too_many; each = next_of(each, body)) {
+            add_contact(cluster, each);
         }
     }
 }
@@ -251,7 +259,7 @@ static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
 }
 
 static void list_points(const Cluster *cluster, Velocities *velocities, Point *points) {
-    for (int number = 0; number < cluster->points; number++) {
+    for (int number = 0; number < cluster->count; number++) {
         cpArbiter *each = cluster->spots[number].arbiter;
         cpContact *contact = cluster->spots[number].contact;
         bool begins = each->state == ARBITER_FIRST_COLLISION;
@@ -269,24 +277,17 @@ static void list_points(const Cluster *cluster, Velocities *velocities, Point *p
     }
 }
 
-static bool has_spot(const Cluster *cluster, const cpContact *contact) {
-    for (int number = 0; number < cluster->points; number++) {
-        if (cluster->spots[number].contact == contact) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // Take out the impulses with which points between the outermost ones start; those of contacts that begin are in the
 // velocities already.
 static void take_out_inner(const Cluster *cluster) {
-    for (int number = 0; number < cluster->count; number++) {
-        cpArbiter *each = cluster->contacts[number];
-        for (int point = 0; point < each->count && each->state != ARBITER_FIRST_COLLISION; point++) {
-            cpContact *contact = each->contacts + point;
-            if (!has_spot(cluster, contact)) {
-                contact->jnAcc = contact->jtAcc = 0.0;
+    for (int number = 0; number < cluster->body_count; number++) {
+        const cpBody *body = cluster->bodies[number];
+        for (cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
+            for (int point = 0; point < each->count && each->state != ARBITER_FIRST_COLLISION; point++) {
+                cpContact *contact = each->contacts + point;
+                if (!has_spot(cluster, contact)) {
+                    contact->jnAcc = contact->jtAcc = 0.0;
+                }
             }
         }
     }
@@ -435,7 +436,7 @@ static void lose_gain(const World *world, Point *points, int count, double gain)
 static void solve_cluster(const World *world, const Cluster *cluster) {
     Point points[CLUSTER_POINTS];
     Velocities velocities = {.count = 0};
-    int count = cluster->points;
+    int count = cluster->count;
     take_out_inner(cluster);
     list_points(cluster, &velocities, points);
     find_impulses(world, points, count);
@@ -459,13 +460,15 @@ static void solve_cluster(const World *world, const Cluster *cluster) {
 static void solve_pair(const World *world, const Hit *impact, int count, Hit *hits, int hit_count) {
     Cluster cluster = {.count = 0};
     for (int number = 0; number < count; number++) {
-        add_to_cluster(&cluster, impact[number].contact);
+        add_contact(&cluster, impact[number].contact);
     }
     add_neighbours(&cluster);
     if (!cluster.too_many) {
         solve_cluster(world, &cluster);
         for (int number = 0; number < hit_count; number++) {
-            hits[number].done = hits[number].done || is_in_cluster(&cluster, hits[number].contact);
+            const cpArbiter *each = hits[number].contact;
+            bool solved = has_body(&cluster, each->body_a) || has_body(&cluster, each->body_b);
+            hits[number].done = hits[number].done || solved;
         }
     }
 }
