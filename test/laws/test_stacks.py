@@ -3,13 +3,15 @@
 
 """Laws 18, 19 and 43: what is stacked stands, and does not sink, creep, sway or lean."""
 
+import math
 import random
 
 import numpy as np
 from physsim_ros.model.shapes import Box
+from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .scenes import floor, pyramid, run, simulation, spawn, walls
+from .scenes import floor, pyramid, run, simulation, spawn, steps, walls
 from ..slow import slow
 
 ORDERS = {
@@ -52,6 +54,36 @@ def test_a_stack_of_ten_boxes_stands_still(report, size, order):
     report.check(18, '10 boxes, speed after 5 s', most, 0.0, 1e-3, 'm/s')
     tilt = float(np.abs(end.poses[rows, 2]).max())
     report.check(18, '10 boxes, tilt', tilt, 0.0, 5e-3, 'rad')
+
+
+def _until_asleep(size, rate):
+    """Return when a stack of ten falls asleep [s], and the speed of its last step before [m/s]."""
+    sim = Simulation(physics_rate=rate)
+    floor(sim)
+    for level in range(10):
+        pose = (0.0, size * (level + 0.5), 0.0)
+        spawn(sim, f'box/{level}', Box(width=size, height=size), pose)
+    last = math.inf
+    for snapshot in steps(sim, round(10.0 * rate)):
+        if (speed := fastest(snapshot)) == 0.0:
+            break
+        last = speed
+    return snapshot.step / rate, last
+
+
+@pytest.mark.parametrize('size', [1.0, 0.3])
+def test_a_stack_sways_no_more_when_it_falls_asleep(report, size):
+    _, speed = _until_asleep(size, 240.0)
+
+    report.check(18, '10 boxes, speed as they fall asleep', speed, 0.0, 1e-4, 'm/s')
+
+
+def test_a_stack_comes_to_rest_about_as_soon_at_any_physics_rate(report):
+    # Half a second of rest, and it sleeps.
+    often, seldom = (_until_asleep(1.0, rate)[0] - 0.5 for rate in (960.0, 120.0))
+
+    ratio = seldom / often
+    report.check(18, '10 boxes at 120 and 960 Hz, ratio of times to rest', ratio, 2.0, 1.0, '–')
 
 
 def test_a_stack_stands_on_the_walls_of_the_world_too(report):
