@@ -7,7 +7,7 @@ import math
 import random
 
 import numpy as np
-from physsim_ros.model.shapes import Box
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -108,6 +108,24 @@ def test_a_pyramid_of_105_boxes_stands_still(report, gap, size, tolerance):
     what = f'pyramid of 105 boxes of {size:g} m, sink in 10 s'
     report.check(19, what, sunk, 0.0, tolerance, 'm')
     report.check(19, 'pyramid of 105, speed after 10 s', fastest(end), 0.0, 1e-3, 'm/s')
+
+
+def test_a_stack_of_elastic_boxes_does_not_sink_where_balls_bounce_off_it(report):
+    sim, pick, size = simulation(elasticity=0.8, friction=0.6), random.Random(1), 0.5
+    walls(sim, -4.0, 0.0, 4.0, 12.0)
+    heights = size * (np.arange(8) + 0.5)
+    for level, height in enumerate(heights.tolist()):
+        spawn(sim, f'box/{level}', Box(width=1.0, height=size), (0.0, height, 0.0), mass=20.0)
+    run(sim, 2.0)
+    for number in range(10):
+        place = (pick.choice((-1.0, 1.0)) * pick.uniform(1.5, 3.5), pick.uniform(0.5, 5.0), 0.0)
+        velocity = (pick.uniform(-6.0, 6.0), pick.uniform(-6.0, 6.0))
+        said = {'mass': 0.1, 'elasticity': 1.0, 'velocity': velocity}
+        spawn(sim, f'ball/{number}', Disc(radius=0.1), place, **said)
+
+    sunk = max(float((heights - each.poses[:8, 1]).max()) for each in steps(sim, 960))
+
+    report.check(18, 'elastic boxes that balls hit, sink in 4 s', sunk, 0.0, 3e-3, 'm')
 
 
 @pytest.mark.parametrize('seconds', [20.0, slow(60.0)])
