@@ -334,7 +334,7 @@ def _is_free(state):
 
 
 ROUNDING = 'rounding: a billionth of a metre after thousands of sub-steps'
-THRESHOLDS = 'overlaps and speeds at which contacts change do not grow with a world (decisions/scale)'
+THRESHOLDS = 'overlaps and speeds at which contacts change are in metres (docs/decisions/scale.md)'
 MICROMETRE = 'a mass of a ten-millionth moves the point of contact and the period by as much'
 
 RELATIONS = {

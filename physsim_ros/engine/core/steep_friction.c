@@ -11,7 +11,7 @@
 // changes of its normal velocity by impulses of 1 along normal and face, and m = 1 / K_nn is Chipmunk's effective mass.
 // A lesser m bounds that factor (damped Jacobi).
 // Cost: 5 ns a contact.
-// Without it law 77 (boxes that tip) fails from a friction of 2 on: the corner of a box of 1 m sinks by 26 mm.
+// Without it law 78 (boxes that tip) fails from a friction of 2 on: the corner of a box of 1 m sinks by 26 mm.
 
 #include "stages.h"
 #include "touch.h"
