@@ -21,10 +21,10 @@ from itertools import chain, islice
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.engine.checkpoint import finish
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.sizes import frame_size
+from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.cursor import Replay
 from physsim_ros.simulation.past.line import CachedFrame, Keyframe, Moment
