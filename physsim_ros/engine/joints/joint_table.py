@@ -65,11 +65,12 @@ def slices_of_records(
     sizes = [1 + len(each.parts) for each in joints]
     begin = 0
     for count in np.unique(np.cumsum(sizes) // _SLICE, return_counts=True)[1].tolist():
-        some = joints[begin : begin + count]
+        end = begin + count
+        some = joints[begin:end]
         rows = [_rows_of(each, soft.get(each.joint.name, 0.0), dt) for each in some]
         known = [_joint_fields(each, dt, unstepped=each.joint.name in unstepped) for each in some]
         yield _slice_of(some, known, rows)
-        begin += count
+        begin = end
 
 
 def _slice_of(
