@@ -64,7 +64,7 @@ export class Prediction extends Gesture {
       view.line(gone.map((sample) => [sample.x, sample.y]), palette.accent);
       const places = evenly(gone, lengthOf(way) / PARTS);
       const off = places.reduce((sum, [atX, atY]) => sum + distanceTo(way, atX, atY), 0) / places.length;
-      view.write(gone.length ? t('off by {length} m', {length: threeDigits(off)}) : t('predicted'), [x + 10, y], palette.momentum);
+      view.write(gone.length ? t('off by {length} m on average', {length: threeDigits(off)}) : t('predicted'), [x + 10, y], palette.momentum);
     }
   }
 }
@@ -78,11 +78,15 @@ export class Prediction extends Gesture {
 function evenly(samples, step) {
   /** @type {Point[]} */
   const places = [];
-  for (const {x, y} of samples) {
-    const last = places.at(-1);
-    if (!last || distance(last, [x, y]) >= step) places.push([x, y]);
-    if (places.length > PARTS) break;
-  }
+  let next = 0; // of the places, from the sample before [m]
+  samples.forEach(({x, y}, i) => {
+    const {x: beforeX, y: beforeY} = samples[Math.max(i - 1, 0)], length = distance([beforeX, beforeY], [x, y]);
+    for (; next <= length && places.length <= PARTS; next += step) {
+      const share = length ? next / length : 0;
+      places.push([beforeX + share * (x - beforeX), beforeY + share * (y - beforeY)]);
+    }
+    next -= length;
+  });
   return places;
 }
 
