@@ -1,13 +1,13 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Laws 10 to 13: friction holds, brakes and sets rolling as Coulomb's law has it."""
+"""Laws 10 to 13, 77: friction holds, brakes and sets rolling as Coulomb's law has it."""
 
 import math
 
 import numpy as np
 from physsim_ros.model.requests import Command
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Disc, Polygon
 import pytest
 
 from .scenes import floor, G, run, simulation, spawn, turned
@@ -131,3 +131,28 @@ def test_a_disc_that_slides_comes_to_roll_at_two_thirds_of_its_speed(
     report.check(13, 'disc set sliding, rolls after', rolls_at, exact, 0.02, 's/s', relative=True)
     vx = np.abs(sim.world.snapshot().twists[disc, 0])
     report.check(13, 'the same, speed then', vx, speed * 2 / 3, 1e-3, '–', relative=True)
+
+
+@pytest.mark.parametrize(('count', 'spin'), [(12, 3.0), (24, 3.0), (24, 2.0), (48, 3.0)])
+def test_a_regular_polygon_that_rolls_loses_energy_at_its_corners_alone(report, count, spin):
+    """It turns about a corner until the next one hits the floor, and keeps the spin about that."""
+    radius, angle = 0.5, math.tau / count
+    turns = [angle * (number + 0.5) - math.pi / 2 for number in range(count)]
+    outline = tuple((radius * math.cos(turn), radius * math.sin(turn)) for turn in turns)
+    height, aside = radius * math.cos(angle / 2), radius * math.sin(angle / 2)
+    sim = simulation(friction=1.0, elasticity=0.0)
+    floor(sim)
+    velocity = (spin * height, spin * aside)
+    said = {'velocity': velocity, 'spin': -spin}
+    wheel = spawn(sim, 'wheel/0', Polygon(outline=outline), (0.0, height, 0.0), **said)
+    mass, moment = sim.world.snapshot().scene.inertia[wheel]
+
+    end = run(sim, 2.0)
+
+    hits = math.floor(-end.poses[wheel, 2] / angle)
+    about_corner = moment + mass * radius**2
+    kept = (moment + mass * radius**2 * math.cos(angle)) / about_corner
+    (*along, turning), rise = end.twists[wheel], end.centers[wheel, 1] - height
+    left = (mass * np.dot(along, along) + moment * turning**2) / 2 + mass * G * rise
+    share = left / (about_corner * spin**2 / 2)
+    report.check(77, 'polygon that rolls, energy', share, kept ** (2 * hits), 2e-3, '–')

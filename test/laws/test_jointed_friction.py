@@ -10,7 +10,7 @@ import numpy as np
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
-from .scenes import floor, G, join, run, simulation, spawn
+from .scenes import floor, G, join, run, simulation, spawn, steps
 
 # The greatest distance by which what stands may sink [m]: a fiftieth of the slop of contacts.
 SETTLED = 1e-4
@@ -49,6 +49,28 @@ def test_a_fridge_tips_when_it_is_pushed_above_half_its_width_by_its_friction(
     turned = abs(run(sim, 2.0).poses[row, 2])
 
     assert turned > 1.5 if tips else turned < 0.02
+
+
+@pytest.mark.parametrize('speed', [0.005, 0.02, 0.3])
+def test_jointed_boxes_that_a_winch_draws_slide_at_its_rate_without_a_hop(report, speed):
+    sim = simulation(friction=0.7, elasticity=0.0)
+    floor(sim)
+    rows = [
+        spawn(sim, f'box/{mass}', Box(width=0.5, height=0.5), (mass - 1.5, 0.25, 0.0), mass=mass)
+        for mass in (1, 2)
+    ]
+    join(sim, 'rod/0', 'rod', [(-0.5, 0.25), (0.5, 0.25)], a='box/1', b='box/2')
+    points = [(0.5, 0.25), (5.5, 0.25)]
+    join(sim, 'winch/0', 'rope', points, a='box/2', b='world', rate=-speed, lower=0.1)
+
+    moved = list(steps(sim, 240))[20:]
+
+    heights = [snapshot.poses[rows, 1] for snapshot in moved]
+    hop = float(np.ptp(heights, axis=0).max())
+    report.check(61, 'boxes drawn by a winch, hop', hop, 0.0, 8e-6, 'm')
+    for snapshot in moved:
+        ratio = float(snapshot.twists[rows, 0].min()) / speed
+        report.check(61, 'boxes drawn by a winch, speed', ratio, 1.0, 1e-7, '–')
 
 
 # The torque that lifts the front wheels of a car is where the front bears no weight.

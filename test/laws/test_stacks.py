@@ -3,13 +3,15 @@
 
 """Laws 18, 19 and 43: what is stacked stands, and does not sink, creep, sway or lean."""
 
+import math
 import random
 
 import numpy as np
-from physsim_ros.model.shapes import Box
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .scenes import floor, pyramid, run, simulation, spawn, walls
+from .scenes import floor, pyramid, run, simulation, spawn, steps, walls
 from ..slow import slow
 
 ORDERS = {
@@ -54,6 +56,36 @@ def test_a_stack_of_ten_boxes_stands_still(report, size, order):
     report.check(18, '10 boxes, tilt', tilt, 0.0, 5e-3, 'rad')
 
 
+def _until_asleep(size, rate):
+    """Return when a stack of ten falls asleep [s], and the speed of its last step before [m/s]."""
+    sim = Simulation(physics_rate=rate)
+    floor(sim)
+    for level in range(10):
+        pose = (0.0, size * (level + 0.5), 0.0)
+        spawn(sim, f'box/{level}', Box(width=size, height=size), pose)
+    last = math.inf
+    for snapshot in steps(sim, round(10.0 * rate)):
+        if (speed := fastest(snapshot)) == 0.0:
+            break
+        last = speed
+    return snapshot.step / rate, last
+
+
+@pytest.mark.parametrize('size', [1.0, 0.3])
+def test_a_stack_sways_no_more_when_it_falls_asleep(report, size):
+    _, speed = _until_asleep(size, 240.0)
+
+    report.check(18, '10 boxes, speed as they fall asleep', speed, 0.0, 1e-4, 'm/s')
+
+
+def test_a_stack_comes_to_rest_about_as_soon_at_any_physics_rate(report):
+    # Half a second of rest, and it sleeps.
+    often, seldom = (_until_asleep(1.0, rate)[0] - 0.5 for rate in (960.0, 120.0))
+
+    ratio = seldom / often
+    report.check(18, '10 boxes at 120 and 960 Hz, ratio of times to rest', ratio, 2.0, 1.0, '–')
+
+
 def test_a_stack_stands_on_the_walls_of_the_world_too(report):
     sim, _ = _stack(0.5, ORDERS['bottom up'], lambda sim: walls(sim, -5.0, 0.0, 5.0, 20.0))
 
@@ -76,6 +108,24 @@ def test_a_pyramid_of_105_boxes_stands_still(report, gap, size, tolerance):
     what = f'pyramid of 105 boxes of {size:g} m, sink in 10 s'
     report.check(19, what, sunk, 0.0, tolerance, 'm')
     report.check(19, 'pyramid of 105, speed after 10 s', fastest(end), 0.0, 1e-3, 'm/s')
+
+
+def test_a_stack_of_elastic_boxes_does_not_sink_where_balls_bounce_off_it(report):
+    sim, pick, size = simulation(elasticity=0.8, friction=0.6), random.Random(1), 0.5
+    walls(sim, -4.0, 0.0, 4.0, 12.0)
+    heights = size * (np.arange(8) + 0.5)
+    for level, height in enumerate(heights.tolist()):
+        spawn(sim, f'box/{level}', Box(width=1.0, height=size), (0.0, height, 0.0), mass=20.0)
+    run(sim, 2.0)
+    for number in range(10):
+        place = (pick.choice((-1.0, 1.0)) * pick.uniform(1.5, 3.5), pick.uniform(0.5, 5.0), 0.0)
+        velocity = (pick.uniform(-6.0, 6.0), pick.uniform(-6.0, 6.0))
+        said = {'mass': 0.1, 'elasticity': 1.0, 'velocity': velocity}
+        spawn(sim, f'ball/{number}', Disc(radius=0.1), place, **said)
+
+    sunk = max(float((heights - each.poses[:8, 1]).max()) for each in steps(sim, 960))
+
+    report.check(18, 'elastic boxes that balls hit, sink in 4 s', sunk, 0.0, 3e-3, 'm')
 
 
 @pytest.mark.parametrize('seconds', [20.0, slow(60.0)])
