@@ -11,10 +11,10 @@ import {sayForm} from './ui/classroom.js';
 import {Connection} from './connection.js';
 import {Dialog} from './ui/dialog.js';
 import {choice, createElement, elementOf, iconButton, inRow, languageField, showText, soon, textButton} from './dom.js';
-import {retold} from './rounding.js';
 import {SceneView} from './view/scene_view.js';
-import {showResults} from './ui/results.js';
+import {retold, showResults} from './ui/results.js';
 import {watchTheme} from './view/theme.js';
+import {SENTENCES} from './sentences.js';
 import {language, t} from './strings.js';
 import {capital, sentenceOf, Words} from './words.js';
 import {WorldState} from './world_state.js';
@@ -25,6 +25,11 @@ import {WorldState} from './world_state.js';
 const KEY = 'physsim-seat'; // of this browser
 const PERIOD = 3000; // ms between two looks at who is where
 const GAP = 4; // px around the world in its picture
+/** Why a pupil gets no world, in the server's words and in those of this page. @type {[RegExp, string][]} */
+const REASONS = [
+  [/^every world of this class has a pupil$/, t('Every world of the class has a pupil')],
+  [/^(\d+) worlds of this class are those of this machine; .*/, t('$1 worlds of the class were given to this address: ask your teacher to free a seat')],
+];
 
 /** A card of a teacher's page: a seat, its pupil, and the world there, as it is now. */
 class Card {
@@ -196,7 +201,7 @@ form.addEventListener('submit', async (event) => {
   event.preventDefault();
   const response = await ask('/join', {name: name.value, key: localStorage.getItem(KEY) ?? ''});
   if (!response?.ok) {
-    elementOf('refused').textContent = response ? capital(sentenceOf((await response.text()).trim())) : t('The class is not reachable: try again.');
+    elementOf('refused').textContent = response ? capital(sentenceOf((await response.text()).trim(), [...REASONS, ...SENTENCES])) : t('The class is not reachable: try again.');
     return;
   }
   const {address, key} = await response.json();

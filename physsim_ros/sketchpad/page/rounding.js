@@ -51,14 +51,6 @@ export function numberOf(text) {
 }
 
 /**
- * @param {string} text that somebody has typed
- * @returns {string} the number as the reader of this page writes it; the text where it is none
- */
-export function retold(text) {
-  return Number.isNaN(numberOf(text)) ? text : localized(text.trim().replace(',', '.'));
-}
-
-/**
  * @param {number} value
  * @returns {number} the least number of 1, 2 or 5 times a power of ten that is not below the value
  */

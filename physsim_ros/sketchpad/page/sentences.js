@@ -15,8 +15,8 @@ export const THINGS = new Map([
   ['gear', t('gear')], ['rack', t('rack and pinion')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
   ['delete', t('delete')], ['hatching', t('heavier by hatching')], ['all bodies', t('all bodies')],
   ['several bodies', t('several bodies')], ['several joints', t('several joints')], ['all joints', t('all joints')], ['world', t('the world')],
-  ['settings', t('settings')], ['damping', t('air drag')], ['air_density', t('density of the air')], ['air_viscosity', t('viscosity of the air')],
-  ['wind', t('wind')], ['gusts', t('gusts')], ['gravitation', t('attraction of masses')], ['coulomb', t('force of charges')],
+  ['settings', t('settings')], ['damping', t('air')], ['air_density', t('air')], ['air_viscosity', t('air')], ['wind', t('air')], ['gusts', t('air')],
+  ['gravitation', t('attraction')], ['coulomb', t('attraction')],
 ]);
 
 /** Verbs before the name of a body, and what is said of it. */
@@ -99,8 +99,6 @@ export const SENTENCES = [
   [/^the points of a .+ must be (\S+) m apart$/, t('its points are at least $1 m apart')],
   [/^a name has (?:at most|1 to) (\d+) characters$/, t('a name has 1 to $1 characters')],
   [/^.+ cannot be a name: it has no .+$/, t('a name has no "/" and no "."')],
-  [/^every world of this class has a pupil$/, t('Every world of the class has a pupil')],
-  [/^(\d+) worlds of this class are those of this machine; .*/, t('$1 worlds of the class were given to this address: ask your teacher to free a seat')],
   [/^nothing of (.+) is kept$/, t('nothing of $1 is kept')],
   [/^there is no world '?(.+?)'?( of your own|;.*)$/, t('there is no world $1')],
   [/^\w+ is (\S+)(?: m)?; it must lie between (\S+) and (\S+).*/, t('$1 does not lie between $2 and $3')],

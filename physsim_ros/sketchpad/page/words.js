@@ -168,12 +168,9 @@ export function headingOf({name, shipped}) {
   return shipped ? t(capital(name.replaceAll('_', ' '))) : name;
 }
 
-/**
- * @param {string} message of the server
- * @returns {string} what this page says instead
- */
-export function sentenceOf(message) {
-  return SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message);
+/** @param {string} message of the server */
+export function sentenceOf(message, sentences = SENTENCES) {
+  return sentences.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message);
 }
 
 /** @param {string} text */

@@ -72,18 +72,17 @@ export class Prediction extends Gesture {
 /**
  * @param {Sample[]} samples
  * @param {number} step [m]
- * @returns {Point[]} places at that distance from each other, so that a body that rests counts once; on a way as long as
- *   the prediction
+ * @returns {Point[]} places at that distance along a way as long as the prediction
  */
 function evenly(samples, step) {
   /** @type {Point[]} */
   const places = [];
   let next = 0; // of the places, from the sample before [m]
   samples.forEach(({x, y}, i) => {
-    const {x: beforeX, y: beforeY} = samples[Math.max(i - 1, 0)], length = distance([beforeX, beforeY], [x, y]);
+    const last = samples[Math.max(i - 1, 0)], length = distance([last.x, last.y], [x, y]);
     for (; next <= length && places.length <= PARTS; next += step) {
-      const share = length ? next / length : 0;
-      places.push([beforeX + share * (x - beforeX), beforeY + share * (y - beforeY)]);
+      const share = length && next / length;
+      places.push([last.x + share * (x - last.x), last.y + share * (y - last.y)]);
     }
     next -= length;
   });

@@ -3,7 +3,6 @@
 
 import {createElement, elementOf, fieldForm, iconButton, inRow, soon, textButton} from '../dom.js';
 import {NAME, ownName, personWord, TEACHER} from '../people.js';
-import {retold} from '../rounding.js';
 import {t} from '../strings.js';
 
 /** @import {Parts, Point, SceneView} from '../types.js' */
@@ -106,7 +105,7 @@ export class Classroom {
       return createElement('li', {}, dot(color), `${shown}${you}${teaches}`,
         ...raised ? [createElement('strong', {}, t('hand raised')),
           ...teacher ? [textButton(t('Lower the hand'), () => connection.send('lower_hand', {page}))] : []] : [],
-        ...teacher && answered ? [`${retold(answered.answer)} ${answered.right ? '✓' : '✗'}`] : [],
+        ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
         ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
     }));
     parts.dialog.show(TITLE, ...parts.people.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);

@@ -3,8 +3,8 @@
 
 import {choice, createElement, download, inRow, textButton} from '../dom.js';
 import {csvOf} from '../csv.js';
-import {digits, numberOf, retold, roundUp} from '../rounding.js';
-import {language, t} from '../strings.js';
+import {digits, numberOf, roundUp} from '../rounding.js';
+import {language, localized, t} from '../strings.js';
 import {personWord} from '../people.js';
 
 /** @import {Result} from '../types.js' */
@@ -122,6 +122,14 @@ function histogramOf(results) {
     const range = there.some(({figure}) => placeOf(figure) > last) ? `≥ ${from}` : there.some(({figure}) => placeOf(figure) < first) ? `< ${to}` : `${from} … ${to}`;
     return createElement('li', {}, range, createElement('span', {}, ...bars), String(there.length || ''));
   });
+}
+
+/**
+ * @param {string} text that somebody has typed
+ * @returns {string} the number as the reader of this page writes it; the text where it is none
+ */
+export function retold(text) {
+  return Number.isNaN(numberOf(text)) ? text : localized(text.trim().replace(',', '.'));
 }
 
 /** @param {Result | undefined} result */
