@@ -23,10 +23,10 @@ from physsim_ros.engine.warm_start import read_impulses, write_impulses
 from physsim_ros.model.checkpoint import Checkpoint
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.slices import finish
 from physsim_ros.model.states import Records
 import pymunk
 
-_Result = TypeVar('_Result')
 _Entry = TypeVar('_Entry', Body, RigidBody, Joint)
 # Pieces of bodies, or ends and guides of joints, in a slice of a rebuild: at most some 30 ms.
 _SLICE = 500
@@ -90,16 +90,6 @@ def restore_checkpoint(checkpoint: Checkpoint, dt: float) -> Space:
     :param dt: of a sub-step [s]
     """
     return finish(slices_of_restore(checkpoint, dt))
-
-
-def finish(slices: Generator[None, None, _Result]) -> _Result:
-    """Carry out all slices of work, and return its result."""
-    while True:
-        try:
-            next(slices)
-        except StopIteration as end:
-            result: _Result = end.value
-            return result
 
 
 def slices_of_restore(

@@ -10,7 +10,7 @@ from concurrent.futures import Future
 from threading import Thread
 from typing import TypeVar
 
-from physsim_ros.simulation.slices import wrap_future
+from physsim_ros.model.slices import wrap_future
 
 _Result = TypeVar('_Result')
 

@@ -13,12 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 import time
 
+from physsim_ros.model.slices import Sliced
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.slices import Sliced
 
 # Time after which a tick simulates no further publish period [ns], or where the last tick took
 # longer, no further step: requests, services and signals wait at most so long, which a person

@@ -19,6 +19,7 @@ from physsim_ros.files import on_thread
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Running
 from physsim_ros.model.requests import DeleteAll
+from physsim_ros.model.slices import in_slices, Sliced
 from physsim_ros.model.snapshot import Answer, run_state
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
@@ -29,7 +30,6 @@ from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.slices import in_slices, Sliced
 from physsim_ros.simulation.world import beginning_of
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock

@@ -13,8 +13,8 @@ from typing import NamedTuple
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.sizes import request_size
+from physsim_ros.model.slices import Sliced
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.slices import Sliced
 
 # Memory of a marker as rclpy decodes it [bytes].
 _UNREAD = 2500

@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DriveRobot, HandRequest, KeepHand, MoveHand, Request
+from physsim_ros.model.slices import at_once, in_slices, Sliced, Slices
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import (
     Amend,
@@ -37,7 +38,6 @@ from physsim_ros.simulation.entries import (
 from physsim_ros.simulation.hands import Hands
 from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.slices import at_once, in_slices, Sliced, Slices
 from physsim_ros.simulation.waiting_entries import WaitingEntries
 
 

@@ -22,9 +22,9 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
+from physsim_ros.model.slices import in_slices, Sliced
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.slices import in_slices, Sliced
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened

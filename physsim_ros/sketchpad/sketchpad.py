@@ -19,9 +19,9 @@ from typing import Any
 
 from physsim_ros.files import OwnWorlds, text_of
 from physsim_ros.model.errors import Busy, Refusal
+from physsim_ros.model.slices import Sliced, with_checks
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.slices import Sliced, with_checks
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS

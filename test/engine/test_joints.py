@@ -146,6 +146,14 @@ def test_a_joint_gives_no_more_than_its_greatest_force():
     assert -twist(world, 'a/0')[1] == pytest.approx(9.81 - 4.0, rel=0.02)
 
 
+def test_the_drive_of_a_slider_pushes_with_1000_newtons_unless_it_says_otherwise():
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', DISC, mass=500.0)
+    join(world, 'slider', [(0.0, 0.0), (1.0, 0.0)], a='a/0', b='world', rate=10.0)
+    world.step(240)
+    assert twist(world, 'a/0')[0] == pytest.approx(1000.0 / 500.0)
+
+
 def test_the_torque_of_a_motor_leaves_the_force_of_its_axle_unreached():
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', DISC, mass=1000.0)

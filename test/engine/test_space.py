@@ -165,6 +165,15 @@ def test_a_body_that_leaves_the_range_of_numbers_is_removed_and_told(world):
     assert pose(world, 'a/1') == pytest.approx((5.0 + 12 * DT, 0.0, 0.0), abs=ROUNDING_OF_SUMS)
 
 
+@pytest.mark.parametrize(('speed', 'lost'), [(0.5e12, ()), (2e12, ('a/0',))])
+def test_a_body_is_lost_from_a_speed_of_1e12_metres_a_second_on(world, speed, lost):
+    unlimit_wrenches(world)
+    spawn(world, 'a/0', DISC, mass=1e-3)
+    command(world, 'a/0', wrench=(speed * 1e-3 / DT, 0.0, 0.0))
+
+    assert world.step(1) == lost
+
+
 def test_a_body_that_is_lost_in_the_last_step_of_its_life_goes_once(world):
     unlimit_wrenches(world)
     spawn(world, 'a/0', DISC, mass=1e-9, lifetime=DT)

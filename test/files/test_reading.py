@@ -9,7 +9,7 @@ from threading import get_ident
 
 from physsim_ros.files import on_thread
 from physsim_ros.model.errors import BadWorldFile
-from physsim_ros.simulation.slices import at_once, in_slices
+from physsim_ros.model.slices import at_once, in_slices
 import pytest
 
 

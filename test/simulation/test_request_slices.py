@@ -9,10 +9,10 @@ from threading import Thread
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.slices import wrap_future
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.slices import wrap_future
 
 from ..building import BOX, NOWHERE, spawning
 

@@ -115,6 +115,16 @@ def test_only_robots_are_driven():
     assert_refused(world, DriveRobot(name='a/0', velocity=(1.0, 0.0, 0.0)), BadProperty, 'name')
 
 
+def test_a_refusal_names_ten_robots_that_there_are():
+    world = seen_from_above()
+    for number in range(12):
+        put(world, f'a/{number}', x=2.0 * number, robot={'drive': DRIVE})
+    with pytest.raises(UnknownBody) as refused:
+        world.apply(DriveRobot(name='b/0', velocity=(1.0, 0.0, 0.0)))
+    _, _, names = str(refused.value).partition('robots: ')
+    assert names.split(', ') == [f'a/{number}' for number in range(10)]
+
+
 def test_only_a_sensor_is_a_conveyor():
     world = seen_from_above()
     belt = Box(width=1.0, height=1.0)

@@ -12,8 +12,8 @@ import time
 from physsim_ros.files import load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
+from physsim_ros.model.slices import at_once
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.slices import at_once
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 import pytest
 

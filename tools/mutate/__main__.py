@@ -43,7 +43,7 @@ def candidates(words: list[str]) -> list[Mutation]:
 
 def tests_of(path: Path) -> list[str]:
     """Return the folders whose fast tests have to notice a mutation of a file."""
-    if path.suffix == '.c':
+    if path.parts[1] == 'engine':
         return ['test/engine', 'test/laws']
     folder = f'test/{path.parts[1]}'
     return [folder if (ROOT / folder).is_dir() else 'test']

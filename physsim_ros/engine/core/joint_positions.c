@@ -30,9 +30,6 @@ static const double negligible = 1e-7, closed = 1e-5;
 // The furthest that a body turns in a Newton step [rad]: rows are linear for small turns only, and points may be metres
 // off.
 static const double most_turn = 0.25;
-// The furthest that a body moves in a Newton step, in sums of all gaps of its island: joints that contradict each other
-// have nearly singular equations, whose solutions are of any size.
-static const double most_leverage = 10.0;
 
 // Count of Newton steps, at most.
 enum { MOST_STEPS = 16 };
@@ -187,14 +184,12 @@ static Solution newton_step(Solve *solve, const Displacement *move) {
 }
 
 // The share of a Newton step that is made.
-static double trusted_share(const Solve *solve, const Twist *changes, double sum) {
-    double farthest = 0.0, turn = 0.0;
+static double trusted_share(const Solve *solve, const Twist *changes) {
+    double turn = 0.0;
     for (int body = 0; body < solve->island->body_count; body++) {
-        farthest = greatest(farthest, length(changes[body].v));
         turn = greatest(turn, fabs(changes[body].w));
     }
-    double by_turn = most_turn / greatest(turn, 1e-300);
-    return least(1.0, least(by_turn, most_leverage * sum / greatest(farthest, 1e-300)));
+    return turn > most_turn ? most_turn / turn : 1.0;
 }
 
 // Change velocities by a displacement, as far as their energy falls by it.
@@ -277,7 +272,7 @@ void solve_positions(Solve *solve) {
         }
         size_t step = arena_mark(solve->arena);
         Solution solution = newton_step(solve, &move);
-        double share = trusted_share(solve, solution.changes, move.sum);
+        double share = trusted_share(solve, solution.changes);
         for (int body = 0; body < island->body_count; body++) {
             solve->poses[body].p = add(solve->poses[body].p, scaled(solution.changes[body].v, share));
             solve->poses[body].yaw += solution.changes[body].w * share;

@@ -16,10 +16,10 @@ from typing import Any, NamedTuple
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Failed, Refusal
+from physsim_ros.model.slices import at_once, in_slices, Sliced, Slices
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.request_queue import RequestQueue
-from physsim_ros.simulation.slices import at_once, in_slices, Sliced, Slices
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 import rclpy.service

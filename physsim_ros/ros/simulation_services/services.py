@@ -10,6 +10,7 @@ from functools import partial
 from typing import Any
 
 from physsim_ros.model.errors import Refusal
+from physsim_ros.model.slices import at_once, in_slices, Slices
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.services import ServiceCalls
@@ -19,7 +20,6 @@ from physsim_ros.ros.simulation_services.simulation_states import SimulationStat
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
 from physsim_ros.simulation.entries import Wait
-from physsim_ros.simulation.slices import at_once, in_slices, Slices
 from rclpy.action import ActionServer
 from rclpy.node import Node
 from rclpy.task import Future

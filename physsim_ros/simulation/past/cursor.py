@@ -20,11 +20,11 @@ from collections.abc import Generator, Iterator
 from enum import Enum
 from typing import NamedTuple
 
-from physsim_ros.engine.checkpoint import finish
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.line import Keyframe, Moment, Node
 from physsim_ros.simulation.past.tree import Tree

@@ -10,8 +10,10 @@ some micrometres, or overlap as much: in the first steps of the copy they come t
 bounce. The forces are those of the first step whose contacts are those of the step before, with
 the same impulses; joints need a step, too.
 
-Laws: forces on what rests are those that later steps report, to a part in a thousand. An impact is
-not a force at rest: what approaches has no contact before it touches.
+Law: an impact is not a force at rest: what approaches has no contact before it touches.
+
+Limit: forces on a body that rests are those that later steps report to 0.1 %, in a stack of three
+equal boxes to 0.2 %, of five to 0.5 %, of ten to 30 %: eight steps do not bring it to rest.
 """
 
 from __future__ import annotations

@@ -20,7 +20,6 @@ from typing import NamedTuple
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.checkpoint import (
     BodyPool,
-    finish,
     restore_checkpoint,
     slices_of_restore,
     take_checkpoint,
@@ -35,6 +34,7 @@ from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.latency import delay
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.slices import finish
 from physsim_ros.model.transform import local_to_world, Point, Pose
 from physsim_ros.simulation.world.capacity import Capacity, check_state
 

@@ -14,9 +14,9 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
+from physsim_ros.model.slices import in_slices, Sliced, with_checks
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.simulation.slices import in_slices, Sliced, with_checks
 from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching

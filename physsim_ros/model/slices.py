@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Work in slices: what takes seconds and does not concern the world is done elsewhere.
+Work in slices: between two of them the world's thread handles messages, and may step the world.
 
-Law: a slice ends where the work waits for that, as for a file that another thread reads. Until
-then the world's thread steps the world and handles messages.
+Laws: a generator ends a slice where a tick may end, as in a replay. A coroutine ends one where it
+waits for another thread, as for a file that is read.
 """
 
 from __future__ import annotations
@@ -58,8 +58,18 @@ def _checked(
         yield awaited
 
 
+def finish(slices: Generator[None, None, _Result]) -> _Result:
+    """Carry out all slices of a generator, and return its result."""
+    while True:
+        try:
+            next(slices)
+        except StopIteration as end:
+            result: _Result = end.value
+            return result
+
+
 def at_once(slices: Slices[_Result]) -> _Result:
-    """Carry out all slices now, wait for their threads, and return the result."""
+    """Carry out all slices of a coroutine, wait for their threads, and return its result."""
     while True:
         try:
             wait((slices.send(None),))
