@@ -72,6 +72,7 @@ class RigidBody:
 
     :param body: its description
     :param pm_body: the Pymunk body
+    :param handles: of it and its shapes, by which the engine names them (`handles_of`)
     :param first_shape: the engine's number of its first shape
     :param row: in the table of bodies; -1 if it is in none yet
     :param wrench: force [N] and torque [N m] that act on the centre of mass
@@ -85,6 +86,7 @@ class RigidBody:
 
     body: Body
     pm_body: pymunk.Body
+    handles: tuple[object, ...] = field(repr=False)
     first_shape: int = 0
     row: int = -1
     wrench: Wrench = NO_WRENCH
@@ -244,8 +246,9 @@ def build_body(body: Body) -> RigidBody:
         pm_body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     else:
         pm_body = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
-    rigid = RigidBody(body, pm_body)
-    shapes = [_shape(piece, pm_body, rigid.offset) for piece in body.shape.form.pieces]
+    offset = offset_of(body)
+    shapes = [_shape(piece, pm_body, offset) for piece in body.shape.form.pieces]
+    rigid = RigidBody(body, pm_body, handles_of(pm_body, *shapes))
     _set_neighbors([shape for shape in shapes if isinstance(shape, pymunk.Segment)])
     for shape in shapes:
         # The engine multiplies the values of two bodies. By their square roots a pair has the
@@ -259,6 +262,20 @@ def build_body(body: Body) -> RigidBody:
             # A region has no contacts with the bodies in it.
             shape.filter = NOTHING
     return rigid
+
+
+def handles_of(*objects: pymunk.Body | pymunk.Shape | pymunk.Constraint) -> tuple[object, ...]:
+    """
+    Remove the handles from objects of Pymunk, and return them.
+
+    By its handle, which it holds itself, an object of Pymunk (7.3.1) is a cycle of references:
+    only a collection of garbage would free it, and one of a thousand bodies stops all threads for
+    some 20 ms. Callbacks of the engine find the object by the handle, which must live as long.
+    """
+    return tuple(
+        vars(each).pop('_h' if isinstance(each, pymunk.Shape) else '_data_handle')
+        for each in objects
+    )
 
 
 def _shape(piece: Piece, pm_body: pymunk.Body, offset: Point) -> pymunk.Shape:

@@ -165,6 +165,7 @@ def _restore_joints(space: Space, checkpoint: Checkpoint) -> Iterator[None]:
     space.joints.set_commands(checkpoint.commands, checkpoint.step)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
+    yield from space.joints.slices_of_table()
     space.lay_out_joints()
     yield
     space.joints.set_impulses(checkpoint.memory.joints)
@@ -242,6 +243,15 @@ class BodyPool:
         """Return whether all bodies of a scene are made, and those of the retired space used."""
         return self._scene is scene and self._row == len(scene.bodies)
 
+    def slices_of_freeing(self) -> Iterator[None]:
+        """Free the bodies and the retired space; yield after each slice."""
+        while self.bodies:
+            for _ in range(min(_SLICE, len(self.bodies))):
+                self.bodies.popitem()
+            yield
+        if self._retired is not None:
+            yield from _slices_of_freeing(self._retired)
+
     def build_bodies(self, scene: Scene, count: int) -> None:
         """Make up to a number of further bodies of a scene."""
         if self._retired is not None and self._retired.joints.by_name:
@@ -267,6 +277,34 @@ class BodyPool:
             self._row += 1
 
 
+def slices_of_freeing(space: Space, pool: BodyPool) -> Iterator[None]:
+    """
+    Free a space that is not used any more, and its pool; yield after each slice.
+
+    A small one is freed with the last reference to it, at once.
+    """
+    count = len(space.bodies.by_name) + len(space.joints.by_name) + len(pool.bodies)
+    if count > _SLICE:
+        yield from _slices_of_freeing(space)
+        yield from pool.slices_of_freeing()
+
+
+def _slices_of_freeing(space: Space) -> Iterator[None]:
+    """Remove the joints and bodies of a space, and free them; yield after each slice."""
+    while space.joints.by_name:
+        space.joints.take_out(_SLICE)
+        yield
+    if space.bodies.by_name:
+        _clear_contacts(space)
+        yield
+    while space.bodies.by_name:
+        for _ in range(min(_SLICE, len(space.bodies.by_name))):
+            _extract_body(space)
+        # Pymunk keeps shapes that were removed up to the next step.
+        space.pm_space.step(space.dt)
+        yield
+
+
 def _clear_contacts(space: Space) -> None:
     """
     Clear the engine's contacts, by a step with all bodies far from each other.
@@ -285,9 +323,7 @@ def _clear_contacts(space: Space) -> None:
 
 def _extract_body(space: Space) -> RigidBody:
     """Remove a body from a retired space and return it, at rest and without a wrench."""
-    rigid = space.bodies.by_name.popitem()[1]
-    space.shapes.remove(rigid.pm_body.shapes)
-    space.pm_space.remove(rigid.pm_body)
+    rigid = space.extract_last()
     # The last step left a bias velocity, by which the next one would push overlaps apart.
     pymunk.Body.update_position(rigid.pm_body, 0.0)
-    return RigidBody(rigid.body, rigid.pm_body)
+    return RigidBody(rigid.body, rigid.pm_body, rigid.handles)

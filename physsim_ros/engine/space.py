@@ -237,6 +237,12 @@ class Space:
         del self.bodies.by_name[name]
         self._release(touching)
 
+    def extract_last(self) -> RigidBody:
+        """Remove and return the last body, in a space without joints that is not used any more."""
+        _, rigid = self.bodies.by_name.popitem()
+        self._take_out(rigid)
+        return rigid
+
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Set the pose of a body."""
         touching = self.bodies.touching(rigid.pm_body)

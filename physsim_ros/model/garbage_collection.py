@@ -9,6 +9,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import gc
 
+# Objects made while collection was suspended from which on they are left out of the next one [1].
+_MANY = 10_000
+
 
 @contextmanager
 def suspended_collection() -> Iterator[None]:
@@ -24,4 +27,8 @@ def suspended_collection() -> Iterator[None]:
         yield
     finally:
         if was_enabled:
+            if gc.get_count()[0] > _MANY and not gc.get_freeze_count():
+                # To the oldest objects, without a visit.
+                gc.freeze()
+                gc.unfreeze()
             gc.enable()

@@ -30,7 +30,7 @@ from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import beginning_of
+from physsim_ros.simulation.world import Beginning, beginning_of
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
@@ -89,7 +89,7 @@ class NodeControl:
             'step': Service(self._step),
             'undo': Service(simulation.undo, Wait.BEHIND_REQUESTS),
             'redo': Service(simulation.redo, Wait.BEHIND_REQUESTS),
-            'reset': Service(self._reset, Wait.BEHIND_REQUESTS),
+            'reset': Service(self.reset, Wait.BEHIND_REQUESTS),
             'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
             'load_world': Service(lambda: world_files.load(confined=True), Wait.FOR_SEEK),
             'save_world': Service(world_files.save, Wait.FOR_SEEK),
@@ -238,11 +238,14 @@ class NodeControl:
         self._loop.advance_frame()
         return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
 
-    async def _reset(self) -> str:
+    async def reset(self) -> str:
         """Go to the beginning, which a thread builds."""
-        simulation = self.simulation
-        begin = partial(beginning_of, simulation.loaded, simulation.physics_rate)
-        return simulation.reset(ahead=await on_thread(begin))
+        return self.simulation.reset(ahead=await self.beginning())
+
+    async def beginning(self) -> Beginning:
+        """Return the beginning of the state that was loaded last, which a thread builds."""
+        loaded, rate = self.simulation.loaded, self.simulation.physics_rate
+        return await on_thread(partial(beginning_of, loaded, rate))
 
     def _run_at(self, speed: float) -> str:
         self.set_speed(speed)

@@ -232,6 +232,7 @@ class FrameMaker:
             nothing has changed
         """
         playback = self.playback
+        self.past.free_slice()
         if playback.is_world_due or self.requests.has_requests:
             playback.seek_shown()
         if not self.finish_seek(is_overdue):

@@ -140,6 +140,28 @@ def rounded(samples: Floats) -> Floats:
     return np.column_stack((np.round(samples[:, :2] / 0.008) * 0.008, samples[:, 2]))
 
 
+def in_pixels(samples: Floats, count: int) -> Floats:
+    """Return samples in whole pixels of a stroke so small that it has so many of them."""
+    pixel = float(np.hypot(*np.ptp(samples[:, :2], axis=0))) / count
+    return np.column_stack((np.round(samples[:, :2] / pixel) * pixel, samples[:, 2]))
+
+
+def hooked(samples: Floats) -> Floats:
+    """Return samples with a flick of 5 % of the size where the pen is set down and lifted."""
+    size = float(np.hypot(*np.ptp(samples[:, :2], axis=0)))
+    flick = np.linspace((-0.02 * size, 0.045 * size, 0.0), (0.0, 0.0, 0.0), 6, endpoint=False)
+    return np.vstack((samples[0] + flick, samples, samples[-1] - flick[::-1]))
+
+
+def resting(samples: Floats) -> Floats:
+    """Return samples of a pen that rests at both ends."""
+    return np.vstack((samples[:1].repeat(40, 0), samples, samples[-1:].repeat(40, 0)))
+
+
+def slanted(samples: Floats, slant: float) -> Floats:
+    return samples + slant * samples[:, 1:2] * (1.0, 0.0, 0.0)
+
+
 def backwards(samples: Floats) -> Floats:
     return np.column_stack((samples[::-1, :2], samples[:, 2]))
 
@@ -164,6 +186,13 @@ RELATIONS: dict[str, Callable[[Drawn], Drawn]] = {
     'by pen': each_stroke(lambda it: trembling(it, 0.004)),
     'by mouse': each_stroke(rounded),
     'by finger': each_stroke(lambda it: late(rounded(trembling(it, 0.008)), 0.2)),
+    'in 25 pixels': each_stroke(partial(in_pixels, count=25)),
+    'hooked': each_stroke(hooked),
+    'resting': each_stroke(resting),
+    **{
+        f'slanted by {slant:.0%}': each_stroke(partial(slanted, slant=slant))
+        for slant in (0.2, -0.2)
+    },
     'moved': lambda drawn: placed(drawn, lambda xy: np.add(xy, (37.0, -21.0))),
     'smaller': lambda drawn: placed(drawn, lambda xy: 0.5 * xy),
     'turned': lambda drawn: placed(drawn, lambda xy: rotated_each(xy, 0.6)),

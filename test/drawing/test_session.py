@@ -377,6 +377,31 @@ def test_an_arrow_of_several_strokes_turns_gravity_and_leaves_nothing_else(
     assert desk.shapes == []
 
 
+def test_a_closed_head_may_be_as_large_as_its_shaft() -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    # The middle of the head is no nearer to the tip than to the tail.
+    one, other = (0.8, 1.1), (0.65, -1.35)
+    for stroke in (SHAFT, [one, (2.8, -0.1), other], [one, other]):
+        desk.draw(stroke)
+
+    x, y = desk.scene.settings.gravity
+    assert math.atan2(y, x) == pytest.approx(0.0, abs=0.1)
+    assert desk.shapes == []
+
+
+def test_the_shaft_of_an_arrow_may_tremble() -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    share = np.linspace(0.0, 1.0, 120)
+    desk.draw(np.column_stack((3.0 * share, 0.045 * np.sin(28.0 * math.pi * share))))
+    desk.draw([BARBS[0], TIP, BARBS[1], BARBS[0]])
+
+    x, y = desk.scene.settings.gravity
+    assert math.atan2(y, x) == pytest.approx(0.0, abs=0.1)
+    assert desk.shapes == []
+
+
 @pytest.mark.parametrize('corners', [4, 5, 6, 60])
 def test_a_line_and_a_body_at_its_end_are_no_arrow(corners: int) -> None:
     desk = Desk()

@@ -303,6 +303,9 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
     # A rope has a guide at each of its inner points.
     known = [name for name in kind.schema.properties if name in said]
     names = [name for name in known if rng.random() < 0.3]
+    if 'rate' in names and 'effort' in names:
+        # A slider has one of them.
+        names.remove('effort')
     return JointProperties(**{name: said[name] for name in names})
 
 

@@ -164,6 +164,9 @@ def told(result: Any) -> object:
             return result.cursor.moment
         case World():
             return result.digest()
+        case _ if callable(result):
+            # It saves.
+            return told(result())
         case View():
             return told(result.frame)
         case Frame():

@@ -9,7 +9,8 @@ effect often absent, so that there are tidy hands, hasty ones, old ones and mice
 
 Times are those of gestures by pen and finger, 0.4 to 1.7 s each (Leiva, Martín-Albo and Vatavu,
 "GATO: predicting human performance with multistroke and multitouch gesture input", 2018), and of
-the events of screens, 8 to 30 ms apart. Of 100 people 99 leave a gap of less than 11.5 %.
+the events of screens, 8 to 30 ms apart. A page places them in whole pixels, of which a
+figure has 20 to 400. Of 100 people 99 leave a gap of less than 11.5 %.
 """
 
 from __future__ import annotations
@@ -27,6 +28,9 @@ from .hand import Hand
 # The greatest distance of a way from the samples that show it, in shares of the size, beside what
 # the hand trembles: a circle of eight samples has 0.03.
 _SHOWN = 0.03
+# The least and the greatest size of a pixel, in shares of the size of the figure; and the least
+# number of pixels for each corner, and across: nobody draws a star as small as a cross.
+_FINEST, _COARSEST, _PIXELS = 0.0025, 0.05, 4.0
 # The greatest number of times that somebody draws a figure again, each time more slowly.
 _ATTEMPTS = 6
 
@@ -62,7 +66,7 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
         spiral=rng.normal(0.0, 0.06) if figure.smooth else 0.0,
         slowing=_habit(rng, 0.0, 0.85, half),
         unsteady=_habit(rng, 0.0, 0.4, half),
-        pixel=float(rng.choice([0.0, rng.uniform(0.0025, 0.012)])),
+        pixel=float(rng.choice([0.0, _pixel(rng, figure.thin, corners)])),
         first_step=0.0,
         batch=1,
         dropped=0.0,
@@ -167,6 +171,12 @@ def _habit(rng: Random, low: float, high: float, half: str) -> float:
         return float(rng.uniform(low, high))
     band = 2 * rng.integers(4) + (half == 'report')
     return float(low + (high - low) * (band + rng.random()) / 8)
+
+
+def _pixel(rng: Random, thin: float, corners: float) -> float:
+    """Return the size of a pixel, in shares of the size of a figure that its pixels show."""
+    pixel = math.exp(rng.uniform(math.log(_FINEST), math.log(_COARSEST)))
+    return min(pixel, thin / _PIXELS, 1.0 / corners / _PIXELS)
 
 
 def turning(way: Floats) -> float:

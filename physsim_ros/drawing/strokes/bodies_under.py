@@ -17,7 +17,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.geometry import point_of
+from physsim_ros.drawing.strokes.geometry import few_points, middle_half, point_of
 from physsim_ros.drawing.strokes.meanings import Context, End
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
@@ -31,17 +31,15 @@ _ACROSS = 0.25
 _CARRIED = 0.9
 # The least area of a wheel, as a share of the circle about it; a pentagon's is 0.76.
 _ROUND = 0.75
-# Stride of the points that are tested: 43 of a stroke, 8 to 10 of each swing of a scribble.
-_STRIDE = 3
 # The least angle about the middle of a wheel, and the least change of direction there, of a rope
 # that runs around it [rad].
 _AROUND, _BEND = math.radians(90.0), math.radians(45.0)
 # The greatest depth of the end of a line on which a body stands, in inner radii of the body, and
 # the cosine of the slope of a ramp that bears a ball: 45°.
-_SHALLOW, _SLOPE = 0.33, 0.7
+_SHALLOW, SLOPE = 0.33, 0.7
 # The least share of a hatching line on its body: ends may cross the edge.
 _INSIDE = 0.95
-# Name of a body -> which of these points lie on it, (43,) bool.
+# Name of a body -> which of the few points of a stroke lie on it.
 Crossed = dict[str, NDArray[np.bool_]]
 # The least share of the stroke on a body that is covered.
 _COVERING = 0.3
@@ -73,7 +71,7 @@ def _is_dynamic(name: str, scene: SceneQuery) -> bool:
     return name != WORLD and scene.body(name).dynamic
 
 
-def stands_on(name: str, end: Point, scene: SceneQuery, steepness: float = _SLOPE) -> bool:
+def stands_on(name: str, end: Point, scene: SceneQuery, steepness: float = SLOPE) -> bool:
     """
     Return whether a body stands on the end of a line: that lies little above its underside.
 
@@ -94,7 +92,7 @@ def hangs_from(name: str, way: tuple[Point, Point], scene: SceneQuery, snap: flo
     before, end = way
     above = _towards(end, before, snap)
     falls = _downward(above, _surface(above, name, scene), scene)
-    return name in scene.bodies_at(end, snap) and min(falls, _downward(*way, scene)) > _SLOPE
+    return name in scene.bodies_at(end, snap) and min(falls, _downward(*way, scene)) > SLOPE
 
 
 def _downward(start: Point, end: Point, scene: SceneQuery) -> float:
@@ -346,11 +344,7 @@ def share_on(crossed: Crossed, ends: Iterable[End]) -> float:
 
 def middle_share_on(crossed: Crossed, ends: Iterable[End]) -> float:
     """Return the share of the middle half of a stroke on the bodies at its ends, 0 .. 1."""
-    middle = {
-        name: hits[slice(len(hits) // 4, len(hits) - len(hits) // 4)]
-        for name, hits in crossed.items()
-    }
-    return share_on(middle, ends)
+    return share_on({name: middle_half(hits) for name, hits in crossed.items()}, ends)
 
 
 def crossed_bodies(points: Floats, scene: SceneQuery) -> Crossed:
@@ -360,7 +354,7 @@ def crossed_bodies(points: Floats, scene: SceneQuery) -> Crossed:
     reach = float(norms(high - low)) / 2
     crossed: Crossed = {}
     for name in scene.bodies_at((x, y), reach):
-        hits = scene.covers(name, points[::_STRIDE])
+        hits = scene.covers(name, few_points(points))
         if hits.any():
             crossed[name] = hits
     return crossed

@@ -22,8 +22,8 @@ from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import dots, norms, Point
 
-# Standard deviation of the Gaussian before detection, and arms of the turning angle [points].
-SMOOTHING, ARM = 1.5, 5
+# Length of the arms of the turning angle [points].
+ARM = 5
 # The least turn of a candidate, and the least turn of a corner [rad].
 _CANDIDATE_TURN, _CORNER_TURN = 0.25, 0.42
 # The greatest number of candidates: the cost of the search grows with its square.
@@ -47,7 +47,7 @@ def corners(points: Floats, *, closed: bool) -> list[int]:
     :param points: (n, 2) float64: evenly spaced; of a closed polyline, the first not repeated
     """
     count = len(points)
-    smooth = smoothed(points, SMOOTHING, closed=closed)
+    smooth = smoothed(points, closed=closed)
     turn = np.abs(turns(smooth, ARM, closed=closed))
     places = _peaks(turn, closed=closed)
     if not closed:

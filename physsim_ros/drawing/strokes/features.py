@@ -17,10 +17,12 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.corner_detection import ARM
+from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.geometry import (
     COUNT,
     Crossing,
     intersections,
+    path_length,
     smoothed,
     turns,
 )
@@ -35,6 +37,9 @@ _DIRECTIONS = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
 _FRINGE = 4
 # The least count of swings whose height and advance are measured.
 FEWEST = 3
+# The height of swings that are those of a trembling hand, or of a mouse that moves by pixels, in
+# shares of the size; what swings higher is drawn so.
+TREMOR = Limit(0.08, 0.008)
 # The advance of all swings, and of one, between those of scribbles and zigzags, in mean heights.
 _FAR_APART, _WIDE_TOOTH = 1.75, 0.23
 # Stride of the points between which crossings are searched.
@@ -86,11 +91,12 @@ def features_of(stroke: Stroke) -> Features:
     """Return the features of a stroke."""
     points = stroke.points
     swings, crossings = swings_of(points), crossings_of(points)
-    turn = np.abs(turns(smoothed(points, 1.0, closed=False), ARM, closed=False))
+    path = smoothed(points, closed=False)
+    turn = np.abs(turns(path, ARM, closed=False))
     measures = {
         'gap': stroke.gap,
         'chord': float(norms(points[-1] - points[0])) / stroke.size,
-        'length': stroke.length / stroke.size,
+        'length': path_length(path) / stroke.size,
         'swings': float(swings.count),
         'spread': swings.spread,
         'height': swings.height / stroke.size,

@@ -22,7 +22,7 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.forms import sign_forms
-from physsim_ros.drawing.strokes.geometry import COUNT, few_points, size_of
+from physsim_ros.drawing.strokes.geometry import few_points, middle_half, size_of
 from physsim_ros.drawing.strokes.joining import (
     connected,
     joined_arrow,
@@ -288,8 +288,7 @@ def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSetti
 def lies_within(line: Figure, solid: Figure) -> bool:
     """Return whether most of the middle half of a line lies within the outline of a solid."""
     outline = joined_strokes(solid.strokes)
-    quarter = COUNT // 4
-    points = np.vstack([stroke[slice(quarter, COUNT - quarter)] for stroke in line.strokes])
+    points = np.vstack([middle_half(stroke) for stroke in line.strokes])
     return float(_inside(points, outline).mean()) >= _ON_SOLID
 
 

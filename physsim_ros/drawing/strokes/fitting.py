@@ -30,8 +30,6 @@ from physsim_ros.model.transform import dots, next_vertices, norms, rotated_each
 _CURVED, FINE = 0.013, 0.006
 # Rounds of the fit of a rectangle, each point to its nearest side.
 _ROUNDS = 3
-# Smoothing before a curve is simplified: standard deviation of the Gaussian [points].
-SMOOTHING = 1.2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -149,7 +147,7 @@ def simplified(points: Floats, bends: Floats) -> Floats | None:
     :param bends: (n, 2) float64: ends and bends of the sides
     """
     size = size_of(points)
-    path = smoothed(points, SMOOTHING, closed=False)
+    path = smoothed(points, closed=False)
     off = segment_distances(path, bends[:-1, None], bends[1:, None]).min(axis=0)
     if math.sqrt(float((off**2).mean())) <= _CURVED * size:
         return None
@@ -174,7 +172,7 @@ def segment_distances(points: Floats, start: Floats, end: Floats) -> Floats:
 def traced(outline: Floats) -> Floats:
     """Return a closed polyline simplified to few points."""
     path = spaced(np.vstack((outline, outline[:1])), COUNT + 1)[:-1]
-    path = smoothed(path, SMOOTHING, closed=True)
+    path = smoothed(path, closed=True)
     size = size_of(path)
     # Starting at the point farthest from the middle, which is a corner of the result.
     path = np.roll(path, -int(((path - path.mean(axis=0)) ** 2).sum(axis=1).argmax()), axis=0)

@@ -13,14 +13,16 @@ array, and leaves its arguments as they are.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import partial
 import math
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import cross, dots, norms, Point
 
+# Rows of an array: points, or flags of points.
+_Rows = TypeVar('_Rows', Floats, Flags)
 _atan2 = np.frompyfunc(math.atan2, 2, 1)
 # The point at which two polylines cross [m], and how far along each it lies [points].
 Crossing = tuple[Floats, float, float]
@@ -160,8 +162,13 @@ def least_squares(columns: Floats, target: Floats) -> tuple[float, float]:
 
 # Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
 COUNT = 128
+# Number of points at an end of a stroke that give its direction there.
+END = 8
 # Stride of the points between which strokes are compared: 1.6 % of the length.
 _FEW = 2
+# Standard deviation of the Gaussian that smooths a resampled stroke [points]: the steps of a mouse
+# that draws a figure of 25 pixels are two points long.
+_SMOOTHING = 1.5
 # The least width of an outline after stretching, in shares of its length, and the greatest factor.
 WIDE, _WIDEST = 0.3, 10.0
 
@@ -182,6 +189,11 @@ def few_points(stroke: Floats) -> Floats:
     return stroke[::_FEW]
 
 
+def middle_half(points: _Rows) -> _Rows:
+    """Return the rows from the first to the last quarter."""
+    return points[slice(len(points) // 4, len(points) - len(points) // 4)]
+
+
 def size_of(points: Floats) -> float:
     """Return the diagonal of the bounding box of points [m]."""
     return float(norms(np.ptp(points, axis=0)))
@@ -199,10 +211,9 @@ def path_length(path: Floats) -> float:
     return float(norms(np.diff(path, axis=0)).sum())
 
 
-def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
-    """Return points smoothed by a Gaussian whose standard deviation is `width` [points]."""
-    kernel = _gaussian(width)
-    reach = len(kernel) - 1
+def smoothed(points: Floats, *, closed: bool) -> Floats:
+    """Return the points of a resampled stroke smoothed by a Gaussian."""
+    reach = len(_GAUSSIAN) - 1
     if closed:
         first, last = points[-reach:], points[:reach]
     else:
@@ -211,16 +222,23 @@ def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
         last = 2 * points[-1] - points[::-1][slice(1, reach + 1)]
     x, y = np.vstack((first, points, last)).T.copy()
     result = np.empty_like(points)
-    result[:, 0], result[:, 1] = _convolved(x, kernel), _convolved(y, kernel)
+    result[:, 0], result[:, 1] = _convolved(x, _GAUSSIAN), _convolved(y, _GAUSSIAN)
     return result
 
 
-@lru_cache(maxsize=8)
+def straightness(points: Floats) -> float:
+    """Return the distance of the ends of a resampled stroke by its length without tremor."""
+    return math.dist(points[0], points[-1]) / path_length(smoothed(points, closed=False))
+
+
 def _gaussian(width: float) -> tuple[float, ...]:
     """Return the right half of a Gaussian from its middle on; the sum of both halves is 1."""
     half = [math.exp(-0.5 * (at / width) ** 2) for at in range(math.ceil(3 * width) + 1)]
     total = 2.0 * sum(half) - half[0]
     return tuple(each / total for each in half)
+
+
+_GAUSSIAN = _gaussian(_SMOOTHING)
 
 
 def _convolved(values: Floats, kernel: tuple[float, ...]) -> Floats:

@@ -21,19 +21,22 @@ from physsim_ros.drawing.strokes.geometry import (
     angles,
     convex_hull,
     COUNT,
+    END,
     few_points,
     path_length,
     size_of,
+    smoothed,
     spaced,
+    straightness,
 )
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import cross, dots, norms
 
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
-# The length by which a stroke may end short of another that it is to meet, in shares of its own;
-# the number of points on it; the number of those at an end of a stroke that give its direction.
-_BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
+# The length by which a stroke may end short of another that it is to meet, in shares of its own,
+# and the number of points on it.
+_BEYOND, _POINTS_BEYOND = 0.2, 10
 # A shaft and a head: the least straightness of the shaft and of barbs (distance of the ends by
 # length), the greatest angle between barbs [rad], the least length of the shorter barb by that of
 # the longer, and its greatest length and the greatest gap before the tip, in lengths of the shaft.
@@ -79,7 +82,7 @@ def joined_arrow(strokes: Sequence[Floats]) -> Floats | None:
     order = sorted(range(len(strokes)), key=lambda at: -math.dist(strokes[at][0], strokes[at][-1]))
     for at in order:
         shaft = strokes[at]
-        if math.dist(shaft[0], shaft[-1]) < _STRAIGHT * path_length(shaft):
+        if straightness(shaft) < _STRAIGHT:
             continue
         head = joined_strokes([*strokes[:at], *strokes[slice(at + 1, None)]])
         parts = _open_headed(shaft, head) or _closed_headed(shaft, head)
@@ -90,10 +93,9 @@ def joined_arrow(strokes: Sequence[Floats]) -> Floats | None:
 
 def _closed_headed(shaft: Floats, head: Floats) -> list[Floats] | None:
     """Return the parts of an arrow whose head is a triangle, filled or not, or None."""
-    chord, middle = math.dist(shaft[0], shaft[-1]), head.mean(axis=0)
-    if math.dist(shaft[0], middle) < math.dist(shaft[-1], middle):
+    chord, outline = math.dist(shaft[0], shaft[-1]), convex_hull(head)
+    if norms(outline - shaft[0]).min() < norms(outline - shaft[-1]).min():
         shaft = shaft[::-1]
-    outline = convex_hull(head)
     if path_length(head) < _ROUND * path_length(np.vstack((outline, outline[:1]))):
         return None
     along = (shaft[-1] - shaft[0]) / chord
@@ -120,7 +122,7 @@ def _open_headed(shaft: Floats, head: Floats) -> list[Floats] | None:
     tip = int(bend.argmax())
     less, more = sorted(norms(head[[0, -1]] - head[tip]).tolist())
     angle = abs(float(angles(head[0] - head[tip], head[-1] - head[tip])))
-    straight = min((less + more) / path_length(head), chord / path_length(shaft))
+    straight = (less + more) / path_length(smoothed(head, closed=False))
     if straight < _STRAIGHT or angle > _WIDEST or not _BALANCE * more < less < _LONGEST * chord:
         return None
     if math.dist(shaft[0], head[tip]) < math.dist(shaft[-1], head[tip]):
@@ -190,7 +192,7 @@ def _extended(stroke: Floats) -> Floats:
     step = _BEYOND * path_length(stroke) / _POINTS_BEYOND
     parts = [few_points(stroke)]
     for points in (stroke, stroke[::-1]):
-        ahead = points[0] - points[_END]
+        ahead = points[0] - points[END]
         ahead *= step / max(float(norms(ahead)), 1e-300)
         parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
     return np.vstack(parts)

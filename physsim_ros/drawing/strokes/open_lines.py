@@ -18,8 +18,8 @@ import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import Form, LEAST
-from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
+from physsim_ros.drawing.strokes.features import Features, TREMOR
+from physsim_ros.drawing.strokes.geometry import COUNT, END, path_length, point_of
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
@@ -28,14 +28,12 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.transform import cross, norms
 
-# The number of points that give the direction of a line at its end.
-_HEADING = 8
 # The least straightness of a rod, and the greatest of a rope: the distance of the ends by the
 # length. An arc as high as a seventh of its chord has 0.95.
 _STRAIGHT = 0.95
-# The least number of bends, on alternate sides, of a spring. Of round teeth: the least height, in
-# shares of the size, that no hand trembles by; the least straightness of their advance.
-_FEWEST_TEETH, _HIGH, _STEADY = 3, 0.06, 0.9
+# The least number of bends, on alternate sides, of a spring; the least straightness of the advance
+# of round teeth.
+_FEWEST_TEETH, _STEADY = 3, 0.9
 # Factor on the density of a body by each line of its hatching.
 _HEAVIER = 1.25
 
@@ -97,7 +95,7 @@ def _is_held(body: str, context: Context) -> bool:
     """
     drawn, scene = context.drawn.points, context.scene
     for points in (drawn, drawn[::-1]):
-        before, end = map(point_of, points[[-_HEADING, -1]])
+        before, end = map(point_of, points[[-END, -1]])
         if body in scene.bodies_at(end):
             if not stands_on(body, end, scene):
                 return True
@@ -117,7 +115,7 @@ def _is_toothed(features: Features, points: Floats) -> bool:
     if len(side) >= _FEWEST_TEETH and bool((side[1:] == -side[:-1]).all()):
         return True
     swings = features.swings
-    high = swings.height > _HIGH * features.stroke.size
+    high = swings.height > TREMOR.at * features.stroke.size
     return swings.count > _FEWEST_TEETH and high and swings.steady > _STEADY
 
 

@@ -18,7 +18,7 @@ import numpy as np
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.drawing.strokes.corner_detection import bends_of, outline_corners
 from physsim_ros.drawing.strokes.evidence import Form, LEAST, Limit, logistic
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import Features, TREMOR
 from physsim_ros.drawing.strokes.fitting import rectangle, traced
 from physsim_ros.drawing.strokes.geometry import (
     angles,
@@ -39,10 +39,6 @@ _SWINGING = Limit(5.5, 0.25)
 # relatability of its ends: 99 of 100 people leave less than 11.5 %; a question mark has 17 %, and
 # ends that do not go on across it.
 _OPEN, _RELATED = Limit(0.134, 0.01), 0.045
-# The greatest height of the swings of a line that trembles, in shares of the size.
-_FLAT = Limit(0.06, 0.006)
-# The number of loops of a line, whose bends may have none: those of an x have one.
-_LOOPS = Limit(0.5, 0.1)
 # The greatest length of a loop that is a mistake of the hand, in shares of the length.
 _LOOP = 0.15
 # The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
@@ -105,13 +101,14 @@ def _lineness(features: Features, still: float) -> float:
     :param still: weight of its having no swings
     """
     points = features.stroke.points
-    calm = max(still, _FLAT.below(features.measures['height']))
-    # Small loops come from bends, and from setting the pen down; narrow ones from retraced tips.
-    loops = sum(
+    calm = max(still, TREMOR.below(features.measures['height']))
+    # An x has a loop; small ones come from bends, and from setting the pen down; narrow ones from
+    # retraced tips.
+    looped = any(
         each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
         for each in features.crossings
     )
-    return calm * _LOOPS.below(loops)
+    return 0.0 if looped else calm
 
 
 def _shapes(outline: Floats) -> Iterator[Form]:

@@ -21,7 +21,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.bodies_under import stands_on
+from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
 from physsim_ros.drawing.strokes.figure import (
     arrow_in,
     crossing_in,
@@ -30,7 +30,7 @@ from physsim_ros.drawing.strokes.figure import (
     mark_reading,
     SLOWLY,
 )
-from physsim_ros.drawing.strokes.geometry import COUNT, few_points, point_of
+from physsim_ros.drawing.strokes.geometry import few_points, middle_half, point_of
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.meanings import GRAVITY
 from physsim_ros.drawing.strokes.reading import (
@@ -52,10 +52,6 @@ from physsim_ros.simulation.world.body_description import new_body
 
 # Meanings that a stroke has by the bodies under it.
 _BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})
-# The cosine of the slope of a wall's end below which a body hangs from it: 135°.
-_HANGS = -0.7
-# Points of the middle half of a line, at which other bodies show that it is a wall.
-_MIDDLE = slice(COUNT // 4, COUNT - COUNT // 4, 4)
 
 
 def readings_over(
@@ -148,7 +144,7 @@ def _bears(wall: Figure, scene: SceneQuery, snap: float) -> bool:
     """Return whether other bodies lie on the middle of a wall: it is no rod."""
     # The wheels that a rope runs around do not lie on it.
     held = _names((wall,)).union(each.a for each in scene.joints if each.b == WORLD)
-    middle = map(point_of, joined_strokes(wall.strokes)[_MIDDLE])
+    middle = map(point_of, middle_half(few_points(joined_strokes(wall.strokes))))
     near = {name for point in middle for name in scene.bodies_at(point, snap)}
     return any(scene.body(name).dynamic for name in near - held)
 
@@ -180,7 +176,8 @@ def _reading_over(
     within = (each for each in ends if name in scene.bodies_at(each))
     match reading.requests[0]:
         case Join(kind=JointKind.ROD | JointKind.ROPE):
-            held = not any(stands_on(name, each, scene, _HANGS) for each in within)
+            # A body hangs from the end of a wall within 45° of its top.
+            held = not any(stands_on(name, each, scene, -SLOPE) for each in within)
         case Join(a=a, b=b):
             held = name in {a, b}
         case _:

@@ -23,7 +23,7 @@ from physsim_ros.engine.coming import ComingCommands
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints import stiffness
-from physsim_ros.engine.joints.joint_table import check_joint, JointTable
+from physsim_ros.engine.joints.joint_table import check_joint, JointTable, slices_of_records
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.motor_command import MotorCommand, TimedCommand
@@ -33,8 +33,6 @@ from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
 
-# Constraints that are removed in a slice: some 30 ms.
-_SLICE = 2000
 # The report of no joints, which frames share (`JointSet.report`).
 NO_REPORT = np.empty(0), np.empty((0, 2)), np.empty(0, np.bool_)
 
@@ -130,13 +128,6 @@ class JointSet:
             self._pm_space.remove(*reversed(constraints))
             count -= max(1, len(constraints))
 
-    def slices_of_removal(self) -> Iterator[None]:
-        """Remove the joints of a space that is not used any more; yield between slices."""
-        self.take_out(_SLICE)
-        while self.by_name:
-            yield
-            self.take_out(_SLICE)
-
     def __del__(self) -> None:
         """Remove all joints before Pymunk frees the space: it takes the square of their number."""
         # The last one first, which is the first in Chipmunk's list of those of the background.
@@ -163,25 +154,29 @@ class JointSet:
         for name in self.names_on(body):
             self._add_constraints(self.by_name[name].joint)
 
+    def slices_of_table(self) -> Iterator[None]:
+        """Make the table that the core is to step, if there is none; yield after each slice."""
+        if self._table is not None or not self.by_name:
+            return
+        joints, slices = list(self.by_name.values()), []
+        for some in slices_of_records(joints, self._unstepped, self._soft_springs(), self._dt):
+            slices.append(some)
+            yield
+        self._table = JointTable(joints, slices, self._totals)
+        self._table.set_bounds(self._bounds)
+        for command, begun in self.commands.values():
+            self._table.command(command, begun)
+
     def use_places(self, places: Mapping[pymunk.Body, int]) -> None:
         """
         Have the core step these joints.
 
         :param places: of bodies in the table of bodies, the background among them
         """
-        if not self.by_name:
-            return
+        for _ in self.slices_of_table():
+            pass
         if self._table is None:
-            self._table = JointTable(
-                list(self.by_name.values()),
-                self._unstepped,
-                self._totals,
-                self._soft_springs(),
-                self._dt,
-            )
-            self._table.set_bounds(self._bounds)
-            for command, begun in self.commands.values():
-                self._table.command(command, begun)
+            return
         self._table.place_ends(places)
         table = self._table
         # The core marks the bodies that motors hold as it takes over the joints.

@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 import math
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,86 @@ _JOINT, _PART, _ROW, _GUIDE = map(dtype_of, ('Joint', 'Part', 'Row', 'Guide'))
 _MOTOR, _POINT = dtype_of('Motor'), dtype_of('CommandPoint')
 # Kinds whose part may push their bodies apart.
 _PRESSING = {JointKind.ROD, JointKind.SPRING}
+# Constraints whose records are made at once [1]: some 10 ms.
+_SLICE = 1000
+# The first fields of the rows of a joint, in their order, each with its guides.
+_Rows: TypeAlias = list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]]
+
+
+class _Slice(NamedTuple):
+    """
+    The records of some joints, with numbers that count from the first of these.
+
+    :ivar joints: (j,) `Joint`
+    :ivar parts: (p,) `Part`
+    :ivar rows: (r,) `Row`
+    :ivar motors: (m,) `Motor`
+    :ivar guides: row by row
+    """
+
+    joints: NDArray[np.void]
+    parts: NDArray[np.void]
+    rows: NDArray[np.void]
+    motors: NDArray[np.void]
+    guides: tuple[EngineGuide, ...]
+
+
+def slices_of_records(
+    joints: Sequence[EngineJoint],
+    unstepped: Collection[str],
+    soft: Mapping[str, float],
+    dt: float,
+) -> Iterator[_Slice]:
+    """
+    Make the records of joints, and yield those of some joints at once.
+
+    :param unstepped: names of joints whose first step is to come
+    :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m, N m s/rad]
+    :param dt: of a sub-step [s]
+    """
+    sizes = [1 + len(each.parts) for each in joints]
+    begin = 0
+    for count in np.unique(np.cumsum(sizes) // _SLICE, return_counts=True)[1].tolist():
+        end = begin + count
+        some = joints[begin:end]
+        rows = [_rows_of(each, soft.get(each.joint.name, 0.0), dt) for each in some]
+        known = [_joint_fields(each, dt, unstepped=each.joint.name in unstepped) for each in some]
+        yield _slice_of(some, known, rows)
+        begin = end
+
+
+def _slice_of(
+    joints: Sequence[EngineJoint], known: Sequence[tuple[object, ...]], rows: Sequence[_Rows]
+) -> _Slice:
+    """
+    Return the records of some joints, with numbers that count from the first of them.
+
+    :param known: first fields of each joint
+    :param rows: of each joint
+    """
+    parts = [(part.kind, address_of(part.constraint)) for each in joints for part in each.parts]
+    all_rows = [row for each in rows for row in each]
+    motors = [
+        _motor_fields(each.joint, number, begin + row)
+        for number, (each, own, begin) in enumerate(
+            zip(joints, rows, _begins([len(own) for own in rows]), strict=True)
+        )
+        if each.joint.properties.effort
+        for row, (fields, _) in enumerate(own)
+        if fields[1] == lib.LAW_DRIVE
+    ]
+    of_joints, of_rows = np.zeros(len(joints), _JOINT), np.zeros(len(all_rows), _ROW)
+    of_parts, of_motors = np.zeros(len(parts), _PART), np.zeros(len(motors), _MOTOR)
+    _fill(of_joints, known)
+    _fill(of_parts, parts)
+    _fill(of_rows, [fields for fields, _ in all_rows])
+    _fill(of_motors, motors)
+    of_joints['part_count'] = counts = [len(each.parts) for each in joints]
+    of_joints['row_count'] = [len(each) for each in rows]
+    of_rows['part'] += np.repeat(_begins(counts), [len(each) for each in rows])
+    of_rows['guide_count'] = [len(guides) for _, guides in all_rows]
+    guides = tuple(guide for _, own in all_rows for guide in own)
+    return _Slice(of_joints, of_parts, of_rows, of_motors, guides)
 
 
 class JointTable:
@@ -31,10 +112,8 @@ class JointTable:
     Tables of the core, whose declarations say what is in each field.
 
     :param joints: of the set
-    :param unstepped: names of joints whose first step is to come
+    :param slices: their records (`slices_of_records`)
     :param totals: (k, 2) float64 of each joint: impulses of its constraints in the last step
-    :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m, N m s/rad]
-    :param dt: of a sub-step [s]
 
     :ivar joints: (j,) `Joint`
     :ivar parts: (p,) `Part`: the constraints, joint by joint
@@ -46,63 +125,37 @@ class JointTable:
     def __init__(
         self,
         joints: Sequence[EngineJoint],
-        unstepped: Collection[str],
+        slices: Sequence[_Slice],
         totals: Mapping[str, Floats],
-        soft: Mapping[str, float],
-        dt: float,
     ) -> None:
         self.names = [each.joint.name for each in joints]
         self._ends = [each.ends for each in joints]
-        parts = [part for each in joints for part in each.parts]
-        counts = [len(each.parts) for each in joints]
-        firsts = np.cumsum(counts) - counts
-        self.joints = np.zeros(len(joints), _JOINT)
-        rows = [
-            _rows_of(each, first, soft.get(each.joint.name, 0.0), dt)
-            for each, first in zip(joints, firsts, strict=True)
-        ]
-        known = [
-            _joint_fields(each, dt, unstepped=each.joint.name in unstepped) for each in joints
-        ]
-        _fill(self.joints, known)
-        for first, count, counts in (
-            ('first_part', 'part_count', [len(each.parts) for each in joints]),
-            ('first_row', 'row_count', [len(each) for each in rows]),
+        self._guides = [guide for each in slices for guide in each.guides]
+        self.joints = _joined([each.joints for each in slices], _JOINT)
+        self.parts = _joined([each.parts for each in slices], _PART)
+        self.rows = _joined([each.rows for each in slices], _ROW)
+        self.motors = _joined([each.motors for each in slices], _MOTOR)
+        for own, before, of in (
+            ('rows', 'parts', 'part'),
+            ('motors', 'joints', 'joint'),
+            ('motors', 'rows', 'row'),
         ):
-            self.joints[count] = counts
-            self.joints[first] = np.cumsum(counts) - counts
-        self.parts = np.zeros(len(parts), _PART)
-        _fill(self.parts, [(part.kind, address_of(part.constraint)) for part in parts])
+            lengths = [len(getattr(each, before)) for each in slices]
+            times = [len(getattr(each, own)) for each in slices]
+            getattr(self, own)[of] += np.repeat(_begins(lengths), times)
+        self.joints['first_part'] = _begins(self.joints['part_count'])
+        self.joints['first_row'] = _begins(self.joints['row_count'])
+        self.rows['first_guide'] = _begins(self.rows['guide_count'])
         for name, of_joint in zip(self.names, self._totals, strict=True):
             # A joint of two anchored bodies has no constraints.
             if 0 < len(former := totals.get(name, ())) == len(of_joint):
                 of_joint[:] = former
-        self.rows = np.zeros(sum(map(len, rows)), _ROW)
-        _fill(self.rows, [row for each in rows for row, _ in each])
-        self._guides = [guide for each in rows for _, guides in each for guide in guides]
-        self.rows['guide_count'] = counts = [len(guides) for each in rows for _, guides in each]
-        self.rows['first_guide'] = np.cumsum(counts) - counts
         self.guides = np.zeros(len(self._guides), _GUIDE)
         _fill(self.guides, [(-1, *guide[1:6]) for guide in self._guides])
-        laws, motors = self.rows['law'].tolist(), []
-        for number, each in enumerate(joints):
-            if each.joint.properties.effort:
-                motors += [
-                    _motor_fields(each.joint, number, row)
-                    for row in self._rows_of(number)
-                    if laws[row] == lib.LAW_DRIVE
-                ]
-        self.motors = np.zeros(len(motors), _MOTOR)
-        _fill(self.motors, motors)
         numbers = self.motors['joint'].tolist()
         self._motor_of = {self.names[number]: place for place, number in enumerate(numbers)}
         # The points of the last commands, which the records refer to.
         self._points: dict[str, NDArray[np.void]] = {}
-
-    def _rows_of(self, number: int) -> range:
-        """Return the numbers of the rows of a joint."""
-        first, count = self.joints[number][['first_row', 'row_count']].tolist()
-        return range(first, first + count)
 
     def command(self, command: MotorCommand, begun: int) -> None:
         """
@@ -175,7 +228,7 @@ def check_joint(each: EngineJoint, bodies: Mapping[str, Body], dt: float) -> Non
     :param dt: of a sub-step [s]
     """
     damping = dampings_of([each.joint], bodies, dt)[0] if each.joint.is_elastic else 0.0
-    _rows_of(each, 0, damping, dt)
+    _rows_of(each, damping, dt)
     _joint_fields(each, dt, unstepped=True)
 
 
@@ -201,18 +254,15 @@ def _motor_fields(joint: Joint, number: int, row: int) -> tuple[object, ...]:
     return number, row, joint.properties.effort, *numbers
 
 
-def _rows_of(
-    each: EngineJoint, first: int, damping: float, dt: float
-) -> list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]]:
+def _rows_of(each: EngineJoint, damping: float, dt: float) -> _Rows:
     """
     Return the rows of a joint, each with its guides.
 
-    :param first: number of its first part
     :param damping: of a spring that Chipmunk does not solve [N s/m, N m s/rad]; 0 is none
     """
     force = each.joint.holding_force
-    rows: list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]] = []
-    for number, part in enumerate(each.parts, first):
+    rows: _Rows = []
+    for number, part in enumerate(each.parts):
         if part.kind == lib.PART_SPRING:
             # One of the two gives its force.
             part.constraint.stiffness = 0.0 if damping else each.joint.stiffness
@@ -232,3 +282,14 @@ def _fill(table: NDArray[np.void], records: Sequence[tuple[object, ...]]) -> Non
     """Set the first fields of a table, field by field."""
     for name, column in zip(table.dtype.names or (), zip(*records, strict=True), strict=False):
         table[name] = column
+
+
+def _begins(counts: Sequence[int] | NDArray[np.int32]) -> NDArray[np.int32]:
+    """Return the number of the first of some records, by their counts."""
+    ends = np.cumsum(counts, dtype=np.int32)
+    return ends - np.asarray(counts, np.int32)
+
+
+def _joined(tables: Sequence[NDArray[np.void]], dtype: np.dtype[np.void]) -> NDArray[np.void]:
+    """Return tables as one; NumPy's own concatenation goes through the fields."""
+    return np.frombuffer(bytearray().join(table.tobytes() for table in tables), dtype)

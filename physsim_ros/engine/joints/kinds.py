@@ -17,7 +17,7 @@ from itertools import chain, pairwise
 import math
 from typing import NamedTuple
 
-from physsim_ros.engine.bodies import RigidBody
+from physsim_ros.engine.bodies import handles_of, RigidBody
 from physsim_ros.engine.core import lib
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -406,6 +406,8 @@ def build_joint(
         return EngineJoint(joint, ends, ())
     built = EngineJoint(joint, ends, make(joint, ends))
     for part in built.parts:
+        # No callback of the engine asks for a constraint.
+        handles_of(part.constraint)
         # With the background, which is the walls of `bounds` too, a body always collides.
         part.constraint.collide_bodies = joint.collide or b is None
         # Motors have their own.

@@ -12,10 +12,10 @@ stop the answers. A timer of rclpy would wait behind all messages that have arri
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-import gc
 import time
 
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.programs.collector import Collector
 import rclpy
 from rclpy.executors import Executor
 from rclpy.experimental import EventsExecutor
@@ -39,12 +39,9 @@ def run_worlds(nodes: Sequence[PhysSimNode], is_over: Callable[[], bool]) -> Non
         for node in nodes:
             executor.add_node(node)
             node.start()
-        # The collector skips what exists now.
-        gc.freeze()
-        gc.enable()
         # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
         # exceptions of callbacks.
-        RealTimeLoop(nodes, executor, is_over).run()
+        RealTimeLoop(nodes, executor, is_over, Collector()).run()
     finally:
         # Also after an exception, so that no viewer process remains.
         for node in nodes:
@@ -62,11 +59,17 @@ class RealTimeLoop:
     :param nodes: whose ticks advance their worlds, all at the rate of the first
     :param executor: that has the nodes
     :param is_over: whether the loop is to end
+    :param collector: of the garbage of the process; None leaves it to CPython
     """
 
     def __init__(
-        self, nodes: Sequence[PhysSimNode], executor: Executor, is_over: Callable[[], bool]
+        self,
+        nodes: Sequence[PhysSimNode],
+        executor: Executor,
+        is_over: Callable[[], bool],
+        collector: Collector | None = None,
     ) -> None:
+        self._collector = collector
         self._nodes = nodes
         self._marks = [_Mark(node, executor) for node in nodes]
         self._executor = executor
@@ -81,6 +84,8 @@ class RealTimeLoop:
             for node, mark in zip(self._nodes, self._marks, strict=True):
                 node.tick(time.monotonic_ns())
                 mark.queue()
+            if self._collector is not None:
+                self._collector.collect_if_due()
             ended = time.monotonic_ns()
             due += self._period
             if due > ended:

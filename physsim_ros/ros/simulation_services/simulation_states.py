@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import Any
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import DeleteBodies, Restore
+from physsim_ros.model.requests import DeleteBodies
 from physsim_ros.model.slices import at_once, in_slices
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.results import coded
@@ -101,7 +101,7 @@ class SimulationStates:
         response.state.state = self._state
         return ''
 
-    def set_state(self, request: Any, _: Any) -> str:
+    async def set_state(self, request: Any, _: Any) -> str:
         """Play, pause, stop (pause and reset), or end the program."""
         target, now = request.state.state, self._state
         codes = SetSimulationState.Response
@@ -123,7 +123,7 @@ class SimulationStates:
         if target == _PLAYING:
             return self._perform('play')
         message = self._perform('pause')
-        return self._control.simulation.reset() if target == _STOPPED else message
+        return await self._control.reset() if target == _STOPPED else message
 
     def _quit(self) -> str:
         if not self._control.end_program():
@@ -164,17 +164,17 @@ class SimulationStates:
         """Advance a paused world by a frame."""
         return self._perform('step')
 
-    def reset(self, request: Any, _: Any) -> str:
+    async def reset(self, request: Any, _: Any) -> str:
         """Go to the beginning, or restore some of it at the time that is shown."""
         self._worlds.check_loaded()
         scope = request.scope
         if scope in _ALL:
             self._begins_paused = None
-            return self._control.simulation.reset()
+            return await self._control.reset()
         simulation = self._control.simulation
         loaded = simulation.loaded
         if scope == _STATE | _SPAWNED:
-            return simulation.perform(Restore(state=loaded))
+            return simulation.load(await self._control.beginning())
         if scope == _SPAWNED:
             known = {each.body.name for each in loaded.bodies}
             scene = self._control.current_snapshot().scene

@@ -101,11 +101,11 @@ class Worlds:
             # One that is there, but no world, has a cause.
             result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND
             raise CodedRefusal(refusal, result) from refusal
-        self._stop()
+        await self._stop()
         response.world = self._current()
         return message
 
-    def unload(self, _: Any, __: Any) -> str:
+    async def unload(self, _: Any, __: Any) -> str:
         """Delete all bodies and joints, and stop; settings stay."""
         if self.is_none_loaded:
             raise coded('no world is loaded', UnloadWorld.Response.NO_WORLD_LOADED)
@@ -113,7 +113,7 @@ class Worlds:
         self._unloaded = WorldState(settings=simulation.settings)
         simulation.load(self._unloaded)
         self._control.set_parameter('world_file', '')
-        self._stop()
+        await self._stop()
         return 'unloaded the world'
 
     def current(self, _: Any, response: Any) -> str:
@@ -125,9 +125,9 @@ class Worlds:
         response.world = self._current()
         return ''
 
-    def _stop(self) -> None:
+    async def _stop(self) -> None:
         self._control.services['pause'].perform()
-        self._control.simulation.reset()
+        await self._control.reset()
 
     def _current(self) -> WorldResource:
         uri = str(self._control.values['world_file'])

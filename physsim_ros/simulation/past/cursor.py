@@ -71,14 +71,9 @@ class Replay:
         self.serial = keyframe.serial
         self._resumed = keyframe.moment
 
-    def replay_shown(self, step: int) -> None:
+    def slices_to_shown(self, step: int) -> Generator[None]:
         """Replay up to a step of the line, with the requests with which it was shown."""
-        finish(self._replay_to(step, self._tree.serial_shown_at(step)))
-
-    def resume_at(self, moment: Moment) -> None:
-        """Go to a moment of the line, from the keyframe before it."""
-        finish(self.slices_of_resumption(self._tree.keyframe_before(*moment)))
-        finish(self._replay_to(*moment))
+        yield from self._replay_to(step, self._tree.serial_shown_at(step))
 
     def _replay_to(self, step: int, serial: int) -> Generator[None]:
         """Replay up to a moment of the line, no earlier than now; yield after each slice."""
@@ -126,7 +121,7 @@ class Replay:
         for node in self._tree.nodes_between(self.serial, serial):
             yield from self._enter_checkpoint()
             try:
-                self._world.replay(node.request)
+                yield from self._world.slices_of_replay(node.request)
             except Refusal as refusal:
                 self._report('divergence', f'a request of the log is refused now: {refusal}')
             self.serial += 1

@@ -16,12 +16,15 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from itertools import chain, islice
 from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.sizes import frame_size
+from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.cursor import Replay
 from physsim_ros.simulation.past.line import CachedFrame, Keyframe, Moment
@@ -100,12 +103,24 @@ class FrameCache:
 
         That is the state after the last request of the line, or at the first that is kept.
         """
-        tree = self._tree
+        tree, world = self._tree, self._world
         moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
-        # The replay that is under way begins anew.
-        self._segment = None
-        self._replay.resume_at(moment)
-        return self._world.saver()
+        keyframe = tree.keyframe_before(*moment)
+        nodes = tuple(tree.nodes_between(keyframe.serial, moment.serial))
+
+        def save() -> WorldState:
+            # In a world of its own, since this one goes on meanwhile.
+            run = World(physics_rate=world.physics_rate, frame_steps=world.frame_steps)
+            run.resume(keyframe.checkpoint)
+            for node in nodes:
+                run.step(node.step - run.step_count)
+                # What a replay refuses, it reports as a divergence.
+                with suppress(Refusal):
+                    run.replay(node.request)
+            run.step(moment.step - run.step_count)
+            return run.save()
+
+        return save
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown; to a past without length none is added."""
@@ -198,7 +213,7 @@ class FrameCache:
     def _slices_to(self, keyframe: Keyframe) -> Iterator[None]:
         """Go to a keyframe, as its step was shown; yield after each slice."""
         yield from self._replay.slices_of_resumption(keyframe)
-        self._replay.replay_shown(keyframe.step)
+        yield from self._replay.slices_to_shown(keyframe.step)
 
     def _slices_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
         """Replay a segment from its keyframe; at its end its frames replace those cached."""
@@ -207,7 +222,7 @@ class FrameCache:
         if replay.serial == self._tree.serial_shown_at(keyframe.step):
             frames.append(self._frame())
         while (at := world.step_count) < end:
-            replay.replay_shown(min(end, at - at % stride + stride))
+            finish(replay.slices_to_shown(min(end, at - at % stride + stride)))
             frames.append(self._frame())
             if world.step_count < end:
                 yield

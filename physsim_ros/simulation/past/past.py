@@ -115,6 +115,11 @@ class Past:
         """
         return self.steps_in(_SPAN(seconds, name))
 
+    def free_slice(self) -> None:
+        """Free a part of what worlds were before they were replaced."""
+        for world in self._worlds:
+            world.free_slice()
+
     def course_snapshot(self, course: int, seconds: float) -> Snapshot | None:
         """
         Return the last snapshot of a course that was left, up to a simulation time.

@@ -19,6 +19,7 @@ from typing import Any
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import Anchored, BadProperty, nothing_at
 from physsim_ros.model.names import names_in
@@ -271,8 +272,13 @@ def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
 def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
     """Remove all bodies, or all of a namespace, and their joints."""
     names = all_members(live.space, names_in(live.space.bodies.by_name, request.namespace))
-    for name in names:
-        live.space.remove(name)
+    if 0 < len(names) == len(live.space.bodies.by_name):
+        # One by one, 15,000 bodies take a second.
+        lesson = live.space.table.scene.lesson
+        live.begin(WorldState(settings=live.settings, lesson=lesson), live.step_count)
+    else:
+        for name in names:
+            live.space.remove(name)
     return Answer(message=f'deleted {counted(len(names), "body")}')
 
 

@@ -12,7 +12,7 @@ into a space that is built from it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Generator, Iterable, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
 from functools import partial
 import math
 from typing import NamedTuple
@@ -20,7 +20,7 @@ from typing import NamedTuple
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.checkpoint import (
     BodyPool,
-    restore_checkpoint,
+    slices_of_freeing,
     slices_of_restore,
     take_checkpoint,
 )
@@ -64,6 +64,8 @@ class LiveSpace:
         self._ahead: Beginning | None = None
         self._fresh: Beginning | None = None
         self._pool = BodyPool()
+        # Frees the space that was replaced last.
+        self._freeing: Iterator[None] = iter(())
         self._replace(Space(settings, self._sub_step), self._pool)
 
     @property
@@ -136,17 +138,21 @@ class LiveSpace:
         self, checkpoint: Checkpoint, *, going_over: bool = False
     ) -> Generator[None]:
         """Do as `resume` in slices; yield after each."""
-        space, old = (yield from slices_of_restore(checkpoint, self._sub_step)), self.space
+        space = yield from slices_of_restore(checkpoint, self._sub_step)
+        old, pool = self.space, self._pool
         if going_over:
             space.copy_reports(old)
         self._replace(space, BodyPool())
         self.step_count = checkpoint.step
-        # To free a space with thousands of joints takes a second.
-        yield from old.joints.slices_of_removal()
+        self._retire(old, pool)
 
     def put_ahead(self, beginning: Beginning | None) -> None:
         """Have the next `begin` take a beginning, if it is that of the same state; or none."""
         self._ahead = beginning
+
+    def slices_of_beginning(self, state: WorldState) -> Generator[None]:
+        """Build what the next `begin` with a state at this step takes; yield after each slice."""
+        self._ahead = yield from _slices_of_beginning(state, self.step_count, self._sub_step)
 
     def begin(self, state: WorldState, step: int) -> None:
         """
@@ -161,9 +167,20 @@ class LiveSpace:
         else:
             if self.capacity.checking:
                 check_state(state)
-            beginning = _beginning_of(state, step, self._sub_step)
+            beginning = finish(_slices_of_beginning(state, step, self._sub_step))
+        old, pool = self.space, self._pool
         self._replace(beginning.space, BodyPool(), beginning)
         self.step_count = step
+        self._retire(old, pool)
+
+    def _retire(self, space: Space, pool: BodyPool) -> None:
+        """Have a space that was replaced be freed in slices; what is left of another one now."""
+        self._freeing = slices_of_freeing(space, pool)
+        self.free_slice()
+
+    def free_slice(self) -> None:
+        """Free a part of the space that was replaced last."""
+        next(self._freeing, None)
 
     @property
     def is_built_ahead(self) -> bool:
@@ -212,14 +229,17 @@ def beginning_of(state: WorldState, physics_rate: float) -> Beginning:
     :raises WorldFull: the state is too large
     """
     check_state(state)
-    return _beginning_of(state, 0, sub_step_of(physics_rate))
+    with suspended_collection():
+        return finish(_slices_of_beginning(state, 0, sub_step_of(physics_rate)))
 
 
-def _beginning_of(state: WorldState, step: int, sub_step: float) -> Beginning:
+def _slices_of_beginning(
+    state: WorldState, step: int, sub_step: float
+) -> Generator[None, None, Beginning]:
     checkpoint = checkpoint_of(state, step, sub_step)
     # The digest of the first keyframe has it.
     _ = checkpoint.scene.key
-    space = restore_checkpoint(checkpoint, sub_step)
+    space = yield from slices_of_restore(checkpoint, sub_step)
     return Beginning(state, checkpoint, space, space.changes)
 
 

@@ -11,7 +11,7 @@ bits, in another process too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import replace
 import hashlib
 from operator import gt
@@ -229,12 +229,18 @@ class World(LiveSpace):
         """Return the numbers of bodies and of joints."""
         return len(self.space.bodies.by_name), len(self.space.joints.by_name)
 
-    def replay(self, request: Request) -> None:
+    def slices_of_replay(self, request: Request) -> Generator[None]:
         """
-        Carry out a request again, whose capacity was checked the first time.
+        Carry out a request again, whose capacity was checked the first time; yield after slices.
 
         :raises Refusal: and nothing is changed
         """
+        if isinstance(request, Restore):
+            yield from self.slices_of_beginning(request.state)
+        self.replay(request)
+
+    def replay(self, request: Request) -> None:
+        """Do as `slices_of_replay` at once."""
         self.capacity.checking = False
         try:
             self.apply(request)

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from physsim_ros.files import check_world_name, load_mapping, text_of
+from physsim_ros.files import check_world_name, load_mapping, on_thread, text_of
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
@@ -199,7 +199,7 @@ def share(page: PageSession, origin: Origin, *, run: bool = False) -> None:
     :param run: whether as this run began, after the last change, so that it can be replayed
     """
 
-    def send_text() -> list[Answer]:
+    async def send_text() -> list[Answer]:
         boundary, simulation = page.world.boundary, page.world.simulation
         try:
             with boundary.message(origin.topic):
@@ -207,8 +207,8 @@ def share(page: PageSession, origin: Origin, *, run: bool = False) -> None:
         except Failed as failed:
             page.refuse(origin, failed)
         else:
-            # The server's thread writes the text.
-            page.send(partial(_text_content, origin, saved, simulation.physics_rate, boundary))
+            write = partial(_text_content, origin, saved, simulation.physics_rate, boundary)
+            page.send(await on_thread(write))
         return []
 
     page.call(origin, send_text, Wait.FOR_SEEK)

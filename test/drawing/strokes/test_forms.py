@@ -100,7 +100,7 @@ def test_turned_mirrored_backwards_and_in_any_size_it_is_the_same(name: str, tur
     ('draw', 'least'),
     [
         (figures.disc, 38),
-        (figures.rectangle, 37),
+        (figures.rectangle, 35),
         (figures.polygon, 38),
         (figures.line, 38),
         (figures.bent_line, 36),

@@ -180,6 +180,27 @@ LIMITS: dict[
     'slope of a post under a ball': (
         STANDING, lambda it: down(math.radians(it), 0.05), (40, 50), ('wall', 'rod world'),
     ),
+    'height of round teeth between bodies': (
+        APART, lambda it: np.column_stack((4.0 * SHARE, 2.0 * it * np.sin(6.0 * ROUND))),
+        (0.07, 0.09), ('rod', 'spring'),
+    ),
+    'size of a scribble across a thin body and on another': (
+        [
+            spawning('a/0', Box(width=2.0, height=0.12)),
+            spawning('a/1', Box(width=0.3, height=0.3), (0.0, 0.3, 0.0)),
+        ],
+        lambda it: scribble(0.0, 0.15, it, 0.8 * it),
+        (0.9, 1.2), ('deletion a/1', 'deletion a/0 a/1'),
+    ),
+    'slope of a line down to beside the upper side of a body': (
+        PLATE,
+        lambda it: [(3.0 * math.tan(math.radians(it)), 3.6), (0.0, 0.6)],
+        (40, 50), ('rod world', 'wall'),
+    ),
+    'height of a roof': (
+        [], lambda it: [(0, 0), (2, 0), (2, 1), (1, 1.0 + it), (0, 1), (0, 0)],
+        (0.25, 0.45), ('rectangle', 'polygon'),
+    ),
     'overhang of a line on a body': (
         [spawning('a/0', Box(width=4.0, height=3.0))], lambda it: [(-1.5, 0.0), (2.0 + it, 0.5)],
         (0.1, 0.25), ('hatching', 'rod world'),

@@ -5,6 +5,11 @@
 
 from __future__ import annotations
 
+from threading import get_ident
+
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.ros import node_control, world_files
+from physsim_ros.simulation.world import Beginning, beginning_of
 from physsim_ros.testing import disc
 import pytest
 
@@ -110,3 +115,30 @@ def test_a_reset_has_scopes(caller: Caller) -> None:
     assert simulation.step > 0
     assert caller.code('ResetSimulation', scope=all_of_it) == OK
     assert simulation.step == 0
+
+
+def test_no_service_builds_a_world_on_the_thread_of_time(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    threads: list[int] = []
+
+    def build(state: WorldState, physics_rate: float) -> Beginning:
+        threads.append(get_ident())
+        return beginning_of(state, physics_rate)
+
+    for module in (node_control, world_files):
+        monkeypatch.setattr(module, 'beginning_of', build)
+    stopped, playing, spawned_and_state = 0, 1, 6
+    calls = (
+        ('LoadWorld', {'uri': 'corridor'}, 2),
+        ('SetSimulationState', {'state__state': playing}, 0),
+        ('SetSimulationState', {'state__state': stopped}, 1),
+        ('ResetSimulation', {}, 1),
+        ('ResetSimulation', {'scope': spawned_and_state}, 1),
+        ('UnloadWorld', {}, 1),
+    )
+    for service, fields, count in calls:
+        threads.clear()
+        assert caller.code(service, **fields) == OK
+        assert len(threads) == count, service
+        assert get_ident() not in threads

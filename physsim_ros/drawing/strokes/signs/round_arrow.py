@@ -32,7 +32,7 @@ _TURN = 1.5
 
 def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield an arc and a head, from either end; points: the arc's centre, then the arc."""
-    path = smoothed(features.stroke.points, 1.0, closed=False)
+    path = smoothed(features.stroke.points, closed=False)
     sides = path[_STRIDE:] - path[:-_STRIDE]
     bends = np.abs(angles(sides[:-_STRIDE], sides[_STRIDE:]))
     for points, turns in ((path, bends), (path[::-1], bends[::-1])):

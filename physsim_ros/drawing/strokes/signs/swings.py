@@ -15,7 +15,7 @@ from functools import partial
 from physsim_ros.drawing.strokes import bodies_under, open_lines, outcomes
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import Candidate, Form, Limit
-from physsim_ros.drawing.strokes.features import Features, FEWEST
+from physsim_ros.drawing.strokes.features import Features, FEWEST, TREMOR
 from physsim_ros.drawing.strokes.meanings import (
     Context,
     DELETION,
@@ -29,8 +29,6 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Delete
 
-# The height of the swings of a trembling hand, in shares of the size.
-_TREMOR = 0.05
 # The least spread of swings: those of scribbles lie closer.
 _CLOSEST = 0.9
 # The share of the stroke that lies on the bodies at its ends from which on it is no spring.
@@ -47,7 +45,7 @@ _MIDDLE_ON_ENDS = Limit(0.15, 0.03)
 def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
     """Yield teeth in a row, sharp or round; the points are the two ends."""
     swings, stroke = features.swings, features.stroke
-    high = swings.height > _TREMOR * stroke.size
+    high = swings.height > TREMOR.at * stroke.size
     if swings.count >= FEWEST and high and swings.spread > _CLOSEST:
         yield Candidate(measures=features.measures, points=stroke.points[[0, -1]])
 

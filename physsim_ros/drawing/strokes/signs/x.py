@@ -18,8 +18,8 @@ from physsim_ros.drawing.strokes.geometry import (
     intersections,
     LEAST_SINE,
     loop_roundness,
-    path_length,
     point_of,
+    straightness,
 )
 from physsim_ros.drawing.strokes.meanings import Context, Meaning, MISPLACED, Outcome, Sign
 from physsim_ros.model.arrays import Floats
@@ -69,7 +69,7 @@ def of_lines(strokes: Sequence[Floats]) -> Form | None:
 
     :param strokes: each (n, 2) float64: evenly spaced [m]
     """
-    if len(strokes) != 2 or min(_straightness(each) for each in strokes) < _STRAIGHT:
+    if len(strokes) != 2 or min(map(straightness, strokes)) < _STRAIGHT:
         return None
     one, other = map(few_points, strokes)
     (_, along, _), (_, beside, _) = line(one), line(other)
@@ -85,10 +85,6 @@ def of_lines(strokes: Sequence[Floats]) -> Form | None:
     if crossing is None or inside(crossing) < _BEYOND_OF_TWO:
         return None
     return Form(name=CROSS.name, weight=1.0, points=crossing[0][None])
-
-
-def _straightness(points: Floats) -> float:
-    return math.dist(points[0], points[-1]) / path_length(points)
 
 
 def _meanings(form: Form, context: Context) -> Iterator[Meaning]:

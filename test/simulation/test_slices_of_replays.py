@@ -1,0 +1,84 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Replays that build whole worlds do it in slices, or on the thread that asks for the result."""
+
+from threading import get_ident, Thread
+
+from physsim_ros.engine import checkpoint
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
+
+from ..building import BOX, DISC, NOWHERE, spawning
+
+COUNT, SLICE = 60, 10
+
+
+@pytest.fixture
+def sliced(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have slices of a few bodies."""
+    monkeypatch.setattr(checkpoint, '_SLICE', SLICE)
+
+
+def crowd() -> WorldState:
+    simulation = Simulation(settings=NOWHERE)
+    for number in range(COUNT):
+        simulation.perform(spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0)))
+    return simulation.save()
+
+
+@pytest.mark.usefixtures('sliced')
+def test_a_load_is_redone_in_slices() -> None:
+    simulation = Simulation(settings=NOWHERE)
+    simulation.run(0.1)
+    simulation.load(crowd())
+    simulation.perform(spawning('b/0', DISC, (0.0, 5.0, 0.0)))
+    simulation.run(0.1)
+    digest = simulation.world.digest()
+    simulation.undo()
+    simulation.undo()
+    assert len(simulation.world) == 0
+    simulation.redo()
+    # Not to be asked for the world, which would finish the work.
+    cursor, slices = simulation.past.cursor, 1
+    while cursor.continue_work():
+        slices += 1
+    assert slices > COUNT / SLICE
+    assert len(simulation.world) == COUNT
+    simulation.redo()
+    simulation.seek(round(0.2e9))
+    assert simulation.world.digest() == digest
+
+
+def test_a_run_is_saved_on_the_thread_that_saves_while_the_world_goes_on(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    simulation = Simulation()
+    simulation.load(crowd())
+    simulation.run(0.5)
+    simulation.perform(spawning('b/0', DISC, (0.0, 5.0, 0.0)))
+    begun = simulation.save()
+    simulation.run(0.25)
+    threads, found = [], []
+    step = World.step
+    monkeypatch.setattr(
+        World, 'step', lambda self, count: threads.append(get_ident()) or step(self, count)
+    )
+    save = simulation.saver_of_run()
+    assert not threads
+    thread = Thread(target=lambda: found.append(save()))
+    thread.start()
+    simulation.run(1.0)
+    thread.join()
+    assert threads
+    assert get_ident() not in threads
+    assert digest_of(found[0]) == digest_of(begun)
+
+
+def digest_of(state: WorldState) -> str:
+    simulation = Simulation()
+    simulation.begin(state)
+    simulation.run(0.25)
+    return simulation.world.digest()
