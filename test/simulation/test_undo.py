@@ -262,7 +262,8 @@ def sim() -> Simulation:
     [
         (ChangeBody(name='a/0', color=(1.0, 0.0, 0.0, 1.0)), 'change a/0'),
         (Axle(point=(0.0, 0.0)), 'join axle axle/0'),
-        (Configure(changes={'damping': 0.5}), 'change settings'),
+        (Configure(changes={'damping': 0.5}), 'change damping'),
+        (Configure(changes={'damping': 0.5, 'gusts': 1.0}), 'change settings'),
         (Delete(name='a/0'), 'delete a/0'),
         (DeleteBodies(names=('a/0',)), 'delete a/0'),
         (DeleteBodies(names=('a/0', 'a/1')), 'delete several bodies'),

@@ -10,7 +10,8 @@ from typing import Any
 
 import pytest
 
-from .chromium import circle, Sheet
+from .chromium import circle, Sheet, started_world
+from ..outside import Outside
 
 BACKGROUND = """name => getComputedStyle(
     document.querySelector(`button[aria-label="${name}"]`)).backgroundColor"""
@@ -184,6 +185,53 @@ def test_on_a_small_page_a_panel_leaves_room_for_what_is_said_and_for_a_plot(
     sheet.press('Large plot')
     plot = sheet.page.get_by_role('img', name='Large plot').bounding_box()
     assert min(plot['width'] / 2, plot['height']) > 80
+    sheet.close()
+
+
+# Words of a dialog that are broken in two where they have no soft hyphen.
+BROKEN = """() => {
+    const found = [], dialog = document.querySelector('dialog[open]');
+    const texts = document.createTreeWalker(dialog, NodeFilter.SHOW_TEXT);
+    while (texts.nextNode()) {
+        const node = texts.currentNode, range = document.createRange();
+        for (const {0: word, index} of node.data.matchAll(/[\\p{L}\\xad]{3,}/gu)) {
+            range.setStart(node, index);
+            range.setEnd(node, index + word.length);
+            const lines = [...range.getClientRects()].map(({top}) => Math.round(top));
+            if (new Set(lines).size > 1 && !word.includes('\\xad')) found.push(word);
+        }
+    }
+    return found;
+}"""
+
+
+@pytest.mark.parametrize('size', [(390, 844), (320, 640)])
+def test_on_a_telephone_words_and_choices_are_whole(
+    chromium: Any, outside: Outside, size: tuple[int, int]
+) -> None:
+    _, address = started_world(outside)
+    viewport = {'width': size[0], 'height': size[1]}
+    sheet = Sheet(chromium, address, viewport=viewport, locale='de-DE')
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
+    sheet.press('Pause')
+    sheet.press('Speichern')
+    name = sheet.page.get_by_role('textbox', name='Name der Welt')
+    assert name.bounding_box()['width'] > 130
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Welten')
+    # The file of the world is one's own.
+    sheet.page.get_by_role('button', name='Umbenennen').wait_for()
+    assert sheet.page.evaluate(BROKEN) == []
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.press('Mehr')
+    sheet.press('Großes Diagramm')
+    row = sheet.page.locator('#plot header > .row').bounding_box()
+    for label in ('Nach oben', 'Nach rechts'):
+        box = sheet.page.get_by_label(label).bounding_box()
+        assert row['x'] <= box['x']
+        assert box['x'] + box['width'] <= row['x'] + row['width']
     sheet.close()
 
 

@@ -311,6 +311,44 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     assert program.interrupt() == 0
 
 
+def test_a_pupil_who_gets_no_world_is_told_why_in_the_language_of_the_page(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, _ = run_class
+    for sheet in [come(chromium, pupils, name) for name in ('Anna', 'Ben')]:
+        sheet.close()
+    late = Sheet(chromium, pupils, locale='de-DE')
+    late.page.get_by_role('textbox', name='Dein Name').fill('Dora')
+    late.press('Zu meiner Welt')
+    told = late.page.get_by_role('alert')
+    told.get_by_text('Alle Welten der Klasse sind besetzt').wait_for()
+    assert program.interrupt() == 0
+    late.press('Zu meiner Welt')
+    told.get_by_text('Die Klasse ist nicht erreichbar').wait_for()
+    # The browser tells of both, too.
+    assert all('Failed to load' in each for each in late.errors)
+    late.context.close()
+
+
+def test_a_body_that_leaves_what_its_lesson_shows_stays_in_its_picture(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, teacher = run_class
+    anna, boss = come(chromium, pupils, 'Anna'), Sheet(chromium, teacher)
+    boss.page.get_by_text('1 of 2 here').wait_for()
+    boss.page.get_by_label('Lesson').select_option('horizontal_throw')
+    boss.press('Open the lesson for all')
+    anna.wait('"dropped/0" in physsim.bodies')
+    seen = partial(boss.page.evaluate, COLORS, '#seats canvas')
+    # It rolls to the wall, beyond the view of the lesson.
+    anna.play_until(4.0)
+    assert anna.pose('dropped/0')[0] > 7.0
+    boss.until(lambda: [228, 87, 86] in seen(), 'the red ball')
+    for each in (anna, boss):
+        each.close()
+    assert program.interrupt() == 0
+
+
 def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
     chromium: Any, run_class: tuple[Program, str, str]
 ) -> None:

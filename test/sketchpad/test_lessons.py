@@ -180,6 +180,12 @@ def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) 
     sheet.wait('window.written.has("predicted")')
     sheet.play_until(0.9)
     sheet.wait('[...window.written].some((text) => /^off by 0\\.0/.test(text))')
+    # A way as long as the prediction is compared, however fast the body is, and no longer one.
+    end = sheet.play_until(1.9)
+    assert sheet.pose('thrown/0')[0] > x + 5.5
+    sheet.page.evaluate('window.written.clear()')
+    sheet.seek(end - 0.1)
+    sheet.wait('[...window.written].some((text) => /^off by 0\\.0/.test(text))')
     # A way that it does not go, in the same world again.
     sheet.press('Reset')
     sheet.wait('physsim.time === 0')
@@ -191,6 +197,28 @@ def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) 
     sheet.page.mouse.click(*sheet.place(x, y))
     sheet.page.evaluate('window.written.clear()')
     sheet.wait('![...window.written].some((text) => /off by|predicted/.test(text))')
+
+
+# Rows of the histogram and cells of the table of some answers, as a page shows them.
+RESULTS = """async (answers) => {
+    const {showResults} = await import('/page/ui/results.js'), {fetch} = window;
+    const results = answers.map((answer, i) => (
+        {person: `P${i}`, lesson: 'Fall', answer, right: false, tries: 1, at: 0}));
+    window.fetch = async () => ({json: async () => ({results})});
+    const shown = document.createElement('div');
+    await showResults({show: (title, ...nodes) => shown.append(...nodes)}, [], () => {});
+    window.fetch = fetch;
+    return ['.histogram li', 'tbody td'].map((selector) =>
+        [...shown.querySelectorAll(selector)].map((each) => each.textContent));
+}"""
+
+
+def test_an_answer_counts_from_the_round_number_on_and_is_told_as_the_reader_writes(
+    sheet: Sheet,
+) -> None:
+    bars, cells = sheet.page.evaluate(RESULTS, ['9,7', '9.81', '9,81', '10', '98', '1'])
+    assert bars == ['< 9.61', '9.6 … 9.7', '9.7 … 9.81', '9.8 … 9.92', '≥ 9.92']
+    assert cells == [f'{each} ✗' for each in ('9.7', '9.81', '9.81', '10', '98', '1')]
 
 
 def test_a_teacher_s_lesson_is_listed_and_a_bad_one_says_where_it_is_wrong(sheet: Sheet) -> None:

@@ -105,6 +105,10 @@ class Configure(Request):
 
     changes: Annotated[Mapping[str, Any], _changes, 'new values by the field of WorldSettings']
 
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with the setting if it is one."""
+        return Request.phrase(self, *self.changes if len(self.changes) == 1 else [subject])
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Restore(Request):

@@ -4,6 +4,7 @@
  * each, with a live picture, and does for all at once what a teacher may do in one world.
  */
 
+import {unionOf} from './view/body_path.js';
 import {Camera} from './view/camera.js';
 import {personWord} from './people.js';
 import {sayForm} from './ui/classroom.js';
@@ -11,10 +12,11 @@ import {Connection} from './connection.js';
 import {Dialog} from './ui/dialog.js';
 import {choice, createElement, elementOf, iconButton, inRow, languageField, showText, soon, textButton} from './dom.js';
 import {SceneView} from './view/scene_view.js';
-import {showResults} from './ui/results.js';
+import {retold, showResults} from './ui/results.js';
 import {watchTheme} from './view/theme.js';
+import {SENTENCES} from './sentences.js';
 import {language, t} from './strings.js';
-import {Words} from './words.js';
+import {capital, sentenceOf, Words} from './words.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Classmate} from './types.js' */
@@ -23,12 +25,18 @@ import {WorldState} from './world_state.js';
 const KEY = 'physsim-seat'; // of this browser
 const PERIOD = 3000; // ms between two looks at who is where
 const GAP = 4; // px around the world in its picture
+/** Why a pupil gets no world, in the server's words and in those of this page. @type {[RegExp, string][]} */
+const REASONS = [
+  [/^every world of this class has a pupil$/, t('Every world of the class has a pupil')],
+  [/^(\d+) worlds of this class are those of this machine; .*/, t('$1 worlds of the class were given to this address: ask your teacher to free a seat')],
+];
 
 /** A card of a teacher's page: a seat, its pupil, and the world there, as it is now. */
 class Card {
   /** @param {number} number of the seat */
   constructor(number) {
-    this.framed = ''; // epoch of the scene that was framed, and size of the picture then [px]
+    this.framed = ''; // epoch of the scene that was framed, size of the picture then [px], and whether its whole room
+    this.left = false; // whether a body has left what its lesson shows first, since the lesson began
     this.seated = ''; // name of the pupil who has the seat
     this.frozen = false;
     this.running = false;
@@ -58,11 +66,14 @@ class Card {
       if (!this.framed.startsWith(`${scene.epoch} `)) this.show();
     });
     this.view.overlays.push((view) => {
+      const {scene: {bounds, epoch}, count} = this.world;
+      this.#noteLeft();
       // A world without bounds keeps its frame until it changes.
-      const shown = `${this.world.scene.epoch} ${camera.width} ${camera.height}`;
-      if (shown === this.framed || !this.world.count) return;
+      const shown = `${epoch} ${camera.width} ${camera.height} ${this.left}`;
+      if (shown === this.framed || !count) return;
       this.framed = shown;
-      camera.fit(this.world.extent(), {left: GAP, top: GAP, right: GAP, bottom: GAP});
+      const extent = this.world.extent();
+      camera.fit(this.left && bounds.length ? unionOf([extent, bounds]) : extent, {left: GAP, top: GAP, right: GAP, bottom: GAP});
       view.dirty = true;
     });
     connection.on('class', ({people, frozen}) => {
@@ -78,6 +89,16 @@ class Card {
       });
     }
     connection.connect();
+  }
+
+  /** Note whether a body has left what its lesson shows first. */
+  #noteLeft() {
+    const {world, world: {scene: {lesson}, frame: {time}}} = this;
+    if (!lesson?.view || !time) this.left = false;
+    else if (!this.left) {
+      const first = world.extent(), reached = unionOf([first, world.bodiesExtent()]);
+      this.left = reached.some((edge, i) => edge !== first[i]);
+    }
   }
 
   /** @returns {string} name of who is there, or has the seat; '' where it is free */
@@ -110,7 +131,7 @@ class Card {
     showText(this.lesson, lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson'));
     const known = answered && answered.lesson === lesson?.title;
     const unit = lesson?.unit === '1' ? '' : lesson?.unit, verdict = answered?.right ? t('✓ right') : t('✗ not yet');
-    showText(this.answer, known ? `${answered.answer} ${unit} ${verdict}` : '');
+    showText(this.answer, known ? `${retold(answered.answer)} ${unit} ${verdict}` : '');
     this.answer.className = known && answered.right ? 'right' : '';
     arrangeSoon();
   }
@@ -137,7 +158,7 @@ class Card {
       textButton(t('Pause'), () => done('service', {name: 'pause'})),
       textButton(t('Show this run to all'), () => this.#showRun()),
       ...this.seated ? [textButton(t('Free this seat'), async () => {
-        await fetch('/free', {method: 'POST', body: JSON.stringify({seat: cards.indexOf(this)})});
+        await ask('/free', {seat: cards.indexOf(this)});
         dialog.close();
       })] : []));
   }
@@ -167,11 +188,20 @@ function worldOf(person) {
 
 const arrangeSoon = soon(arrange, 100);
 
+/**
+ * @param {string} path
+ * @param {Record<string, unknown>} fields
+ * @returns {Promise<?Response>} null where the class does not answer
+ */
+function ask(path, fields) {
+  return fetch(path, {method: 'POST', body: JSON.stringify(fields)}).catch(() => null);
+}
+
 form.addEventListener('submit', async (event) => {
   event.preventDefault();
-  const response = await fetch('/join', {method: 'POST', body: JSON.stringify({name: name.value, key: localStorage.getItem(KEY) ?? ''})});
-  if (!response.ok) {
-    elementOf('refused').textContent = await response.text();
+  const response = await ask('/join', {name: name.value, key: localStorage.getItem(KEY) ?? ''});
+  if (!response?.ok) {
+    elementOf('refused').textContent = response ? capital(sentenceOf((await response.text()).trim(), [...REASONS, ...SENTENCES])) : t('The class is not reachable: try again.');
     return;
   }
   const {address, key} = await response.json();

@@ -15,7 +15,8 @@ export const THINGS = new Map([
   ['gear', t('gear')], ['rack', t('rack and pinion')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
   ['delete', t('delete')], ['hatching', t('heavier by hatching')], ['all bodies', t('all bodies')],
   ['several bodies', t('several bodies')], ['several joints', t('several joints')], ['all joints', t('all joints')], ['world', t('the world')],
-  ['settings', t('settings')],
+  ['settings', t('settings')], ['damping', t('air')], ['air_density', t('air')], ['air_viscosity', t('air')], ['wind', t('air')], ['gusts', t('air')],
+  ['gravitation', t('attraction')], ['coulomb', t('attraction')],
 ]);
 
 /** Verbs before the name of a body, and what is said of it. */

@@ -102,7 +102,7 @@ export class Words {
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
     if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
-    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message))).replace(/\d\.\d/g, localized);
+    const told = capital(this.phrase(sentenceOf(message))).replace(/\d\.\d/g, localized);
     return ok ? told : refusalText(code, told);
   }
 
@@ -166,6 +166,11 @@ function shorten(name) {
  */
 export function headingOf({name, shipped}) {
   return shipped ? t(capital(name.replaceAll('_', ' '))) : name;
+}
+
+/** @param {string} message of the server */
+export function sentenceOf(message, sentences = SENTENCES) {
+  return sentences.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message);
 }
 
 /** @param {string} text */

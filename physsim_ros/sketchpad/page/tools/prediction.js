@@ -64,7 +64,7 @@ export class Prediction extends Gesture {
       view.line(gone.map((sample) => [sample.x, sample.y]), palette.accent);
       const places = evenly(gone, lengthOf(way) / PARTS);
       const off = places.reduce((sum, [atX, atY]) => sum + distanceTo(way, atX, atY), 0) / places.length;
-      view.write(gone.length ? t('off by {length} m', {length: threeDigits(off)}) : t('predicted'), [x + 10, y], palette.momentum);
+      view.write(gone.length ? t('off by {length} m on average', {length: threeDigits(off)}) : t('predicted'), [x + 10, y], palette.momentum);
     }
   }
 }
@@ -72,17 +72,20 @@ export class Prediction extends Gesture {
 /**
  * @param {Sample[]} samples
  * @param {number} step [m]
- * @returns {Point[]} places at that distance from each other, so that a body that rests counts once; on a way as long as
- *   the prediction
+ * @returns {Point[]} places at that distance along a way as long as the prediction
  */
 function evenly(samples, step) {
   /** @type {Point[]} */
   const places = [];
-  for (const {x, y} of samples) {
-    const last = places.at(-1);
-    if (!last || distance(last, [x, y]) >= step) places.push([x, y]);
-    if (places.length > PARTS) break;
-  }
+  let next = 0; // of the places, from the sample before [m]
+  samples.forEach(({x, y}, i) => {
+    const last = samples[Math.max(i - 1, 0)], length = distance([last.x, last.y], [x, y]);
+    for (; next <= length && places.length <= PARTS; next += step) {
+      const share = length && next / length;
+      places.push([last.x + share * (x - last.x), last.y + share * (y - last.y)]);
+    }
+    next -= length;
+  });
   return places;
 }
 

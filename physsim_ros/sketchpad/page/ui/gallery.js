@@ -133,7 +133,7 @@ export class Gallery {
     ctx.fillRect(0, 0, 480, 200);
     ctx.drawImage(canvas, insets.left * ratio, insets.top * ratio, width, height,
       240 - width * scale / 2, 100 - height * scale / 2, width * scale, height * scale);
-    small.toBlob((body) => body && fetch(`/picture/${encodeURIComponent(name)}`, {method: 'POST', body}));
+    small.toBlob((body) => body && fetch(`/picture/${encodeURIComponent(name)}`, {method: 'POST', body}).catch(() => {}));
   }
 
   showSave() {

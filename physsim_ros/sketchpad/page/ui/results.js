@@ -4,7 +4,7 @@
 import {choice, createElement, download, inRow, textButton} from '../dom.js';
 import {csvOf} from '../csv.js';
 import {digits, numberOf, roundUp} from '../rounding.js';
-import {language, t} from '../strings.js';
+import {language, localized, t} from '../strings.js';
 import {personWord} from '../people.js';
 
 /** @import {Result} from '../types.js' */
@@ -91,7 +91,7 @@ class ResultTable {
     const head = titles.flatMap((title) => [t('answer'), t('right'), t('tries'), t('time')].map((column) => `${this.heading(title)}: ${column}`));
     const rows = names.map((name) => [personWord(name), ...titles.flatMap((title) => {
       const result = people.get(name)?.get(title);
-      return result ? [result.answer, result.right ? '1' : '0', String(result.tries), dateOf(result)] : ['', '', '', ''];
+      return result ? [retold(result.answer), result.right ? '1' : '0', String(result.tries), dateOf(result)] : ['', '', '', ''];
     })]);
     return csvOf([[t('Name'), ...head], ...rows]);
   }
@@ -107,18 +107,29 @@ function histogramOf(results) {
   if (!sorted.length) return [];
   const [lower, upper] = [quartile(0.25), quartile(0.75)], fence = FENCE * (upper - lower || Math.abs(upper) || 1);
   const least = Math.max(sorted[0], lower - fence), most = Math.min(sorted[sorted.length - 1], upper + fence);
-  const step = roundUp((most - least) / BINS || 1), first = Math.floor(least / step), last = Math.floor(most / step);
+  const step = roundUp((most - least) / BINS || 1);
+  // 9.7 / 0.1 is 96.99999999999999, and counts from 9.7.
+  const placeOf = (/** @type {number} */ figure) => Math.floor(Number((figure / step).toPrecision(12)));
+  const first = placeOf(least), last = placeOf(most);
   return Array.from({length: last - first + 1}, (_, i) => {
-    const there = answers.filter(({figure}) => Math.min(Math.max(Math.floor(figure / step), first), last) === first + i);
+    const there = answers.filter(({figure}) => Math.min(Math.max(placeOf(figure), first), last) === first + i);
     const bars = [true, false].map((isRight) => {
       const bar = createElement('i', {className: isRight ? 'right' : ''});
       bar.style.width = `${100 * there.filter(({right}) => right === isRight).length / answers.length}%`;
       return bar;
     });
     const [from, to] = [first + i, first + i + 1].map((place) => digits(place * step, 4));
-    const range = there.some(({figure}) => figure >= (last + 1) * step) ? `≥ ${from}` : there.some(({figure}) => figure < first * step) ? `< ${to}` : `${from} … ${to}`;
+    const range = there.some(({figure}) => placeOf(figure) > last) ? `≥ ${from}` : there.some(({figure}) => placeOf(figure) < first) ? `< ${to}` : `${from} … ${to}`;
     return createElement('li', {}, range, createElement('span', {}, ...bars), String(there.length || ''));
   });
+}
+
+/**
+ * @param {string} text that somebody has typed
+ * @returns {string} the number as the reader of this page writes it; the text where it is none
+ */
+export function retold(text) {
+  return Number.isNaN(numberOf(text)) ? text : localized(text.trim().replace(',', '.'));
 }
 
 /** @param {Result | undefined} result */
@@ -126,7 +137,7 @@ function cellOf(result) {
   if (!result) return createElement('td', {}, '');
   const {answer, right, tries} = result;
   return createElement('td', {className: right ? 'right' : '', title: t('{date}, tries: {count}', {date: dateOf(result), count: tries})},
-    `${answer} ${right ? '✓' : '✗'}${tries > 1 ? ` (${tries})` : ''}`);
+    `${retold(answer)} ${right ? '✓' : '✗'}${tries > 1 ? ` (${tries})` : ''}`);
 }
 
 /** @param {Result} result */
