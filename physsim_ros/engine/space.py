@@ -260,7 +260,7 @@ class Space:
         self._changes += 1
 
     def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
-        """Set the velocity of a body, which is in free flight then unless it has joints."""
+        """Set the velocity of a body: it flies then, unless joints or contacts hold it."""
         free = rigid.state['free'] or not self.joints.has_joints(rigid.body.name)
         rigid.set_twist(twist, self._settings.gravity, self.dt, free=free)
         if not rigid.body.anchored:

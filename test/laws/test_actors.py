@@ -363,17 +363,26 @@ def test_a_pedestrian_alone_approaches_its_speed_in_the_relaxation_time(report):
     report.check(53, 'speed after 1 s', speed, 1.2 * (1.0 - math.exp(-2.0)), 5e-3, 'm/s')
 
 
-def test_the_force_of_a_wall_and_of_a_pedestrian_are_those_of_their_potentials(report):
-    sim = _floor()
-    spawn(sim, 'wall/0', Box(width=20.0, height=0.2), (0.0, -0.1, 0.0), anchored=True)
+@pytest.mark.parametrize('pieces', [1, 2, 39, 40])
+def test_the_force_of_a_wall_is_that_of_its_potential_in_one_piece_or_many(report, pieces):
+    sim, width = _floor(), 20.0 / pieces
+    for number in range(pieces):
+        # Of unlike heights, with their faces in one plane.
+        height, x = 0.2 + 0.1 * (number % 3), (number + 0.5) * width - 10.0
+        wall = Box(width=width, height=height)
+        spawn(sim, f'wall/{number}', wall, (x, -height / 2, 0.0), anchored=True)
     stands = {'kind': 'social_force', 'points': [[0.0, 0.6]], 'max_speed': 100.0}
     row = spawn(sim, 'person/0', PERSON, (0.0, 0.6, 0.0), kinematic=True, actor=stands)
     sim.world.step(1)
     # U⁰ / R exp(-r / R), in one step.
     by_wall = 10.0 / 0.2 * math.exp(-0.6 / 0.2) * DT
-    speed = sim.world.snapshot().twists[row, 1]
-    report.check(53, 'velocity by a wall', speed, by_wall, 1e-9, 'm/s')
+    velocity = sim.world.snapshot().twists[row, :2]
+    report.check(53, f'velocity by a wall of {pieces}', velocity[1], by_wall, 1e-9, 'm/s')
+    assert abs(velocity[0]) < 1e-9
 
+
+def test_the_force_of_a_pedestrian_is_that_of_its_potential(report):
+    stands = {'kind': 'social_force', 'max_speed': 100.0}
     sim = _floor()
     for number, x in enumerate((0.0, 0.8)):
         walks = {**stands, 'points': [[x + 50.0, 0.0]], 'speed': 1e-3, 'behind': 1.0}

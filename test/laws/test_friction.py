@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Laws 10 to 13, 77: friction holds, brakes and sets rolling as Coulomb's law has it."""
+"""Laws 10 to 13, 77, 78: friction holds, brakes, tips and sets rolling by Coulomb's law."""
 
 import math
 
@@ -131,6 +131,33 @@ def test_a_disc_that_slides_comes_to_roll_at_two_thirds_of_its_speed(
     report.check(13, 'disc set sliding, rolls after', rolls_at, exact, 0.02, 's/s', relative=True)
     vx = np.abs(sim.world.snapshot().twists[disc, 0])
     report.check(13, 'the same, speed then', vx, speed * 2 / 3, 1e-3, '–', relative=True)
+
+
+@pytest.mark.parametrize('direction', DIRECTIONS)
+@pytest.mark.parametrize('width', [0.1, 0.5])
+@pytest.mark.parametrize('friction', [0.9, 1.4, 2.0, 3.0])
+def test_a_box_tips_about_its_corner_whatever_the_friction(report, friction, width, direction):
+    box = Box(width=width, height=1.0)
+    degrees = 1.5 * math.degrees(math.atan(box.width / box.height))
+    said = {'friction': friction, 'elasticity': 0.0}
+    sim, row, _ = _on_incline(box, box.height / 2, degrees, direction, **said)
+    ground = direction * math.radians(degrees)
+    depth, kept, fallen = 0.0, None, 0.0
+    begin = sim.world.snapshot().potential_energy
+    while fallen < 1.2:
+        sim.world.step(1)
+        now = sim.world.snapshot()
+        x, y, yaw = now.poses[row]
+        fallen = abs(yaw - ground)
+        height = turned((x, y), -ground)[1]
+        below = box.width / 2 * math.sin(fallen) + box.height / 2 * math.cos(fallen)
+        depth = max(depth, below - height)
+        if kept is None and fallen > 0.5:
+            kept = now.kinetic_energy / (begin - now.potential_energy)
+
+    what = f'box of {width} m tips, friction {friction}'
+    report.check(78, f'{what}, depth of its corner', depth, 0.0, 1e-4, 'm')
+    report.check(78, f'{what}, energy', kept, 1.0, 5e-3, '–')
 
 
 @pytest.mark.parametrize(('count', 'spin'), [(12, 3.0), (24, 3.0), (24, 2.0), (48, 3.0)])

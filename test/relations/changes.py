@@ -38,10 +38,14 @@ def with_joints(state, change):
     return replace(state, joints=tuple(map(change, state.joints)))
 
 
-def is_plain(held):
+def moves_freely(body):
     """Return whether a body is moved by forces alone, and is no sensor."""
-    body = held.body
     return body.dynamic and not body.sensor and body.robot is None and body.actor is None
+
+
+def is_plain(held):
+    """Return whether a body of a state is moved by forces alone, and is no sensor."""
+    return moves_freely(held.body)
 
 
 def few_plain(state):
@@ -104,7 +108,12 @@ def with_media(state, change):
 
     air = change(state.settings.air)
     settings = replace(
-        state.settings, air_density=air.density, air_viscosity=air.viscosity, wind=air.flow
+        state.settings,
+        air_density=air.density,
+        air_viscosity=air.viscosity,
+        wind=air.flow,
+        gusts=air.gusts,
+        gust_time=air.gust_time,
     )
     return replace(with_bodies(state, body), settings=settings)
 
@@ -442,6 +451,8 @@ def larger(state, size, time):
             density=each.density / size**2,
             viscosity=each.viscosity / (size * time),
             flow=tuple(speed * part for part in each.flow),
+            gusts=each.gusts * speed,
+            gust_time=each.gust_time * time,
         )
 
     changed = replace(with_joints(with_bodies(state, body), joint), settings=settings)

@@ -5,7 +5,7 @@
 
 import pytest
 
-from .exceptions import crossings, EXCEPTIONS, is_quick, MARGIN
+from .exceptions import crossings, EXCEPTIONS, is_quick, limit, MARGIN, REASONS, UNKNOWN
 from .relations import RELATIONS
 from .scenes import SCENES
 from ..slow import slow
@@ -19,20 +19,30 @@ def test_a_relation_holds_for_a_scene(relation, scene):
     law, played = RELATIONS[relation], SCENES[scene]
     if not law.is_about(played):
         return
-    off, limit = law.off(played), law.limit(played)
+    off, most = law.off(played), limit(relation, scene)
 
-    told = EXCEPTIONS.get(relation, {}).get(scene)
+    told = EXCEPTIONS.get((relation, scene))
     if told is None:
-        assert off <= limit, f'{law.law}: off by {off:.2g}'
+        assert off <= most, f'{law.law}: off by {off:.2g}'
     else:
-        assert off > limit, 'it is no exception any more: python -m test.relations.exceptions'
+        assert off > most, 'it is no exception any more: python -m test.relations.exceptions'
         assert off <= MARGIN * told, f'{law.law}: off by {off:.2g}, told {told:.2g}'
 
 
 def test_exceptions_are_those_of_crossings_that_there_are():
-    for relation, scenes in EXCEPTIONS.items():
-        assert set(scenes) <= set(SCENES)
-        assert all(RELATIONS[relation].is_about(SCENES[scene]) for scene in scenes)
+    for relation, scene in EXCEPTIONS:
+        assert RELATIONS[relation].is_about(SCENES[scene])
+
+
+def test_each_exception_has_one_reason():
+    told = [
+        (relation, scene)
+        for relations in REASONS.values()
+        for relation, scenes in relations.items()
+        for scene in scenes
+    ]
+    assert len(told) == len(set(told))
+    assert UNKNOWN not in REASONS
 
 
 def test_there_are_a_hundred_scenes_and_eighteen_relations():

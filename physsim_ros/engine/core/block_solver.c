@@ -12,11 +12,11 @@
 // `b2ContactSolver::SolveVelocityConstraints` in Box2D 2.4, "block solver"). Chipmunk's own solver begins with these
 // impulses. Friction and what it changes of the normal impulses are found by rounds of sequential impulses over the
 // same points, as Chipmunk makes them.
-// Scope: two bodies that hit each other in two points or more, or one that so hits what forces do not move: the
-// outermost contacts of each normal, between which the others have nothing to add. With them all contacts of these
-// bodies and of those that they touch in turn, up to `CLUSTER_POINTS`: the ground that carries a body which is hit,
-// a short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a part of a pile throw its
-// light bodies out.
+// Scope: two bodies that hit each other in two points or more, or one that so hits what forces do not move, with all
+// contacts of these bodies and of those that they touch in turn: the ground that carries a body which is hit, a short
+// stack below it. Of two bodies the outermost points of each face count: the others can add nothing to them, whatever
+// pieces the bodies consist of. Impacts in piles of more than `CLUSTER_POINTS` are left to Chipmunk: impulses from a
+// part of a pile throw its light bodies out.
 // Energy: Newton's law of restitution can create energy, with several points at once as where a light body is
 // pinched between a heavy one and the ground, with one where friction turns the slip round (T. R. Kane and D. A.
 // Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest share of its restitution
@@ -32,10 +32,10 @@
 
 // Points that are solved together, at most: of four boxes on each other and the ground, eight are.
 enum { CLUSTER_POINTS = LCP_ROWS };
-// Contacts of an impact, at most; a shape of more pieces is left to Chipmunk.
-enum { CLUSTER_CONTACTS = 64 };
-// Normals of one face differ by rounding [1].
-static const double same_normal = 1e-6;
+// Bodies that move, at most: two that meet, and each further one brings a point.
+enum { CLUSTER_BODIES = CLUSTER_POINTS + 1 };
+// Normals of one face differ by the tilt of the bodies that lie on it [1].
+static const double same_normal = 1e-3;
 
 // A contact that begins with an impact.
 typedef struct Hit {
@@ -44,10 +44,17 @@ typedef struct Hit {
     bool done;
 } Hit;
 
-// The contacts of an impact, and all others that they reach through bodies that move.
+// A point of a contact.
+typedef struct Spot {
+    cpArbiter *arbiter;
+    cpContact *contact;
+} Spot;
+
+// Two bodies that hit each other, those that they reach through contacts, and the outermost points of these.
 typedef struct Cluster {
-    cpArbiter *contacts[CLUSTER_CONTACTS];
-    int count, points;
+    const cpBody *bodies[CLUSTER_BODIES];
+    Spot spots[CLUSTER_POINTS];
+    int body_count, count;
     bool too_many;
 } Cluster;
 
@@ -67,22 +74,86 @@ static bool is_movable(const cpBody *body) {
     return body->m_inv > 0.0;
 }
 
-static bool is_in_cluster(const Cluster *cluster, const cpArbiter *arbiter) {
-    for (int number = 0; number < cluster->count; number++) {
-        if (cluster->contacts[number] == arbiter) {
+static bool has_body(const Cluster *cluster, const cpBody *body) {
+    for (int number = 0; number < cluster->body_count; number++) {
+        if (cluster->bodies[number] == body) {
             return true;
         }
     }
     return false;
 }
 
-static void add_to_cluster(Cluster *cluster, cpArbiter *arbiter) {
-    if (cluster->count == CLUSTER_CONTACTS || cluster->points + arbiter->count > CLUSTER_POINTS) {
-        cluster->too_many = true;
+static bool has_spot(const Cluster *cluster, const cpContact *contact) {
+    for (int number = 0; number < cluster->count; number++) {
+        if (cluster->spots[number].contact == contact) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether two bodies are the same, or both such that forces do not move them.
+static bool are_one(const cpBody *one, const cpBody *other) {
+    return one == other || !(is_movable(one) || is_movable(other));
+}
+
+// Whether two contacts are of the same face of the same two bodies.
+static bool share_face(const cpArbiter *one, const cpArbiter *other) {
+    bool same = are_one(one->body_a, other->body_a) && are_one(one->body_b, other->body_b);
+    bool turned = are_one(one->body_a, other->body_b) && are_one(one->body_b, other->body_a);
+    Vec normal = same ? other->n : negated(other->n);
+    return (same || turned) && length(sub(one->n, normal)) <= same_normal;
+}
+
+// Where a point lies along the face of a contact [m].
+static double place_along(const cpArbiter *face, Spot spot) {
+    const cpBody *body = is_movable(face->body_a) ? face->body_a : face->body_b;
+    Vec arm = body == spot.arbiter->body_a ? spot.contact->r1 : spot.contact->r2;
+    return cross(face->n, arm);
+}
+
+// Add a point to a cluster, unless it lies between two of the same face.
+static void add_spot(Cluster *cluster, Spot spot) {
+    Spot *ends[2];
+    int count = 0;
+    for (int number = 0; number < cluster->count && count < 2; number++) {
+        if (share_face(spot.arbiter, cluster->spots[number].arbiter)) {
+            ends[count++] = cluster->spots + number;
+        }
+    }
+    if (count < 2) {
+        cluster->too_many = cluster->count == CLUSTER_POINTS;
+        if (!cluster->too_many) {
+            cluster->spots[cluster->count++] = spot;
+        }
         return;
     }
-    cluster->contacts[cluster->count++] = arbiter;
-    cluster->points += arbiter->count;
+    double place = place_along(spot.arbiter, spot), first = place_along(spot.arbiter, *ends[0]),
+           second = place_along(spot.arbiter, *ends[1]);
+    if (place < least(first, second)) {
+        *ends[first < second ? 0 : 1] = spot;
+    } else if (place > greatest(first, second)) {
+        *ends[first > second ? 0 : 1] = spot;
+    }
+}
+
+// Add the points of a contact to a cluster, and its bodies.
+static void add_contact(Cluster *cluster, cpArbiter *arbiter) {
+    // Far away a distance can be lost in rounding, and with it the direction.
+    bool has_normal = arbiter->n.x != 0.0 || arbiter->n.y != 0.0;
+    for (int number = 0; number < arbiter->count && has_normal && !cluster->too_many; number++) {
+        Spot spot = {arbiter, arbiter->contacts + number};
+        if (!has_spot(cluster, spot.contact)) {
+            add_spot(cluster, spot);
+        }
+    }
+    const cpBody *bodies[2] = {arbiter->body_a, arbiter->body_b};
+    for (int end = 0; end < 2 && arbiter->count > 0 && has_normal && !cluster->too_many; end++) {
+        if (is_movable(bodies[end]) && !has_body(cluster, bodies[end])) {
+            assert(cluster->body_count < CLUSTER_BODIES);
+            cluster->bodies[cluster->body_count++] = bodies[end];
+        }
+    }
 }
 
 static int by_bodies(const void *one, const void *other) {
@@ -112,57 +183,12 @@ static int list_hits(World *world, Hit *hits) {
     return count;
 }
 
-// Where the points of a contact lie along a face, seen from a body: the least and the greatest place [m].
-static void places_along(const cpArbiter *arbiter, const cpBody *body, Vec normal, double *low, double *high) {
-    *low = INFINITY;
-    *high = -INFINITY;
-    for (int number = 0; number < arbiter->count; number++) {
-        Vec arm = body == arbiter->body_a ? arbiter->contacts[number].r1 : arbiter->contacts[number].r2;
-        double place = cross(normal, arm);
-        *low = least(*low, place);
-        *high = greatest(*high, place);
-    }
-}
-
-static Vec normal_from(const cpArbiter *arbiter, const cpBody *body) {
-    return body == arbiter->body_a ? arbiter->n : negated(arbiter->n);
-}
-
-// Whether a contact is the first or the last one of an impact along its face.
-static bool is_outermost(const Hit *impact, int count, int own, const cpBody *body) {
-    const cpArbiter *contact = impact[own].contact;
-    Vec normal = normal_from(contact, body);
-    double low = 0.0, high = 0.0, other_low = 0.0, other_high = 0.0;
-    places_along(contact, body, normal, &low, &high);
-    bool first = true, last = true;
-    for (int number = 0; number < count; number++) {
-        const cpArbiter *other = impact[number].contact;
-        if (number == own || length(sub(normal_from(other, body), normal)) > same_normal) {
-            continue;
-        }
-        places_along(other, body, normal, &other_low, &other_high);
-        first = first && (low < other_low || (low == other_low && own < number));
-        last = last && (high > other_high || (high == other_high && own < number));
-    }
-    return first || last;
-}
-
-// Add what the contacts of a cluster reach through bodies that move, but for the other contacts of the impact.
-static void add_neighbours(Cluster *cluster, const Hit *impact, int count) {
-    for (int number = 0; number < cluster->count && !cluster->too_many; number++) {
-        cpBody *bodies[2] = {cluster->contacts[number]->body_a, cluster->contacts[number]->body_b};
-        for (int end = 0; end < 2; end++) {
-            const cpBody *body = bodies[end];
-            cpArbiter *each = is_movable(body) ? body->arbiterList : NULL;
-            for (; each != NULL && !cluster->too_many; each = next_of(each, body)) {
-                bool of_impact = false;
-                for (int hit = 0; hit < count; hit++) {
-                    of_impact = of_impact || impact[hit].contact == each;
-                }
-                if (!of_impact && !is_in_cluster(cluster, each)) {
-                    add_to_cluster(cluster, each);
-                }
-            }
+// Add all contacts of the bodies of a cluster, and the bodies that they reach.
+static void add_neighbours(Cluster *cluster) {
+    for (int number = 0; number < cluster->body_count; number++) {
+        const cpBody *body = cluster->bodies[number];
+        for (cpArbiter *each = body->arbiterList; each != NULL && !cluster->too_many; each = next_of(each, body)) {
+            add_contact(cluster, each);
         }
     }
 }
@@ -232,29 +258,39 @@ static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
     return velocities->twists + number;
 }
 
-static int list_points(const Cluster *cluster, Velocities *velocities, Point *points) {
-    int count = 0;
+static void list_points(const Cluster *cluster, Velocities *velocities, Point *points) {
     for (int number = 0; number < cluster->count; number++) {
-        cpArbiter *each = cluster->contacts[number];
-        // Far away a distance can be lost in rounding, and with it the direction.
-        for (int point = 0; point < each->count && (each->n.x != 0.0 || each->n.y != 0.0); point++) {
-            assert(count < CLUSTER_POINTS);
-            bool begins = each->state == ARBITER_FIRST_COLLISION;
-            cpContact *contact = each->contacts + point;
-            points[count++] = (Point){contact,
-                                      each->body_a,
-                                      each->body_b,
-                                      velocity_of(velocities, each->body_a),
-                                      velocity_of(velocities, each->body_b),
-                                      each->n,
-                                      begins,
-                                      each->u,
-                                      each->surface_vr,
-                                      begins ? contact->jnAcc : 0.0,
-                                      begins ? contact->jtAcc : 0.0};
+        cpArbiter *each = cluster->spots[number].arbiter;
+        cpContact *contact = cluster->spots[number].contact;
+        bool begins = each->state == ARBITER_FIRST_COLLISION;
+        points[number] = (Point){contact,
+                                 each->body_a,
+                                 each->body_b,
+                                 velocity_of(velocities, each->body_a),
+                                 velocity_of(velocities, each->body_b),
+                                 each->n,
+                                 begins,
+                                 each->u,
+                                 each->surface_vr,
+                                 begins ? contact->jnAcc : 0.0,
+                                 begins ? contact->jtAcc : 0.0};
+    }
+}
+
+// Take out the impulses with which points between the outermost ones start; those of contacts that begin are in the
+// velocities already.
+static void take_out_inner(const Cluster *cluster) {
+    for (int number = 0; number < cluster->body_count; number++) {
+        const cpBody *body = cluster->bodies[number];
+        for (cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
+            for (int point = 0; point < each->count && each->state != ARBITER_FIRST_COLLISION; point++) {
+                cpContact *contact = each->contacts + point;
+                if (!has_spot(cluster, contact)) {
+                    contact->jnAcc = contact->jtAcc = 0.0;
+                }
+            }
         }
     }
-    return count;
 }
 
 static void push_apart(const Point *point, Vec impulse) {
@@ -400,7 +436,9 @@ static void lose_gain(const World *world, Point *points, int count, double gain)
 static void solve_cluster(const World *world, const Cluster *cluster) {
     Point points[CLUSTER_POINTS];
     Velocities velocities = {.count = 0};
-    int count = list_points(cluster, &velocities, points);
+    int count = cluster->count;
+    take_out_inner(cluster);
+    list_points(cluster, &velocities, points);
     find_impulses(world, points, count);
     double gain = gain_of(world, points, count);
     if (gain > 0.0) {
@@ -420,19 +458,17 @@ static void solve_cluster(const World *world, const Cluster *cluster) {
 
 // Solve the contacts by which two bodies hit each other, with what they reach.
 static void solve_pair(const World *world, const Hit *impact, int count, Hit *hits, int hit_count) {
-    const cpArbiter *first = impact->contact;
-    const cpBody *body = is_movable(first->body_a) ? first->body_a : first->body_b;
     Cluster cluster = {.count = 0};
     for (int number = 0; number < count; number++) {
-        if (is_outermost(impact, count, number, body)) {
-            add_to_cluster(&cluster, impact[number].contact);
-        }
+        add_contact(&cluster, impact[number].contact);
     }
-    add_neighbours(&cluster, impact, count);
+    add_neighbours(&cluster);
     if (!cluster.too_many) {
         solve_cluster(world, &cluster);
         for (int number = 0; number < hit_count; number++) {
-            hits[number].done = hits[number].done || is_in_cluster(&cluster, hits[number].contact);
+            const cpArbiter *each = hits[number].contact;
+            bool solved = has_body(&cluster, each->body_a) || has_body(&cluster, each->body_b);
+            hits[number].done = hits[number].done || solved;
         }
     }
 }

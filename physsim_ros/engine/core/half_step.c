@@ -7,7 +7,8 @@
 // falls ½ g t dt too far (law 1: 4 cm in 2 s at 240 Hz).
 // Method: while a body is in free flight, its velocity in the engine leads the true one by half a step of its
 // acceleration; what is reported is the true one. A body is in free flight if its velocity changed in the last step by
-// its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly.
+// its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly. One whose
+// velocity is set flies unless a contact that pressed on it in the last step still holds it.
 //
 // A body on a spring is never in free flight. As it begins, its velocity gets half a step of what its weight and its
 // springs change that by; from then on it leads, as that of a body on a rod does.
@@ -124,13 +125,29 @@ static void find_unsupported(World *world, uint8_t *unsupported) {
     }
 }
 
+// Whether a contact that pressed on a body in the last step parts by less than the step pulls its bodies together.
+static bool keeps_contact(const Body *body) {
+    for (const cpArbiter *each = body->engine->arbiterList; each != NULL; each = next_of(each, body->engine)) {
+        Twist a = true_twist(each->body_a), b = true_twist(each->body_b);
+        for (int number = 0; number < each->count && presses(each); number++) {
+            const cpContact *point = each->contacts + number;
+            double parting = dot(sub(velocity_at(b, point->r2), velocity_at(a, point->r1)), each->n);
+            if (parting <= length(body->state.lead.v)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // Find the free flight that the next step begins with, and the bodies whose support was removed (body_count).
 static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
     find_leads(world, world->own->all_active);
     bool released = false;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        free[place_of(world, body->engine)] = body->state.free && !is_held(body);
+        bool stays = body->state.thrown && !is_loose(body) && keeps_contact(body);
+        free[place_of(world, body->engine)] = body->state.free && !stays && !is_held(body);
         released = released || is_loose(body);
     }
     if (!released || !has_stage(world, STAGE_SUPPORT)) {
@@ -255,10 +272,11 @@ void core_read_state(World *world, Motion *motions, uint8_t *free, uint8_t *unsu
     find_start(world, flies, falls);
     for (int place = 0; place < world->body_count - 1; place++) {
         const Body *body = world->bodies + place;
+        // What is still to begin on a spring begins in the next step of a space that is built from this state, too.
+        free[place] = flies[place] || begins_on_spring(body);
         // A sleeping body does not move, whatever velocity Chipmunk keeps for it.
-        Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, flies[place]);
+        Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, free[place]);
         motions[place] = (Motion){pose_of(body->engine), twist};
-        free[place] = flies[place];
         unsupported[place] = falls[place];
     }
 }

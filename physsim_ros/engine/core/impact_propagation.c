@@ -20,6 +20,7 @@
 // iterations in a sub-step do not carry an impact through a column (`docs/physics.md`, Piles).
 
 #include "impact_propagation.h"
+#include "joint_rows.h"
 #include "stages.h"
 
 // Restitution from which an impact is passed on, rather than taken together: below it, more than 7 / 16 of the energy
@@ -54,6 +55,25 @@ static bool is_elastic(const cpArbiter *arbiter) {
     return arbiter->count > 0 && arbiter->e >= elastic;
 }
 
+// Have bodies that rigid joints tie together share their fastest impact, which passes through joints at once.
+static void share_impacts(World *world, double *impacts) {
+    int *parents = sets_of(world);
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        bool rigid = joint->row_count > 0 && is_equality(world->rows + joint->first_row);
+        if (rigid && world->bodies[joint->a].dynamic && world->bodies[joint->b].dynamic) {
+            int a = root_of(parents, joint->a), b = root_of(parents, joint->b);
+            double fastest = greatest(impacts[a], impacts[b]);
+            unite(parents, a, b);
+            impacts[root_of(parents, a)] = fastest;
+        }
+    }
+    for (int number = 0; number < world->own->jointed_count; number++) {
+        int place = world->own->jointed[number];
+        impacts[place] = impacts[root_of(parents, place)];
+    }
+}
+
 // The fastest approach of each body; bodies that forces do not move take no impact.
 static double *fastest_impacts(World *world) {
     double *impacts = TAKE(&world->own->arena, double, world->body_count);
@@ -67,6 +87,9 @@ static double *fastest_impacts(World *world) {
                 *impact = ends[end]->m_inv > 0.0 ? greatest(*impact, approach) : 0.0;
             }
         }
+    }
+    if (world->own->jointed_count > 0) {
+        share_impacts(world, impacts);
     }
     return impacts;
 }

@@ -10,14 +10,18 @@
 // the other one now and where its step of Δt takes it, and away from the nearest point of each wall by that of
 // U⁰ exp(-r / R). Others out of sight count c. Its speed is bounded.
 // Every body that does not walk is a wall, at the disc around it: the paper has only people and walls. A wall beside
-// the way of a pedestrian pushes it aside, not back: in the paper nobody passes a gap of less than a metre.
+// the way of a pedestrian pushes it aside, not back: in the paper nobody passes a gap of less than a metre. Walls that
+// touch push as one: those count whose nearest point is a local minimum of the distance from all of them. Of a convex
+// wall it is none if a nearer wall touches it there, since the distance decreases on the way between both points.
 //
-// Cost: 30 ns a pair, and 0.1 µs a wall.
+// Cost: 30 ns a pair, 0.1 µs a wall, and 2 ns a pair of walls.
 
 #include "social_force.h"
 
 // Least half axis [m], so that the force of two at one place is finite.
 static const double least_axis = 0.01;
+// Gap of walls that touch, at most [m]: far above rounding.
+static const double seam = 1e-6;
 // What is straight ahead pushes by this to the right of straight away [rad], where the paper has fluctuations: who
 // meets another one or an obstacle head on stops before it without. What is beside the way pushes straight away.
 static const double sidestep = 0.1;
@@ -41,6 +45,49 @@ static Vec wall_repulsion(const SocialForce *model, const Disc *self, Nearest ne
     Vec force = scaled(nearest.outwards, size);
     double back = greatest(-dot(force, ahead), 0.0), room = clamped(beside / self->radius, 0.0, 1.0);
     return add(force, scaled(ahead, back * room));
+}
+
+// Whether a wall touches a point.
+static bool touches(const World *world, const cpShape *wall, Vec place) {
+    const double *bounds = wall->bb;
+    if (place.x < bounds[0] - seam || place.x > bounds[2] + seam || place.y < bounds[1] - seam ||
+        place.y > bounds[3] + seam) {
+        return false;
+    }
+    cpPointQueryInfo found;
+    return world->chipmunk.point_query(wall, place, &found) <= seam;
+}
+
+// Find the walls within sight, and for each the nearest one of those with which it pushes; return their number.
+static int find_fronts(const World *world, const Surroundings *around, const Disc *self, Vec ahead) {
+    Seen *seen = around->seen;
+    int count = 0;
+    for (int number = 0; number < around->wall_count; number++) {
+        const cpShape *wall = around->walls[number];
+        Nearest nearest;
+        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
+            seen[count] = (Seen){wall, nearest, distance_beside(wall, self->place, ahead), count};
+            count++;
+        }
+    }
+    for (int number = 0; number < count; number++) {
+        Nearest own = seen[number].nearest;
+        Vec place = sub(self->place, scaled(own.outwards, own.distance));
+        for (int other = 0; other < count && seen[number].front == number; other++) {
+            double nearer = own.distance - seen[other].nearest.distance;
+            if ((nearer > 0.0 || (nearer == 0.0 && other < number)) && touches(world, seen[other].wall, place)) {
+                seen[number].front = other;
+            }
+        }
+    }
+    for (int number = 0; number < count; number++) {
+        int front = number;
+        while (seen[front].front != front) {
+            front = seen[front].front;
+        }
+        seen[front].beside = least(seen[front].beside, seen[number].beside);
+    }
+    return count;
 }
 
 // A force that pushes away from something, turned to the right the more that is ahead.
@@ -77,12 +124,11 @@ Vec walk_by_social_force(const World *world, const Surroundings *around, const A
             force = add(force, of_disc(model, self, other, desired, ahead));
         }
     }
-    for (int number = 0; number < around->wall_count; number++) {
-        const cpShape *wall = around->walls[number];
-        Nearest nearest;
-        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
-            double beside = distance_beside(wall, self->place, ahead);
-            force = add(force, swerved(wall_repulsion(model, self, nearest, ahead, beside), desired));
+    int count = find_fronts(world, around, self, ahead);
+    for (int number = 0; number < count; number++) {
+        const Seen *wall = around->seen + number;
+        if (wall->front == number) {
+            force = add(force, swerved(wall_repulsion(model, self, wall->nearest, ahead, wall->beside), desired));
         }
     }
     Vec velocity = add(self->velocity, scaled(force, dt));

@@ -59,13 +59,14 @@ double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
 // Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that roll
-// (`rolling.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load
-// (`impact_loads.c`), contacts next to an impact (`impact_propagation.c`), points that are hit at once
-// (`block_solver.c`).
+// (`rolling.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`), rounds of the
+// solver (`steep_friction.c`), the greatest load (`impact_loads.c`), contacts next to an impact
+// (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
 void move_belts(World *world);
 void find_rolls(World *world);
 void order_points(World *world);
+void damp_steep_friction(World *world);
 void bound_loads(World *world);
 void defer_contacts(World *world);
 void solve_impacts(World *world);

@@ -65,6 +65,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     move_belts(world);
     correct_first_touches(world);
     order_points(world);
+    damp_steep_friction(world);
     bound_loads(world);
     time_impacts(world);
     defer_contacts(world);

@@ -79,7 +79,8 @@ Surroundings look_around(World *world) {
     }
     Surroundings around = {.discs = TAKE(arena, Disc, world->body_count),
                            .walls = TAKE(arena, const cpShape *, anchored_count),
-                           .anchored = TAKE(arena, const cpShape *, anchored_count)};
+                           .anchored = TAKE(arena, const cpShape *, anchored_count),
+                           .seen = TAKE(arena, Seen, anchored_count)};
     for (int list = 0; list < 2; list++) {
         around.planes[list] = TAKE(arena, HalfPlane, 2 * world->body_count + anchored_count);
     }

@@ -22,6 +22,20 @@ typedef struct HalfPlane {
     double c;
 } HalfPlane;
 
+// The nearest point of a wall.
+typedef struct Nearest {
+    double distance; // negative within the wall [m]
+    Vec outwards;    // direction from it, of length 1
+} Nearest;
+
+// A wall within sight of a pedestrian.
+typedef struct Seen {
+    const cpShape *wall;
+    Nearest nearest;
+    double beside; // distance from the line ahead, at most 0 where the line meets it [m]
+    int front;     // number of a nearer wall that touches its nearest point; its own if there is none
+} Seen;
+
 // All that has to be avoided: discs, and the shapes of what is anchored and no disc.
 typedef struct Surroundings {
     Disc *discs;
@@ -31,13 +45,8 @@ typedef struct Surroundings {
     const cpShape **anchored; // the shapes of all that is anchored, discs too
     int anchored_count;
     HalfPlane *planes[2]; // room for two of each disc and one of each wall, twice
+    Seen *seen;           // room for all walls
 } Surroundings;
-
-// The nearest point of a wall.
-typedef struct Nearest {
-    double distance; // negative within the wall [m]
-    Vec outwards;    // direction from it, of length 1
-} Nearest;
 
 // Walls and bodies further away than this do nothing [m]: the repulsion of the social force model has decayed to 1e-9
 // m/s² there, and ORCA's horizon of the default, 2 s, is nearer at any pace.
