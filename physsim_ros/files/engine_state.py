@@ -82,7 +82,7 @@ class _Driven(Checked):
 
     aim: Annotated[Pose, _POSE, 'commanded velocity'] = ORIGIN
     wheels: Annotated[Pose, _POSE, 'velocity of the wheels'] = ORIGIN
-    travel: Annotated[Pose, _POSE, 'way of the wheels'] = ORIGIN
+    travel: Annotated[Pose, _POSE, 'travel of the wheels'] = ORIGIN
     odometry: Annotated[Pose, _POSE, 'pose by odometry'] = ORIGIN
     covariance: Annotated[Covariance, _covariance, 'of that pose'] = SPAWNED.covariance
     drawn: Annotated[float, Within(-_GREATEST, _GREATEST, 'A s'), 'from its battery'] = 0.0

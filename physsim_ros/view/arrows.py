@@ -5,8 +5,9 @@
 Forces and velocities: arrows over the bodies, and the legend of forces.
 
 A contact is an arrow at its point, the force on a body, as long as the force is great. Of two
-dynamic bodies that is the force on the later spawned one. A velocity is the way of the next fifth
-of a second. Of applied forces, the arrow of the greatest one has the length of the legend's arrow.
+dynamic bodies that is the force on the later spawned one. A velocity is the displacement in the
+next fifth of a second. Of applied forces, the arrow of the greatest one has the length of the
+legend's arrow.
 """
 
 from __future__ import annotations
@@ -89,9 +90,9 @@ class ContactArrows:
         self._shown = lengths[-1] > 0
         vectors = np.concatenate(forces) / (self._force or 1.0)
         vectors /= np.maximum(1.0, np.hypot(*vectors.T) / CUT)[:, None]
-        ways = LENGTH * change.unit * vectors
+        shown = LENGTH * change.unit * vectors
         height = ARROWS * change.unit
-        arrows = _arrow_columns(np.concatenate(origins), ways, height, lengths)
+        arrows = _arrow_columns(np.concatenate(origins), shown, height, lengths)
         self._recording.send_columns(CONTACTS, batch.times_at(chosen), arrows)
 
     def _forces(self, batch: FrameBatch, index: int) -> tuple[Floats, Floats]:
@@ -140,9 +141,9 @@ class VelocityArrows:
         chosen = batch.sampled(max(_VELOCITY_PERIOD, sampling_period(len(moving))))
         snapshots = [batch.frames[index].snapshot for index in chosen]
         origins = np.concatenate([each.centers[moving] for each in snapshots])
-        ways = _AHEAD * np.concatenate([each.twists[moving, :2] for each in snapshots])
+        shown = _AHEAD * np.concatenate([each.twists[moving, :2] for each in snapshots])
         lengths = [len(moving)] * len(chosen)
-        arrows = _arrow_columns(origins, ways, ARROWS * change.unit, lengths)
+        arrows = _arrow_columns(origins, shown, ARROWS * change.unit, lengths)
         self._recording.send_columns(VELOCITIES, batch.times_at(chosen), arrows)
 
 
@@ -174,11 +175,11 @@ class AppliedArrows:
         forces = np.array([each.force for _, each, _ in found]).reshape(-1, 2)
         turning = np.array([each.axes == 'body' for _, each, _ in found], np.float64)
         origins = poses[..., :2] + rotated_each(np.array(points).reshape(-1, 2), poses[..., 2])
-        ways = rotated_each(forces, poses[..., 2] * turning)
-        ways *= LENGTH * change.unit / max(norms(forces).max(initial=0.0), 1e-9)
+        shown = rotated_each(forces, poses[..., 2] * turning)
+        shown *= LENGTH * change.unit / max(norms(forces).max(initial=0.0), 1e-9)
         lengths = [len(found)] * len(chosen)
         arrows = _arrow_columns(
-            origins.reshape(-1, 2), ways.reshape(-1, 2), ARROWS * change.unit, lengths
+            origins.reshape(-1, 2), shown.reshape(-1, 2), ARROWS * change.unit, lengths
         )
         self._recording.send_columns(FORCES, batch.times_at(chosen), arrows)
         self._shown = bool(found)
@@ -256,9 +257,9 @@ def _arrow_columns(
     """
     places = np.full((len(origins), 3), height, dtype=np.float32)
     places[:, :2] = origins
-    ways = np.zeros((len(vectors), 3), dtype=np.float32)
-    ways[:, :2] = vectors
-    return rr.Arrows3D.columns(origins=places, vectors=ways).partition(lengths)
+    shown = np.zeros((len(vectors), 3), dtype=np.float32)
+    shown[:, :2] = vectors
+    return rr.Arrows3D.columns(origins=places, vectors=shown).partition(lengths)
 
 
 def _log_style(recording: rr.RecordingStream, path: str, color: tuple[int, int, int]) -> None:

@@ -114,8 +114,8 @@ class RecordedClock:
     def _advance(self, frame: Frame) -> int:
         """Return the time of the next frame [ns]."""
         if self._before is not None:
-            way = abs(frame.snapshot.stamp - self._before.snapshot.stamp)
-            period = way / abs(frame.speed) if frame.speed and way else _PERIOD
+            elapsed = abs(frame.snapshot.stamp - self._before.snapshot.stamp)
+            period = elapsed / abs(frame.speed) if frame.speed and elapsed else _PERIOD
             self.recorded += round(min(max(period, _SHORTEST), _LONGEST))
         self._before = frame
         return self.recorded

@@ -75,8 +75,8 @@ def _thin_wall() -> float:
         sim = simulation(gravity=NOWHERE)
         spawn(sim, 'wall/0', Box(width=0.1, height=20.0), anchored=True)
         disc = spawn(sim, 'disc/0', Disc(radius=0.1), (distance, 0.0, 0.0), velocity=(-400.0, 0))
-        ways = [now.poses[disc, 0] for now in steps(sim, 12)]
-        deepest = max(deepest, 0.15 - min(ways))
+        places = [now.poses[disc, 0] for now in steps(sim, 12)]
+        deepest = max(deepest, 0.15 - min(places))
     return deepest
 
 
@@ -106,7 +106,7 @@ def _squares_that_part() -> float:
 
 def _between_walls() -> float:
     """
-    Play elastic balls between two walls for a second; return by how much their way is off.
+    Play elastic balls between two walls for a second; return by how far off they are.
 
     They start where no impact is at the end of a sub-step.
     """
@@ -118,7 +118,7 @@ def _between_walls() -> float:
         for row, speed in enumerate(speeds)
     ]
     *_, last = steps(sim, 240)
-    # The way unfolded: from the first wall and back is twice the gap.
+    # The path unfolded: from the first wall and back is twice the gap.
     phase = (0.203 + np.array(speeds)) % (2.0 * gap)
     exact = 0.05 + np.minimum(phase, 2.0 * gap - phase)
     return float(np.abs(last.poses[balls, 0] - exact).max() / gap)
@@ -260,7 +260,7 @@ def _gear_train() -> float:
 
 
 def _plough() -> float:
-    """Drive a plough through two discs; return by which share its way is off its velocity."""
+    """Drive a plough through two discs; return the error of its displacement [1, of it]."""
     sim = simulation(gravity=NOWHERE)
     row = spawn(sim, 'plough/0', Box(width=0.3, height=1.0), mass=1000.0, velocity=(30.0, 0.0))
     for number in range(2):
@@ -274,7 +274,7 @@ def _plough() -> float:
 
 
 def _slide() -> float:
-    """Slide a box on a floor until it stands; return the error of its way, v² / (2 μ g)."""
+    """Slide a box on a floor until it stands; return the error of its distance, v² / (2 μ g)."""
     sim = simulation(gravity=NOWHERE, floor_friction=0.5)
     spawn(sim, 'box/0', Box(width=0.4, height=0.2), velocity=(2.0, 0.0))
     *_, last = steps(sim, 240)
@@ -384,7 +384,7 @@ SCENES = (
     Scene('pendulum (15)', 'm g l', 0.01, _pendulum),
     Scene('chain of 50 (20)', 'length', 0.05, _chain),
     Scene('gear train', 'rad', 1e-6, _gear_train),
-    Scene('plough (28)', 'way', 0.02, _plough),
+    Scene('plough (28)', 'displacement', 0.02, _plough),
     Scene('slide on a floor (37)', 'm', 0.5 * G * DT**2, _slide),
     Scene('robot on an arc (38)', 'm', 1e-6, _robot),
     Scene('bridge', 'm', 2e-3, _bridge),

@@ -133,9 +133,9 @@ def moved(states: list[Snapshot]) -> float:
 
 
 def braked(states: list[Snapshot]) -> float:
-    """Return the error of the way of the braking box [m]."""
-    way = SPEED**2 / (2 * FRICTION * G)
-    return abs(float(states[-1].centers[-1, 0] - states[0].centers[-1, 0]) - way)
+    """Return the error of the distance of the braking box [m]."""
+    distance = SPEED**2 / (2 * FRICTION * G)
+    return abs(float(states[-1].centers[-1, 0] - states[0].centers[-1, 0]) - distance)
 
 
 def deepest(states: list[Snapshot]) -> float:
@@ -192,10 +192,10 @@ TRIALS: dict[str, Trial] = {
     'chain of fifty, gaps': Trial(chain, 5.0, gap, 1e-3, 'mm'),
     'bridge that bears 30 : 1, gaps': Trial(bridge, 5.0, gap, 20e-3, 'mm'),
     'bob on a spring, energy in 10 s': Trial(bob_on_spring, 10.0, energy, 1e-2, '%'),
-    'tower of twenty, way of its top in 10 s': Trial(tower, 10.0, moved, 10e-3, 'mm'),
+    'tower of twenty, displacement of its top in 10 s': Trial(tower, 10.0, moved, 10e-3, 'mm'),
     '1,000 kg on three of 20 kg, the same': Trial(load, 10.0, moved, 3e-3, 'mm'),
-    'braking box, way': Trial(braking, 2.0, braked, 1e-3, 'mm'),
-    'box on a slope, way in 5 s': Trial(slope, 5.0, moved, 1e-3, 'mm'),
+    'braking box, distance': Trial(braking, 2.0, braked, 1e-3, 'mm'),
+    'box on a slope, displacement in 5 s': Trial(slope, 5.0, moved, 1e-3, 'mm'),
     'crowd of 400, depth': Trial(crowd, 5.0, deepest, 6e-3, 'mm'),
     'cradle, speeds': Trial(cradle, 2.0, swapped, 1e-3, '%'),
     'bounce, height in 5 s': Trial(bounce, 5.0, height, 1e-3, 'mm'),

@@ -69,8 +69,8 @@ static bool is_near(const World *world, const Actor *actor) {
     if (actor->near < 0) {
         return false;
     }
-    Vec way = sub(world->bodies[actor->near].engine->p, world->bodies[actor->body].engine->p);
-    return length(way) <= actor->distance;
+    Vec offset = sub(world->bodies[actor->near].engine->p, world->bodies[actor->body].engine->p);
+    return length(offset) <= actor->distance;
 }
 
 static void start_actors(World *world) {
@@ -104,17 +104,17 @@ static Pose place_on_path(const Actor *actor, double time) {
     }
     const Waypoint *a = first + low, *b = first + high;
     double share = b == a ? 0.0 : clamped((time - a->time) / (b->time - a->time), 0.0, 1.0);
-    Twist way = {sub(b->pose.p, a->pose.p), b->pose.yaw - a->pose.yaw};
-    return moved(a->pose, way, share);
+    Twist displacement = {sub(b->pose.p, a->pose.p), b->pose.yaw - a->pose.yaw};
+    return moved(a->pose, displacement, share);
 }
 
 // The velocity of the centre of mass that brings a kinematic body in a step to where its path is at the end.
 static Twist keep_to_path(const Actor *actor, const Body *body, Pose end, double dt) {
     double turn = actor->path.turns != 0.0 ? remainder(end.yaw - body->engine->a, two_pi) : 0.0;
     Rotation by = rotation(body->engine->a + turn);
-    Vec way = sub(add(end.p, rotated(body->offset, by)), body->engine->p);
+    Vec displacement = sub(add(end.p, rotated(body->offset, by)), body->engine->p);
     double most_turn = 2.0 * actor->path.turn_rate;
-    return (Twist){shortened(scaled(way, 1.0 / dt), 2.0 * actor->path.speed),
+    return (Twist){shortened(scaled(displacement, 1.0 / dt), 2.0 * actor->path.speed),
                    clamped(turn / dt, -most_turn, most_turn)};
 }
 
@@ -159,17 +159,17 @@ static int next_point(const Actor *actor) {
 
 // The velocity that a pedestrian would have alone.
 static Vec desired_velocity(const World *world, const Surroundings *around, Actor *actor, const Disc *self) {
-    Vec way = sub(actor->points[next_point(actor)].pose.p, self->place);
+    Vec offset = sub(actor->points[next_point(actor)].pose.p, self->place);
     bool ends = actor->repeat == ONCE;
-    if (length(way) <= actor->pace.goal_radius && !(ends && actor->state.reached >= actor->point_count)) {
+    if (length(offset) <= actor->pace.goal_radius && !(ends && actor->state.reached >= actor->point_count)) {
         actor->state.reached++;
-        way = sub(actor->points[next_point(actor)].pose.p, self->place);
+        offset = sub(actor->points[next_point(actor)].pose.p, self->place);
     }
     double speed = actor->pace.speed;
     if (ends && actor->state.reached >= actor->point_count - 1) {
-        speed = least(speed, length(way) / settling_time);
+        speed = least(speed, length(offset) / settling_time);
     }
-    return scaled(heading_to(world, around, self, add(self->place, way)), speed);
+    return scaled(heading_to(world, around, self, add(self->place, offset)), speed);
 }
 
 static Vec walk(World *world, const Surroundings *around, Actor *actor, double dt) {
@@ -190,8 +190,8 @@ static void command(const World *world, const Actor *actor, Robot *robot) {
     if (world->step < robot->state.until || !has_begun(world, actor)) {
         return;
     }
-    Vec local = rotated_back(actor->wish.v, rotation(world->bodies[actor->body].engine->a));
-    double turn = actor->wish.w;
+    Vec local = rotated_back(actor->chosen.v, rotation(world->bodies[actor->body].engine->a));
+    double turn = actor->chosen.w;
     if (!actor->holonomic) {
         turn = local.y / actor->ahead;
         local = vec(local.x, 0.0);
@@ -202,43 +202,43 @@ static void command(const World *world, const Actor *actor, Robot *robot) {
 
 static void move_actor(const World *world, const Actor *actor) {
     Body *body = world->bodies + actor->body;
-    bool moves = actor->wish.v.x != 0.0 || actor->wish.v.y != 0.0 || actor->wish.w != 0.0;
+    bool moves = actor->chosen.v.x != 0.0 || actor->chosen.v.y != 0.0 || actor->chosen.w != 0.0;
     if (moves && sleeps(body)) {
         world->chipmunk.body_activate(body->engine);
     }
     if (actor->robot >= 0) {
         command(world, actor, robot_of(world, actor));
     } else if (!body->dynamic) {
-        set_twist(body->engine, actor->wish);
+        set_twist(body->engine, actor->chosen);
     }
 }
 
-void begin_wishes(World *world) {
+void begin_actors(World *world) {
     start_actors(world);
-    world->own->wishing = 0;
+    world->own->next_actor = 0;
     world->own->around = NULL;
 }
 
-bool find_wish(World *world) {
+bool choose_velocity(World *world) {
     Private *own = world->own;
-    if (own->wishing == world->actor_count) {
+    if (own->next_actor == world->actor_count) {
         return false;
     }
-    Actor *actor = world->actors + own->wishing++;
+    Actor *actor = world->actors + own->next_actor++;
     double dt = world->dt * (double)SUB_STEPS;
-    actor->wish = (Twist){0};
+    actor->chosen = (Twist){0};
     if (!has_begun(world, actor)) {
         return true;
     }
     if (actor->kind == ACTOR_PATH) {
-        actor->wish = follow_path(world, actor, dt);
+        actor->chosen = follow_path(world, actor, dt);
         return true;
     }
     if (own->around == NULL) {
         own->around = TAKE(&own->arena, Surroundings, 1);
-        *own->around = look_around(world);
+        *own->around = surroundings_of(world);
     }
-    actor->wish.v = walk(world, own->around, actor, dt);
+    actor->chosen.v = walk(world, own->around, actor, dt);
     return true;
 }
 

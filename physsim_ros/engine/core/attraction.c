@@ -40,12 +40,12 @@ Vec *attractions(World *world, double ahead) {
         const Attractor *a = world->attractors + one;
         for (int other = one + 1; other < world->attractor_count; other++) {
             const Attractor *b = world->attractors + other;
-            Vec way = sub(places[one], places[other]);
-            double square = dot(way, way) + softening;
+            Vec offset = sub(places[one], places[other]);
+            double square = dot(offset, offset) + softening;
             // Two bodies at one point do not attract each other.
             if (square > 0.0) {
                 double strength = world->coulomb * a->charge * b->charge - world->gravitation * a->mass * b->mass;
-                Vec force = scaled(way, strength * falloff(square, world->attraction_power));
+                Vec force = scaled(offset, strength * falloff(square, world->attraction_power));
                 forces[one] = add(forces[one], force);
                 forces[other] = sub(forces[other], force);
             }

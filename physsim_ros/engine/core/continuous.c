@@ -22,12 +22,12 @@ enum { FEW = 8 };
 
 // Whether a body could meet others in a step unseen by Chipmunk.
 static bool is_fast(const World *world, const Body *body) {
-    double way = length(body->engine->v) + fabs(body->engine->w) * body->turning_radius;
-    return is_solid(body) && way * world->dt > world->own->least_depth;
+    double distance = length(body->engine->v) + fabs(body->engine->w) * body->turning_radius;
+    return is_solid(body) && distance * world->dt > world->own->least_depth;
 }
 
-// The way of a body in the coming step.
-static Twist way_of(const World *world, const Body *body) {
+// The displacement of a body in the coming step.
+static Twist displacement_of(const World *world, const Body *body) {
     return twist_sum((Twist){0}, twist_of(body->engine), world->dt);
 }
 
@@ -45,7 +45,7 @@ static bool boxes_meet(World *world, const Statics *statics) {
         Body *body = active_at(world, number);
         if (is_fast(world, body)) {
             assert(count < FEW);
-            fast[count++] = mover_of(body, way_of(world, body));
+            fast[count++] = mover_of(body, displacement_of(world, body));
         }
     }
     bool meet = false;
@@ -94,7 +94,7 @@ void clamp_moves(World *world) {
     size_t mark = arena_mark(arena);
     const Statics *statics = statics_of(world);
     if (fast > FEW || boxes_meet(world, statics)) {
-        Sweep sweep = sweep_of(world, way_of);
+        Sweep sweep = sweep_of(world, displacement_of);
         int *changed = TAKE(arena, int, sweep.count), count = 0;
         for (int number = 0; number < sweep.count; number++) {
             if (is_fast(world, sweep.movers[number].body)) {

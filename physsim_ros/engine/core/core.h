@@ -49,10 +49,10 @@ typedef struct BodyScratch {
     Twist under;     // mean velocity of the floor under it
     Twist without;   // velocity after the step without contacts, on a floor; scratch of block_solver.c
     double left;     // of the step after continuous collision has stopped it [s]
-    Twist carried;   // way with what has stopped it, in that time [m, rad]
+    Twist carried;   // displacement with what has stopped it, in that time [m, rad]
     double since;    // time from its first impact to the end of its motion [s]
-    Twist rest;      // way that it has still to go after its impact [m, rad]
-    uint8_t rests;   // that way has been found
+    Twist rest;      // displacement that remains after its impact [m, rad]
+    uint8_t rests;   // that displacement has been found
     uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
     uint8_t thrown;  // its velocity was set before this sub-step
     double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
@@ -170,9 +170,9 @@ typedef struct Robot {
     int32_t wheel_count; // that drive
     Twist wheels[4];     // speed of the rim of each wheel, by the velocity of the floor
     double acceleration; // greatest of the rim of a wheel [m/s²]
-    double curvature;    // greatest of its way [1/m]
+    double curvature;    // greatest of its path [1/m]
     cpVect center;       // of mass in the frame of the body [m]
-    double slip[2];      // deviation of the odometry after 1 m of way: in distance [√m], in heading [rad/√m]
+    double slip[2];      // deviation of the odometry after 1 m of travel: in distance [√m], in heading [rad/√m]
     Battery battery;
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     RobotState state;
@@ -241,7 +241,7 @@ typedef struct Actor {
     Orca orca;
     ActorState state;
     // These fields are set and used within a step.
-    Twist wish; // velocity of the centre of mass that it goes at, world axes
+    Twist chosen; // velocity of the centre of mass in the coming step, world axes
 } Actor;
 
 // Kinds of constraint rows: which number x of the poses of two bodies a row bounds.
@@ -251,9 +251,9 @@ enum {
     ROW_ANGLE,    // ratio yaw_b - yaw_a [rad]
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
-    ROW_ALONG,    // way of the first anchor along that axis [m]
+    ROW_ALONG,    // displacement of the first anchor along that axis [m]
     ROW_ROLL,     // the same, and radius (yaw_a - yaw_b) [m]
-    ROW_PATH      // length of a rope on its way past its guides [m]
+    ROW_PATH      // length of a rope past its guides [m]
 };
 
 // Laws of constraint rows: lower <= x <= upper, both the same for an equality; the force of a spring and its damper,
@@ -261,7 +261,7 @@ enum {
 // x does not rise, as in a ratchet, or does not fall.
 enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE, LAW_FRICTION, LAW_FALLS, LAW_RISES };
 
-// What a rope passes, in the order of its way: the bodies at its ends, rings, and wheels. Of a gear it is the carrier.
+// What a rope passes, in order along it: the bodies at its ends, rings, and wheels. Of a gear it is the carrier.
 typedef struct Guide {
     int32_t body;
     cpVect anchor;                  // the centre of a wheel in the frame of its body, from the centre of mass [m]
@@ -299,7 +299,7 @@ typedef struct Motor {
     int32_t joint, row; // numbers of them
     double effort;      // greatest force [N] or torque [N m]
     double speed;       // greatest rate [m/s, rad/s]
-    double gain;        // rate by the way that is left [1/s]
+    double gain;        // rate by the distance that is left [1/s]
     double zero;        // x of the row where the joint is at 0 [m, rad]
     int32_t mode;       // of its command, as the two below; without points it holds
     int32_t point_count;

@@ -8,16 +8,16 @@
 // Method: the velocity of the wheels goes to the commanded one on a straight line, as fast as the rim of no wheel
 // accelerates more than it can; a robot that starts on an arc stays on it. The wheels turn so whatever the body
 // does: where the floor cannot move it, they slip.
-// Law: the way of the wheels is the integral of their velocity by the trapezoidal rule, and exact.
+// Law: the travel of the wheels is the integral of their velocity by the trapezoidal rule, and exact.
 //
 // Odometry.
-// Method: the way of the wheels in a step is an arc whose turn the gyroscope measures (exact integration of a
-// constant twist; Siegwart, Nourbakhsh, "Autonomous Mobile Robots"). Errors are random walks: those of the way grow
-// with its root, those of the heading with the root of way and turn (Thrun, Burgard, Fox, "Probabilistic Robotics",
-// section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there is none.
-// The covariance of the reckoned pose is propagated along the way as that of an extended Kalman filter is (ibid.,
-// section 3.3): P <- F P Fᵀ + Q, where F tells how far an error of the heading moves the end of the chord, and Q the
-// new errors.
+// Method: the travel of the wheels in a step is an arc whose turn the gyroscope measures (exact integration of a
+// constant twist; Siegwart, Nourbakhsh, "Autonomous Mobile Robots"). Errors are random walks: those of the distance
+// grow with its root, those of the heading with the root of distance and turn (Thrun, Burgard, Fox, "Probabilistic
+// Robotics", section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there
+// is none. The covariance of the reckoned pose is propagated along the path as that of an extended Kalman filter is
+// (ibid., section 3.3): P <- F P Fᵀ + Q, where F tells how far an error of the heading moves the end of the chord, and
+// Q the new errors.
 //
 // Battery.
 // Method: the charge is the integral of the currents (coulomb counting); each is constant. Where none is left, wheels
@@ -124,9 +124,9 @@ void roll_wheels(World *world) {
     }
 }
 
-// A reckoned pose after a way, as seen from the robot.
-static Pose reckoned(Pose pose, Vec way, double turn) {
-    Vec chord = rotated(scaled(way, chord_by_arc(turn)), rotation(pose.yaw + turn / 2.0));
+// A reckoned pose after a displacement, as seen from the robot.
+static Pose reckoned(Pose pose, Vec displacement, double turn) {
+    Vec chord = rotated(scaled(displacement, chord_by_arc(turn)), rotation(pose.yaw + turn / 2.0));
     return (Pose){add(pose.p, chord), pose.yaw + turn};
 }
 
@@ -148,17 +148,17 @@ static void propagate_covariance(Robot *robot, Vec chord, double distance, doubl
     }
 }
 
-// Add the step to the way of the wheels, and to the odometry.
+// Add the step to the travel of the wheels, and to the odometry.
 void reckon_odometry(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         const Body *body = world->bodies + robot->body;
-        Vec way = scaled(robot->mean.v, world->dt), measured = way;
-        double turn = body->engine->a - body->scratch.begin.yaw, drift = 0.0, distance = length(way);
+        Vec travel = scaled(robot->mean.v, world->dt), measured = travel;
+        double turn = body->engine->a - body->scratch.begin.yaw, drift = 0.0, distance = length(travel);
         if (robot->noise != NULL) {
             const cpVect noise = scaled(robot->noise[world->own->call_step], 1.0 / sqrt(SUB_STEPS));
             double share = distance > 0.0 ? 1.0 + noise.x * robot->slip[0] / sqrt(distance) : 1.0;
-            measured = scaled(way, share);
+            measured = scaled(travel, share);
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
         use_battery(world, robot);

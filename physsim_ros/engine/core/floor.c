@@ -211,14 +211,14 @@ static Driving driving_of(const World *world, int place, const Robot **robot, co
     }
     if (*actor < world->actors + world->actor_count && (*actor)->body == place) {
         if ((*actor)->robot < 0) {
-            driving.mean = driving.end = (*actor)->wish;
+            driving.mean = driving.end = (*actor)->chosen;
         }
         ++*actor;
     }
     return driving;
 }
 
-void pull_by_floor(World *world) {
+void apply_floor(World *world) {
     if (!has_stage(world, STAGE_FLOOR)) {
         return;
     }

@@ -91,21 +91,21 @@ Basin basin_of(const Region *region, const cpShape *shape, Pose pose, Arena *are
     return basin;
 }
 
-Fit fit_of(const Basin *basin, Vec center, double reach) {
-    Vec way = sub(center, basin->center);
+Containment containment_of(const Basin *basin, Vec center, double reach) {
+    Vec offset = sub(center, basin->center);
     double apart = basin->radius + reach;
-    if (dot(way, way) >= apart * apart) {
+    if (dot(offset, offset) >= apart * apart) {
         return OUTSIDE;
     }
-    Fit fit = INSIDE;
+    Containment containment = INSIDE;
     for (int number = 0; number < basin->count; number++) {
         double depth = dot(basin->normals[number], sub(center, basin->corners[number]));
         if (depth >= reach) {
             return OUTSIDE;
         }
-        fit = depth > -reach ? CROSSING : fit;
+        containment = depth > -reach ? CROSSING : containment;
     }
-    return fit;
+    return containment;
 }
 
 // Polygons
@@ -131,7 +131,7 @@ static Outline clipped(Outline from, Line line, Arena *arena) {
     return kept;
 }
 
-static void add_area(Wet *wet, Vec a, Vec b, Vec c) {
+static void add_area(Immersion *wet, Vec a, Vec b, Vec c) {
     double area = cross(sub(b, a), sub(c, a)) / 2.0;
     wet->area += area;
     wet->moment = add(wet->moment, scaled(add(a, add(b, c)), area / 3.0));
@@ -145,14 +145,14 @@ static Outline in_basin(Outline outline, const Around *around, Arena *arena) {
     return outline;
 }
 
-static void add_bulk(Wet *wet, Outline outline) {
+static void add_bulk(Immersion *wet, Outline outline) {
     const Vertex *vertices = outline.vertices;
     for (int number = 2; number < outline.count; number++) {
         add_area(wet, vertices[0].place, vertices[number - 1].place, vertices[number].place);
     }
 }
 
-static void add_sides(Wet *wet, Outline outline) {
+static void add_sides(Immersion *wet, Outline outline) {
     for (int number = 0; number < outline.count; number++) {
         if (outline.vertices[number].own) {
             const Vertex *end = outline.vertices + (number + 1 < outline.count ? number + 1 : 0);
@@ -164,7 +164,7 @@ static void add_sides(Wet *wet, Outline outline) {
 // Discs
 
 // Add the sector between the directions of two points, which lie outside the disc as the edge between them does.
-static void add_sector(Wet *wet, Vec center, double radius, Vec a, Vec b) {
+static void add_sector(Immersion *wet, Vec center, double radius, Vec a, Vec b) {
     double turn = atan2(cross(a, b), dot(a, b)), from = atan2(a.y, a.x);
     Rotation begin = rotation(from), end = rotation(from + turn);
     double area = radius * radius * turn / 2.0, third = radius * radius * radius / 3.0;
@@ -175,7 +175,7 @@ static void add_sector(Wet *wet, Vec center, double radius, Vec a, Vec b) {
 }
 
 // Add the segment of a disc that a line cuts off, behind its normal; `ahead` is how far before it the centre is [m].
-static void add_disc_segment(Wet *wet, Vec center, double radius, Vec normal, double ahead) {
+static void add_disc_segment(Immersion *wet, Vec center, double radius, Vec normal, double ahead) {
     if (ahead >= radius) {
         return;
     }
@@ -188,7 +188,7 @@ static void add_disc_segment(Wet *wet, Vec center, double radius, Vec normal, do
 }
 
 // Add what of a disc lies in a convex polygon, as the sum over the triangles that the centre makes with its edges.
-static void add_disc(Wet *wet, Vec center, double radius, const Outline *basin) {
+static void add_disc(Immersion *wet, Vec center, double radius, const Outline *basin) {
     for (int number = 0; number < basin->count; number++) {
         Vec a = sub(basin->vertices[number].place, center);
         Vec b = sub(basin->vertices[(number + 1) % basin->count].place, center), edge = sub(b, a);
@@ -221,7 +221,7 @@ static Outline basin_edges(const Around *around, Arena *arena) {
     return edges;
 }
 
-static void add_disc_in_basin(Wet *wet, Vec center, double radius, const Around *around, Arena *arena) {
+static void add_disc_in_basin(Immersion *wet, Vec center, double radius, const Around *around, Arena *arena) {
     if (around->line_count == 1) {
         Line line = around->lines[0];
         add_disc_segment(wet, center, radius, line.normal, dot(line.normal, sub(center, line.corner)));
@@ -231,7 +231,7 @@ static void add_disc_in_basin(Wet *wet, Vec center, double radius, const Around 
     }
 }
 
-static void add_whole_arc(Wet *wet, Vec center, double radius, double from, double turn) {
+static void add_whole_arc(Immersion *wet, Vec center, double radius, double from, double turn) {
     wet->bows[wet->bow_count++] = (Bow){center, radius, from, from + turn};
 }
 
@@ -270,7 +270,7 @@ static Outline bar_of(Vec a, Vec b, double radius, Arena *arena) {
 }
 
 // Add a segment: a bar, and at each end half a disc.
-static void add_segment(Wet *wet, Vec a, Vec b, double radius, const Around *around, Arena *arena) {
+static void add_segment(Immersion *wet, Vec a, Vec b, double radius, const Around *around, Arena *arena) {
     Outline bar = in_basin(bar_of(a, b, radius, arena), around, arena);
     add_bulk(wet, bar);
     add_sides(wet, bar);
@@ -286,7 +286,7 @@ static void add_segment(Wet *wet, Vec a, Vec b, double radius, const Around *aro
     }
 }
 
-static void add_piece(Wet *wet, const cpShape *shape, Rotation by, const Around *around, Arena *arena) {
+static void add_piece(Immersion *wet, const cpShape *shape, Rotation by, const Around *around, Arena *arena) {
     double radius = radius_of(shape);
     switch (kind_of(shape)) {
     case SHAPE_CIRCLE:
@@ -318,8 +318,8 @@ static Around around_of(const Basin *basin, Vec origin, double reach, Arena *are
     return around;
 }
 
-Wet immersed(const Body *body, Pose pose, const Basin *basin, bool outlined, Arena *arena) {
-    Wet wet = {0};
+Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outlined, Arena *arena) {
+    Immersion wet = {0};
     if (basin == NULL && !outlined) {
         wet.area = body->area;
         return wet;

@@ -34,23 +34,23 @@ typedef struct Bow {
 } Bow;
 
 // What of a body is in a region; places are from its centre of mass, in axes of the world.
-typedef struct Wet {
+typedef struct Immersion {
     double area; // [m²]
     Vec moment;  // area times centroid [m³]
     Side *sides;
     Bow *bows;
     int side_count, bow_count;
-} Wet;
+} Immersion;
 
-typedef enum Fit { OUTSIDE, CROSSING, INSIDE } Fit;
+typedef enum Containment { OUTSIDE, CROSSING, INSIDE } Containment;
 
 // The piece of a region at a pose of its body.
 Basin basin_of(const Region *region, const cpShape *shape, Pose pose, Arena *arena);
 
 // How a disc around a body lies to a piece of a region.
-Fit fit_of(const Basin *basin, Vec center, double reach);
+Containment containment_of(const Basin *basin, Vec center, double reach);
 
 // What of a body at a pose is wet; no basin is all of it. The outline is left out where nothing needs it.
-Wet immersed(const Body *body, Pose pose, const Basin *basin, bool outlined, Arena *arena);
+Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outlined, Arena *arena);
 
 #endif

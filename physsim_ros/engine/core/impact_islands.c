@@ -3,7 +3,7 @@
 
 // Islands of bodies that have met in the coming step, and move on as one.
 //
-// Problem: a body that has met another one meets others on the way that the two then go together.
+// Problem: a body that has met another one meets others as the two move on together.
 // Method: rounds. Each finds the impacts to come, and joins those that meet before anything near them does. The two go
 // on with their common momentum and angular momentum, or as the anchored or kinematic body that they have met, the
 // leader.
@@ -71,9 +71,9 @@ static bool collide(const Mover *one, const Mover *other) {
 
 // By how far two movers approach in the rest of the step, at most [m].
 static double approach_left(const Mover *one, const Mover *other) {
-    double way = length(sub(center_rate(one), center_rate(other)));
-    way += fabs(one->rate.w) * one->turning + fabs(other->rate.w) * other->turning;
-    return way * (1.0 - greatest(one->since, other->since));
+    double distance = length(sub(center_rate(one), center_rate(other)));
+    distance += fabs(one->rate.w) * one->turning + fabs(other->rate.w) * other->turning;
+    return distance * (1.0 - greatest(one->since, other->since));
 }
 
 static bool find_impact(int number, void *data) {
@@ -123,7 +123,7 @@ static int by_share(const void *one, const void *other) {
 }
 
 // The common motion of the members of an island, with the momentum and angular momentum that they have: its centre of
-// mass, the way of that and their turn in a step.
+// mass, its displacement and their rotation in a step.
 static Twist common_motion(const Sweep *sweep, const int *members, int count, double share, Vec *center) {
     double mass = 0.0, moment = 0.0, angular = 0.0;
     Vec sum = {0.0, 0.0}, momentum = {0.0, 0.0};
@@ -137,17 +137,17 @@ static Twist common_motion(const Sweep *sweep, const int *members, int count, do
         momentum = add(momentum, scaled(velocity_at(mover->rate, sub(pose.p, pivot)), own));
     }
     *center = scaled(sum, 1.0 / mass);
-    Vec way = scaled(momentum, 1.0 / mass);
+    Vec displacement = scaled(momentum, 1.0 / mass);
     for (int number = 0; number < count; number++) {
         const Mover *mover = sweep->movers + members[number];
         Vec pivot;
         Pose pose = pose_at(mover, share, &pivot);
         double own = mover->turning > 0.0 ? mover->body->engine->i : 0.0;
-        Vec arm = sub(pose.p, *center), relative = sub(velocity_at(mover->rate, sub(pose.p, pivot)), way);
+        Vec arm = sub(pose.p, *center), relative = sub(velocity_at(mover->rate, sub(pose.p, pivot)), displacement);
         angular += own * mover->rate.w + mover->body->engine->m * cross(arm, relative);
         moment += own + mover->body->engine->m * dot(arm, arm);
     }
-    return (Twist){way, moment > 0.0 ? angular / moment : 0.0};
+    return (Twist){displacement, moment > 0.0 ? angular / moment : 0.0};
 }
 
 // List the members of the islands of two movers, those that forces move; an earlier impact may have made them one.

@@ -8,7 +8,7 @@
 // a disc of clay that falls on a light plate on the floor is thrown up by half a metre.
 // Method: our own. A load grows step by step, an impact comes at once. A contact starts the next step with at most four
 // times the impulse with which it started this one, and what stops the slowest impact; one that begins starts the next
-// with none, or with the least number that tells a one-way body that it has borne one.
+// with none, or with the least number that tells a one-way body that it has carried one.
 // Law: each contact is bounded by itself, so that a pile bears its load while things still fall onto it.
 // Limit: with a bound of twice the impulse, one crowd in a hundred gains 5 % of its energy, since more of the loads are
 // bounded beside others that are not.
@@ -52,7 +52,7 @@ void bound_loads(World *world) {
     }
 }
 
-void take_out_impacts(World *world) {
+void remove_impact_impulses(World *world) {
     for (int number = 0; number < world->own->load_count; number++) {
         const Load *load = world->own->loads + number;
         if (load->contact->jnAcc > load->most) {

@@ -8,10 +8,10 @@
 // Method: a velocity loop within a position loop, as drives of machines have them (cascade control). The inner loop is
 // a row of the joint solver, which gives the joint its rate with all loads that act, as far as the greatest force
 // allows; so a joint in its place bears any lesser load without sagging. The outer loop asks for the rate of the
-// trajectory and `gain` times the way that is left: the way falls as exp(-gain t). A torque is a motor that is no
-// stronger and never fast enough. Between two points of a trajectory the position is a cubic polynomial where both have
-// rates, else a straight line, as the joint trajectory controller of ros2_control has them. Without a command a motor
-// holds.
+// trajectory and `gain` times the distance that is left: the distance falls as exp(-gain t). A torque is a motor that
+// is no stronger and never fast enough. Between two points of a trajectory the position is a cubic polynomial where
+// both have rates, else a straight line, as the joint trajectory controller of ros2_control has them. Without a command
+// a motor holds.
 //
 // Cost: 20 ns a motor and sub-step, beside its row.
 
@@ -20,13 +20,13 @@
 
 // The value between two points of a command.
 static double interpolated(CommandPoint a, CommandPoint b, double time) {
-    double span = b.time - a.time, share = (time - a.time) / span, way = b.value - a.value;
+    double span = b.time - a.time, share = (time - a.time) / span, change = b.value - a.value;
     if (isnan(a.rate) || isnan(b.rate)) {
-        return a.value + share * way;
+        return a.value + share * change;
     }
     // Cubic Hermite interpolation.
     double start = a.rate * span, end = b.rate * span;
-    double square = 3.0 * way - 2.0 * start - end, cube = start + end - 2.0 * way;
+    double square = 3.0 * change - 2.0 * start - end, cube = start + end - 2.0 * change;
     return a.value + share * (start + share * (square + share * cube));
 }
 
@@ -64,7 +64,7 @@ static void obey(const World *world, const Motor *motor, double *rate, double *m
     double value = command_at(motor, time);
     switch (motor->mode) {
     case COMMAND_POSITION:
-        // The trajectory of a sub-step, and the share of the way to it by which exp(-gain t) falls.
+        // The trajectory of a sub-step, and the share of the distance to it by which exp(-gain t) falls.
         *rate =
             (command_at(motor, time + dt) - value - expm1(-motor->gain * dt) * (value - position_of(world, motor))) /
             dt;

@@ -10,7 +10,7 @@
 
 // Length of the arm with which a pin pulls a slider across its line [m]; any will do.
 static const double across_arm = 1.0;
-// The constraint of a slider that limits its way, after those across its line and of its turn.
+// The constraint of a slider that limits its travel, after those across its line and of its turn.
 enum { LIMIT_PART = 2 };
 // An unstepped joint has come together where its rows are no more than this out of their bounds [m, rad]: ten times the
 // slop of limits.
@@ -222,8 +222,8 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     }
     const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
     Vec at_a = world_place(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
-    double way = length(sub(at_a, world_place(b, limit->anchorA)));
-    return 2.0 * way < limit->min + limit->max ? axis : negated(axis);
+    double distance = length(sub(at_a, world_place(b, limit->anchorA)));
+    return 2.0 * distance < limit->min + limit->max ? axis : negated(axis);
 }
 
 // Whether a part acts along a line: that of a rod, a rope, a spring, a limit or a drive.
@@ -265,7 +265,7 @@ static Vec pull_of(const World *world, const Joint *joint, const Part *part, Vec
     return is_linear(part) ? scaled(impulse, reported_share(a, b, impulse)) : impulse;
 }
 
-void begin_totals(World *world) {
+void clear_totals(World *world) {
     for (int number = 0; number < world->part_count; number++) {
         world->parts[number].total = vec(0.0, 0.0);
     }

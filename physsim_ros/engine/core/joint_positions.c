@@ -61,7 +61,7 @@ static double gap_of(const Row *row, bool holds, double excess) {
     return holds ? copysign(greatest(fabs(excess) - slop, 0.0), excess) : 0.0;
 }
 
-static Twist way(Pose from, Pose to) {
+static Twist displacement(Pose from, Pose to) {
     return (Twist){sub(to.p, from.p), to.yaw - from.yaw};
 }
 
@@ -141,9 +141,9 @@ static void measure_gaps(const Solve *solve, Displacement *move) {
     for (int number = 0; number < island->touch_count; number++) {
         int row = island->joint_row_count + number;
         Ends ends = island->ends[row];
-        Twist ways[2] = {way(move->start[ends.a], solve->poses[ends.a]),
-                         way(move->start[ends.b], solve->poses[ends.b])};
-        move->distances[number] = move->apart[number] + rate(solve->jacobians[row], (Ends){0, 1}, ways);
+        Twist displacements[2] = {displacement(move->start[ends.a], solve->poses[ends.a]),
+                                  displacement(move->start[ends.b], solve->poses[ends.b])};
+        move->distances[number] = move->apart[number] + rate(solve->jacobians[row], (Ends){0, 1}, displacements);
         double overlap = greatest(-move->distances[number], 0.0);
         move->sum += overlap;
         move->widest = greatest(move->widest, overlap);
@@ -197,7 +197,7 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     const Island *island = solve->island;
     Twist *changes = TAKE(solve->arena, Twist, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
-        Twist moved = way(move->pushed[body], solve->poses[body]);
+        Twist moved = displacement(move->pushed[body], solve->poses[body]);
         changes[body] = (Twist){scaled(moved.v, 1.0 / solve->dt), moved.w / solve->dt};
     }
     double lost = -mass_product(&solve->system, solve->velocities, changes);

@@ -41,7 +41,7 @@ static void move_bounds(World *world, const Solve *solve) {
     }
 }
 
-static void close_island(World *world, Solve *solve) {
+static void correct_island(World *world, Solve *solve) {
     const Island *island = solve->island;
     for (int body = 0; body < island->body_count; body++) {
         island->poses[body] = pose_of(island->engine[body]);
@@ -109,13 +109,13 @@ void solve_joints(World *world) {
     }
 }
 
-void close_joints(World *world) {
+void correct_joint_positions(World *world) {
     for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->joint_islands->count; number++) {
-        close_island(world, world->own->joint_islands->solves + number);
+        correct_island(world, world->own->joint_islands->solves + number);
     }
 }
 
-void take_out_closing(World *world) {
+void remove_closing_impulses(World *world) {
     for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->joint_islands->count; number++) {
         const Island *island = world->own->joint_islands->islands + number;
         for (const Bearing *touch = island->touches; touch < island->touches + island->touch_count; touch++) {

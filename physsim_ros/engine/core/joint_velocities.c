@@ -476,8 +476,8 @@ static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *ve
     }
 }
 
-// Find the ways of the rest of the step since impacts (`rest_of_step.c`). The rows of an impact get the difference of
-// velocities that their bodies have by it; what holds beside them holds on these ways, too.
+// Find the displacements in the rest of the step since impacts (`rest_of_step.c`). The rows of an impact get the
+// difference of velocities that their bodies have by it; what holds beside them holds on these displacements, too.
 static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solution *solution,
                               const Twist *velocities) {
     const Island *island = solve->island;
@@ -487,10 +487,11 @@ static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solu
     for (int number = 0; number < island->touch_count; number++) {
         double left = island->touches[number].left;
         Ends ends = island->ends[normal + number];
-        Twist ways[] = {way_gained(body_of(island->engine[ends.a]), velocities[ends.a], left, solve->dt),
-                        way_gained(body_of(island->engine[ends.b]), velocities[ends.b], left, solve->dt)};
-        wanted[normal + number] = rate(rows->jacobians[normal + number], (Ends){0, 1}, ways);
-        wanted[tangent + number] = rate(rows->jacobians[tangent + number], (Ends){0, 1}, ways);
+        Twist displacements[] = {
+            displacement_gained(body_of(island->engine[ends.a]), velocities[ends.a], left, solve->dt),
+            displacement_gained(body_of(island->engine[ends.b]), velocities[ends.b], left, solve->dt)};
+        wanted[normal + number] = rate(rows->jacobians[normal + number], (Ends){0, 1}, displacements);
+        wanted[tangent + number] = rate(rows->jacobians[tangent + number], (Ends){0, 1}, displacements);
         late = late || left > 0.0;
     }
     if (late) {

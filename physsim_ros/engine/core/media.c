@@ -84,9 +84,9 @@ static void add_place(Resistance *sum, double weight, Vec turn, double square) {
 }
 
 static void add_linear_side(Resistance *sum, double weight, Side side) {
-    Vec way = sub(side.end, side.begin), middle = scaled(add(side.begin, side.end), 0.5);
-    double square = dot(middle, middle) + dot(way, way) / 12.0;
-    add_place(sum, weight * length(way), perpendicular(middle), square);
+    Vec edge = sub(side.end, side.begin), middle = scaled(add(side.begin, side.end), 0.5);
+    double square = dot(middle, middle) + dot(edge, edge) / 12.0;
+    add_place(sum, weight * length(edge), perpendicular(middle), square);
 }
 
 static void add_linear_bow(Resistance *sum, double weight, Bow bow) {
@@ -103,12 +103,12 @@ static void add_linear_bow(Resistance *sum, double weight, Bow bow) {
 // The part of a side that faces the flow: its normal velocity f and that by turning q are linear along it, so that the
 // integrals of f, f q and f q² are exact by Gauss's rule of two points.
 static void add_quadratic_side(Resistance *sum, double weight, Side side, Twist flow) {
-    Vec way = sub(side.end, side.begin);
-    double size = length(way);
+    Vec edge = sub(side.end, side.begin);
+    double size = length(edge);
     if (size <= 0.0) {
         return;
     }
-    Vec normal = scaled(negated(perpendicular(way)), 1.0 / size);
+    Vec normal = scaled(negated(perpendicular(edge)), 1.0 / size);
     double turn_begin = dot(normal, perpendicular(side.begin)), straight = dot(normal, flow.v);
     double first = straight + flow.w * turn_begin, last = first - flow.w * size;
     if (first <= 0.0 && last <= 0.0) {
@@ -139,7 +139,7 @@ static void add_quadratic_bow(Resistance *sum, double weight, Bow bow, Twist flo
 }
 
 // The matrix D of a part of a body that moves through a medium with a twist.
-static Resistance resistance_of(const Wet *wet, const Region *medium, Twist flow) {
+static Resistance resistance_of(const Immersion *wet, const Region *medium, Twist flow) {
     Resistance sum = {0};
     double linear = 3.0 * medium->viscosity, quadratic = 0.5 * medium->drag * medium->density;
     for (int number = 0; number < wet->side_count && linear > 0.0; number++) {
@@ -191,7 +191,7 @@ static bool resists(const Region *medium) {
 
 // What of a body a medium acts on; taken off with a negative sign.
 typedef struct Share {
-    Wet wet;
+    Immersion wet;
     const Region *medium;
     Twist current;
     double sign;
@@ -240,13 +240,13 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, cons
     body->scratch.stirred = air != NULL && air->gusty;
     for (int number = 0; number < media->basin_count; number++) {
         const Basin *basin = media->basins + number;
-        Fit fit = fit_of(basin, pose.p, body->reach);
-        if (fit == OUTSIDE) {
+        Containment containment = containment_of(basin, pose.p, body->reach);
+        if (containment == OUTSIDE) {
             continue;
         }
         bool outlined = resists(basin->region) || (air != NULL && resists(air));
-        Wet wet = immersed(body, pose, fit == INSIDE ? NULL : basin, outlined, arena);
-        body->scratch.afloat = body->scratch.afloat || fit == CROSSING;
+        Immersion wet = immersed(body, pose, containment == INSIDE ? NULL : basin, outlined, arena);
+        body->scratch.afloat = body->scratch.afloat || containment == CROSSING;
         body->scratch.stirred = body->scratch.stirred || basin->region->gusty || basin->moves;
         shares[count++] = (Share){wet, basin->region, media->currents[number], 1.0};
         if (air != NULL) {
@@ -276,7 +276,7 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, cons
 bool reaches(const Media *media, const Body *body) {
     for (int number = 0; number < media->basin_count; number++) {
         const Basin *basin = media->basins + number;
-        if (basin->moves && fit_of(basin, body->engine->p, body->reach) != OUTSIDE) {
+        if (basin->moves && containment_of(basin, body->engine->p, body->reach) != OUTSIDE) {
             return true;
         }
     }

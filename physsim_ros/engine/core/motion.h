@@ -49,7 +49,7 @@ typedef struct Mover {
     double since;         // share of the step from which on the motion holds
     Pose pose;            // then
     Vec pivot;            // centre of rotation then [m]
-    Twist rate;           // way of the centre of rotation, and turn, in a whole step [m, rad]
+    Twist rate;           // displacement of the centre of rotation, and rotation, in a whole step [m, rad]
     double depth;         // how far it may be entered in a step unseen [m]
     double turning;       // how far out its turning counts [m]
     double shapes;        // count of its convex shapes
@@ -57,7 +57,7 @@ typedef struct Mover {
     double horizon;       // share of the step up to which it is followed
     Vec start, end;       // centres at the beginning of the motion and at the horizon [m]
     Vec half;             // half the size of its box at a moment, about the line between them [m]
-    Box box;              // of the whole way
+    Box box;              // of the whole motion
 } Mover;
 
 static inline double yaw_at(const Mover *mover, double share) {

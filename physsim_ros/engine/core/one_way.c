@@ -1,14 +1,14 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// One-way bodies: others pass them in one direction, and are borne where they come against it.
+// One-way bodies: others pass them in one direction, and are stopped where they come against it.
 //
 // Problem: a jump leads up through a platform, a chute lets things out and none in.
-// Method: a contact bears where its normal leads in the direction in which others pass, or across it where the sides
+// Method: a contact acts where its normal leads in the direction in which others pass, or across it where the sides
 // are closed, and where the other body was outside as the sub-step began, within the slop of contacts; else Chipmunk
 // ignores it (Godot: one-way collision with a margin; Box2D and Chipmunk leave it to a callback). What passes one shape
-// of a body passes all of them. A pair of shapes that has borne a load in the sub-step before bears on, however deep
-// that has pressed it, and at whichever corner. So nothing outlives a sub-step but the impulses of contacts, which
+// of a body passes all of them. A pair of shapes that carried a load in the sub-step before stays in contact, however
+// deep that has pressed it, and at whichever corner. So nothing outlives a sub-step but the impulses of contacts, which
 // checkpoints have. Continuous collision stops a fast body by the same rule, at the normal of its impact
 // (`time_of_impact.c`).
 // Limit: a corner that goes further in a sub-step than a segment is thick has entered it by the side of the least
@@ -55,25 +55,25 @@ static bool has_load(const cpArbiter *arbiter) {
     return loaded;
 }
 
-void find_borne(World *world) {
+void find_loaded(World *world) {
     int count = world->own->has_one_way ? arbiter_count(world) : 0;
-    world->own->borne = TAKE(&world->own->arena, Pair, count);
-    world->own->borne_count = 0;
+    world->own->loaded = TAKE(&world->own->arena, Pair, count);
+    world->own->loaded_count = 0;
     for (int number = 0; number < count; number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         if (is_of_one_way(arbiter) && has_load(arbiter)) {
-            world->own->borne[world->own->borne_count++] = pair_of(arbiter->a, arbiter->b);
+            world->own->loaded[world->own->loaded_count++] = pair_of(arbiter->a, arbiter->b);
         }
     }
-    sort(world->own->borne, world->own->borne_count, sizeof(Pair), by_numbers);
+    sort(world->own->loaded, world->own->loaded_count, sizeof(Pair), by_numbers);
 }
 
 static bool is_listed(Pair pair, const Pair *list, int count) {
     return count > 0 && bsearch(&pair, list, (size_t)count, sizeof(Pair), by_numbers) != NULL;
 }
 
-bool is_borne(const World *world, const cpShape *a, const cpShape *b) {
-    return is_listed(pair_of(a, b), world->own->borne, world->own->borne_count);
+bool was_loaded(const World *world, const cpShape *a, const cpShape *b) {
+    return is_listed(pair_of(a, b), world->own->loaded, world->own->loaded_count);
 }
 
 // How far a normal leads in the direction in which others pass a body; 1 is along it.
@@ -101,9 +101,9 @@ static bool comes_from_outside(const World *world, const cpArbiter *arbiter) {
     return fastest > 0.0 && nearest >= -slop_of(arbiter);
 }
 
-// Whether a contact has borne a load; bodies that wake in this sub-step have no pair in the list, but their impulses.
-static bool bears_on(const World *world, const cpArbiter *arbiter) {
-    return has_load(arbiter) || is_borne(world, arbiter->a, arbiter->b);
+// Whether a contact has carried a load; bodies that wake in this sub-step have no pair in the list, but their impulses.
+static bool carries_load(const World *world, const cpArbiter *arbiter) {
+    return has_load(arbiter) || was_loaded(world, arbiter->a, arbiter->b);
 }
 
 // Whether both bodies of a contact are closed there.
@@ -132,7 +132,7 @@ void find_passing(World *world) {
     own->passing_count = 0;
     for (int number = 0; number < count; number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
-        if (is_of_one_way(arbiter) && !bears_on(world, arbiter) && is_where_bodies_pass(world, arbiter)) {
+        if (is_of_one_way(arbiter) && !carries_load(world, arbiter) && is_where_bodies_pass(world, arbiter)) {
             own->passing[own->passing_count++] = bodies_of(world, arbiter);
         }
     }
@@ -145,5 +145,5 @@ bool passes(const World *world, const cpArbiter *arbiter) {
         return false;
     }
     return !are_closed_at(arbiter) ||
-           (!bears_on(world, arbiter) && is_listed(bodies_of(world, arbiter), own->passing, own->passing_count));
+           (!carries_load(world, arbiter) && is_listed(bodies_of(world, arbiter), own->passing, own->passing_count));
 }

@@ -13,8 +13,8 @@ bool passes(const World *world, const cpArbiter *arbiter);
 bool is_one_way(const Body *body);
 bool is_of_one_way(const cpArbiter *arbiter);
 
-// Whether a contact of two shapes, one of them of a one-way body, has borne a load in the sub-step before.
-bool is_borne(const World *world, const cpShape *a, const cpShape *b);
+// Whether a contact of two shapes, one of them of a one-way body, carried a load in the sub-step before.
+bool was_loaded(const World *world, const cpShape *a, const cpShape *b);
 
 // Whether a body at a yaw is closed on the side that a normal leads out of; but for a one-way body it always is.
 bool is_closed(const Body *body, double yaw, Vec normal);

@@ -36,9 +36,9 @@ Corner corner_on_body(const cpShape *shape, int number) {
 
 // The distance of a point from a segment [m].
 static double distance_from(Vec point, Vec start, Vec end) {
-    Vec way = sub(end, start), to = sub(point, start);
-    double share = clamped(dot(to, way) / greatest(dot(way, way), 1e-300), 0.0, 1.0);
-    return length(sub(to, scaled(way, share)));
+    Vec segment = sub(end, start), to = sub(point, start);
+    double share = clamped(dot(to, segment) / greatest(dot(segment, segment), 1e-300), 0.0, 1.0);
+    return length(sub(to, scaled(segment, share)));
 }
 
 bool covers(const cpShape *shape, Vec point) {

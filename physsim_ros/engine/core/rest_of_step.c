@@ -4,16 +4,16 @@
 // The rest of a step after an impact is made with the velocity after it.
 //
 // Problem: Chipmunk finds an impact where the step ends: the bodies have entered each other by then, have lost the rest
-// of the step, and leave with the velocity of its end. A ball between two walls covers a fraction of its way, each
+// of the step, and leave with the velocity of its end. A ball between two walls covers a fraction of its distance, each
 // bounce on a floor gains the energy of its overlap, and the position bias pushes apart what has sunk in.
 // Method: the time since an impact is the overlap by the approach velocity (of a disc: since it first met the other
 // shape). The impact gets the approach velocity of that moment, and gravity acts on the new velocity from then on:
-// parting velocity = -e v(t) + a (end - t), a the acceleration of one body against the other. After the solver the way
-// that each body has made since then is replaced by that of its new velocity, as far as nothing is in between (time of
-// impact once more, `impact_islands.h`): Newton's law of restitution at the time of impact, to first order in the step.
-// Impulses act on both bodies alike, so that momentum is kept with all forces on. Where joints hand an impact on, the
-// ways of an island are found together, and the forces of its motors are added (`joint_velocities.c`).
-// A body whose velocity was set while it touches another is in an impact as the step begins.
+// parting velocity = -e v(t) + a (end - t), a the acceleration of one body against the other. After the solver the
+// displacement that each body has made since then is replaced by that of its new velocity, as far as nothing is in
+// between (time of impact once more, `impact_islands.h`): Newton's law of restitution at the time of impact, to first
+// order in the step. Impulses act on both bodies alike, so that momentum is kept with all forces on. Where joints hand
+// an impact on, the displacements of an island are found together, and the forces of its motors are added
+// (`joint_velocities.c`). A body whose velocity was set while it touches another is in an impact as the step begins.
 //
 // Cost: 20 ns an impact; where bodies are fast, 2 µs for each pair that could meet.
 // Without it laws 7 (penetration), 45 (momentum in flight) and 46 (pressure of a gas) fail.
@@ -110,7 +110,7 @@ double time_left(const Body *a, const Body *b) {
     return a->dynamic || b->dynamic ? least(of_a, of_b) : 0.0;
 }
 
-Twist way_gained(const Body *body, Twist after, double left, double dt) {
+Twist displacement_gained(const Body *body, Twist after, double left, double dt) {
     double ahead = body->scratch.parts ? left / dt + 1.0 : 0.0;
     Twist mean = twist_sum(after, body->state.lead, -ahead);
     return twist_sum((Twist){0}, twist_sum(mean, body->scratch.twist, -1.0), left);
@@ -123,26 +123,26 @@ void add_rest(Body *body, Twist gained) {
     body->scratch.rests = true;
 }
 
-// Find the ways of bodies that no island of joints has found.
+// Find the displacements of bodies that no island of joints has found.
 static void find_rests(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         double left = body->scratch.since + body->scratch.left;
         if (left > 0.0 && body->dynamic && !body->scratch.rests) {
-            add_rest(body, way_gained(body, twist_of(body->engine), left, world->dt));
+            add_rest(body, displacement_gained(body, twist_of(body->engine), left, world->dt));
         }
     }
 }
 
-// The remaining way of a body that could tunnel through the thinnest body of the world; else none.
-static Twist far_way(const World *world, const Body *body) {
-    Twist way = body->scratch.rest;
-    bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > world->own->least_depth;
-    return is_far && is_solid(body) ? way : (Twist){0};
+// The remaining displacement of a body that could tunnel through the thinnest body of the world; else none.
+static Twist far_displacement(const World *world, const Body *body) {
+    Twist displacement = body->scratch.rest;
+    bool is_far = length(displacement.v) + fabs(displacement.w) * body->turning_radius > world->own->least_depth;
+    return is_far && is_solid(body) ? displacement : (Twist){0};
 }
 
-static bool goes(Twist way) {
-    return way.v.x != 0.0 || way.v.y != 0.0 || way.w != 0.0;
+static bool is_displaced(Twist displacement) {
+    return displacement.v.x != 0.0 || displacement.v.y != 0.0 || displacement.w != 0.0;
 }
 
 void finish_moves(World *world) {
@@ -150,21 +150,21 @@ void finish_moves(World *world) {
     find_rests(world);
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        Twist way = body->scratch.rest;
-        if (goes(far_way(world, body))) {
+        Twist displacement = body->scratch.rest;
+        if (is_displaced(far_displacement(world, body))) {
             count++;
-        } else if (goes(way)) {
-            set_pose(body->engine, moved(pose_of(body->engine), way, 1.0));
+        } else if (is_displaced(displacement)) {
+            set_pose(body->engine, moved(pose_of(body->engine), displacement, 1.0));
         }
     }
     if (count == 0) {
         return;
     }
-    Sweep sweep = sweep_of(world, far_way);
+    Sweep sweep = sweep_of(world, far_displacement);
     int *far = TAKE(&world->own->arena, int, count), far_count = 0;
     for (int number = 0; number < sweep.count; number++) {
         Mover *mover = sweep.movers + number;
-        mover->movable = goes(mover->rate);
+        mover->movable = is_displaced(mover->rate);
         if (mover->movable) {
             assert(far_count < count);
             far[far_count++] = number;
@@ -175,8 +175,8 @@ void finish_moves(World *world) {
         const Mover *mover = sweep.movers + far[number];
         Vec pivot;
         Pose pose = pose_at(mover, 1.0, &pivot);
-        // A disc turns all of its way, whatever it meets (`mover_of`).
-        pose.yaw += mover->turning > 0.0 ? 0.0 : far_way(world, mover->body).w;
+        // A disc turns by all of its rotation, whatever it meets (`mover_of`).
+        pose.yaw += mover->turning > 0.0 ? 0.0 : far_displacement(world, mover->body).w;
         set_pose(mover->body->engine, pose);
     }
 }

@@ -5,10 +5,11 @@
 //
 // Problem: Chipmunk tells of what overlaps a sensor where a step ends. A ball of 4 cm is past a gate of 1 cm after a
 // sub-step at 50 m/s.
-// Method: the way that a body has gone in the sub-step is swept (`swept_boxes.h`) where it is further than the body may
+// Method: the displacement of a body in the sub-step is swept (`swept_boxes.h`) where it is further than the body may
 // be entered unseen, and its time of impact with each sensor on it looked for (`time_of_impact.h`). That time is also
 // when a sensor begins to overlap something, however slow.
-// Cost: none without sensors; with them a look at the ways of bodies, and some 2 µs for each pair that could meet.
+// Cost: none without sensors; with them a look at the displacements of bodies, and some 2 µs for each pair that could
+// meet.
 // Without it law 50 (gates) holds up to 40 m/s only.
 
 #include "boxes.h"
@@ -26,15 +27,15 @@ typedef struct Search {
     Crossing *found;
 } Search;
 
-// The way that a body has gone in the sub-step.
-static Twist way_gone(const Body *body) {
+// The displacement of a body in the sub-step.
+static Twist displacement_in_step(const Body *body) {
     Pose end = pose_of(body->engine);
     return (Twist){sub(end.p, body->scratch.begin.p), end.yaw - body->scratch.begin.yaw};
 }
 
-// A body as the sub-step began, with the way that it has gone since.
-static Mover gone(Body *body) {
-    Mover mover = mover_of(body, way_gone(body));
+// A body as the sub-step began, with its displacement since.
+static Mover mover_in_step(Body *body) {
+    Mover mover = mover_of(body, displacement_in_step(body));
     mover.pose = body->scratch.begin;
     mover.pivot = body->scratch.begin.p;
     fit_box(&mover);
@@ -46,12 +47,12 @@ static double meeting_of(World *world, const Mover *body, const Mover *sensor) {
 }
 
 double crossing_time(World *world, Body *body, Body *sensor) {
-    Mover one = gone(body), other = gone(sensor);
+    Mover one = mover_in_step(body), other = mover_in_step(sensor);
     return clamped(meeting_of(world, &one, &other), 0.0, 1.0);
 }
 
-static bool has_gone_far(const Body *body, Twist way) {
-    return !body->anchored && length(way.v) + fabs(way.w) * body->turning_radius > body->safe_depth;
+static bool has_moved_far(const Body *body, Twist displacement) {
+    return !body->anchored && length(displacement.v) + fabs(displacement.w) * body->turning_radius > body->safe_depth;
 }
 
 static bool find_crossing(int number, void *data) {
@@ -69,7 +70,7 @@ void find_crossings(World *world, Crossing *found) {
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
         any = any || body->sensor;
-        any_fast = any_fast || (body->sensor && has_gone_far(body, way_gone(body)));
+        any_fast = any_fast || (body->sensor && has_moved_far(body, displacement_in_step(body)));
     }
     if (!any) {
         return;
@@ -80,8 +81,8 @@ void find_crossings(World *world, Crossing *found) {
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        if (!body->sensor && !body->anchored && (any_fast || has_gone_far(body, way_gone(body)))) {
-            movers[count] = gone(body);
+        if (!body->sensor && !body->anchored && (any_fast || has_moved_far(body, displacement_in_step(body)))) {
+            movers[count] = mover_in_step(body);
             boxes[count] = movers[count].box;
             count++;
         }
@@ -90,7 +91,7 @@ void find_crossings(World *world, Crossing *found) {
     for (int place = 0; place < world->body_count && count > 0; place++) {
         Body *body = world->bodies + place;
         if (body->sensor) {
-            Mover sensor = gone(body);
+            Mover sensor = mover_in_step(body);
             Search search = {world, &sensor, movers, found};
             tree_query(&tree, sensor.box, find_crossing, &search);
         }

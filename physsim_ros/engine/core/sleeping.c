@@ -37,7 +37,7 @@ static bool moves_on(const Body *body) {
     return (body->state.free && most_of(now) > 0.0) || most_of(now) > slowest;
 }
 
-void forgive_trembling(World *world) {
+void ignore_jitter(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
         if (body->dynamic && body->scratch.idle > 0.0 && !sleeps(body) && body->engine->idle_time == 0.0) {

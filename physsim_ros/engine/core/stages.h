@@ -28,20 +28,20 @@ void pull_grips(World *world);
 // Errors of the solver in what friction locks in place (`resting_damping.c`).
 void damp_resting(World *world);
 
-// Actors: where they go, and at which velocity (`actors.c`). `find_wish` finds that of the next actor, and is false
-// where all have one.
-void begin_wishes(World *world);
-bool find_wish(World *world);
+// Actors: where they go, and at which velocity (`actors.c`). `choose_velocity` chooses that of the next actor, and is
+// false where all have one.
+void begin_actors(World *world);
+bool choose_velocity(World *world);
 void move_actors(World *world);
 
 // The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
-void pull_by_floor(World *world);
+void apply_floor(World *world);
 void find_pushes(World *world);
 void roll_wheels(World *world);
 void reckon_odometry(World *world);
 
-// Contacts of one-way bodies that have borne a load (`one_way.c`).
-void find_borne(World *world);
+// Contacts of one-way bodies that carry a load (`one_way.c`).
+void find_loaded(World *world);
 
 // Fast bodies end their step where they first hit something (`continuous.c`), and keep small boxes (`tight_boxes.c`).
 void clamp_moves(World *world);
@@ -74,18 +74,18 @@ void time_impacts(World *world);
 // The rest of the step after impacts (`rest_of_step.c`): how long it is for two bodies that met in this step [s]; by
 // how much further a body is for a velocity after its impact than for that before it, and what it has still to go then.
 double time_left(const Body *a, const Body *b);
-Twist way_gained(const Body *body, Twist after, double left, double dt);
+Twist displacement_gained(const Body *body, Twist after, double left, double dt);
 void add_rest(Body *body, Twist gained);
 
 // Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
 void find_joint_islands(World *world);
 void solve_joints(World *world);
-void close_joints(World *world);
+void correct_joint_positions(World *world);
 // Impulses from which the next step does not start: of gaps that were closed (`joint_solver.c`), and of impacts
 // (`impact_loads.c`).
-void take_out_closing(World *world);
-void take_out_impacts(World *world);
-void begin_totals(World *world);
+void remove_closing_impulses(World *world);
+void remove_impact_impulses(World *world);
+void clear_totals(World *world);
 void find_gaps(World *world);
 // Add to what joints report: their impulses, and those by which gaps were closed.
 void add_impulses(World *world);
@@ -96,7 +96,7 @@ void find_broken(World *world);
 void find_free(World *world);
 // The share of an impulse on two bodies in this sub-step that does not take back a half-step lead; before `find_free`.
 double reported_share(const Body *a, const Body *b, Vec impulse);
-void forgive_trembling(World *world);
+void ignore_jitter(World *world);
 void keep_awake(World *world);
 
 // Which sensors were crossed within the sub-step (`sensors.c`).

@@ -32,7 +32,7 @@ static void begin_sleepers(Body *const *bodies, int count) {
     }
 }
 
-static void keep_twists(World *world) {
+static void save_twists(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->scratch.twist = twist_of(body->engine);
@@ -97,23 +97,23 @@ static void step(World *world) {
     apply_forces(world);
     pull_grips(world);
     apply_fields(world);
-    pull_by_floor(world);
-    find_borne(world);
+    apply_floor(world);
+    find_loaded(world);
     clamp_moves(world);
     tighten_boxes(world);
     prepare_parts(world);
     command_motors(world);
-    keep_twists(world);
+    save_twists(world);
     int awake_count = 0;
     Body **awake = step_chipmunk(world, &awake_count);
     keep_fields(world);
     find_leads(world, world->has_fields);
-    forgive_trembling(world);
+    ignore_jitter(world);
     solve_joints(world);
     add_impulses(world);
-    find_borne(world);
+    find_loaded(world);
     finish_moves(world);
-    close_joints(world);
+    correct_joint_positions(world);
     add_closings(world);
     find_pushes(world);
     if (world->reports_contacts) {
@@ -123,8 +123,8 @@ static void step(World *world) {
     }
     find_free(world);
     keep_awake(world);
-    take_out_closing(world);
-    take_out_impacts(world);
+    remove_closing_impulses(world);
+    remove_impact_impulses(world);
     begin_sleepers(awake, awake_count);
 }
 
@@ -144,20 +144,20 @@ static bool is_long(const World *world, double began) {
 // Begin a step, before its first sub-step; false where the next call of the core goes on with that.
 static bool begin_step(World *world, double began) {
     Private *own = world->own;
-    if (!own->wishes) {
+    if (!own->choosing) {
         arena_reset(&own->arena);
         damp_resting(world);
-        begin_totals(world);
+        clear_totals(world);
         find_gaps(world);
-        begin_wishes(world);
+        begin_actors(world);
     }
-    own->wishes = true;
-    while (find_wish(world)) {
+    own->choosing = true;
+    while (choose_velocity(world)) {
         if (is_long(world, began)) {
             return false;
         }
     }
-    own->wishes = false;
+    own->choosing = false;
     move_actors(world);
     world->frame_steps += world->reports_contacts;
     return true;
@@ -170,8 +170,8 @@ static void end_step(World *world) {
     world->age++;
 }
 
-// Where a call ends by the time decides when the next sub-step, or the wish of the next actor, is made, and never its
-// bits.
+// Where a call ends by the time decides when the next sub-step, or the velocity of the next actor is chosen, and never
+// its bits.
 int32_t core_step(World *world, int32_t count) {
     Private *own = world->own;
     double began = wall_clock();

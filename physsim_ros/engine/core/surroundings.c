@@ -68,7 +68,7 @@ static Disc disc_of(const World *world, const Body *body, const Actor *own) {
     return (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm), body->reach + own->ahead, walks};
 }
 
-Surroundings look_around(World *world) {
+Surroundings surroundings_of(World *world) {
     Arena *arena = &world->own->arena;
     int anchored_count = 0;
     for (int place = 0; place < world->body_count; place++) {

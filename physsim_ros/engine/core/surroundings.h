@@ -52,7 +52,7 @@ typedef struct Surroundings {
 // m/s² there, and ORCA's horizon of the default, 2 s, is nearer at any pace.
 static const double farthest_seen = 10.0;
 
-// Whether a pedestrian minds a body at all.
+// Whether a pedestrian passes through a body, instead of avoiding it.
 static inline bool passes_through(const Body *self, const Body *other) {
     return self == other || (self->group != 0 && self->group == other->group);
 }
@@ -66,7 +66,7 @@ Vec arm_of(const World *world, const Actor *actor);
 bool has_begun(const World *world, const Actor *actor);
 
 // Of bodies that move, and of anchored discs, the disc around them; of others each shape.
-Surroundings look_around(World *world);
+Surroundings surroundings_of(World *world);
 
 // A wall as a pedestrian at a place sees it; false if it is too far away.
 bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest);

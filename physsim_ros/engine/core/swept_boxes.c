@@ -181,12 +181,12 @@ static Vec center_at(const Mover *mover, double share) {
 }
 
 // Narrow the time in which two boxes overlap to that in which they do along an axis.
-static void narrow(double gap, double way, double reach, double *enters, double *leaves) {
-    if (way == 0.0) {
+static void narrow(double gap, double displacement, double reach, double *enters, double *leaves) {
+    if (displacement == 0.0) {
         *enters = fabs(gap) <= reach ? *enters : INFINITY;
         return;
     }
-    double one = (-gap - reach) / way, other = (-gap + reach) / way;
+    double one = (-gap - reach) / displacement, other = (-gap + reach) / displacement;
     *enters = greatest(*enters, least(one, other));
     *leaves = least(*leaves, greatest(one, other));
 }
@@ -194,15 +194,16 @@ static void narrow(double gap, double way, double reach, double *enters, double 
 bool come_near(const Mover *one, const Mover *other) {
     double since = greatest(one->since, other->since), until = least(one->horizon, other->horizon);
     Vec gap = sub(center_at(other, since), center_at(one, since));
-    Vec way = sub(sub(center_at(other, until), center_at(one, until)), gap), reach = add(one->half, other->half);
+    Vec displacement = sub(sub(center_at(other, until), center_at(one, until)), gap),
+        reach = add(one->half, other->half);
     double enters = -INFINITY, leaves = INFINITY;
-    narrow(gap.x, way.x, reach.x, &enters, &leaves);
-    narrow(gap.y, way.y, reach.y, &enters, &leaves);
+    narrow(gap.x, displacement.x, reach.x, &enters, &leaves);
+    narrow(gap.y, displacement.y, reach.y, &enters, &leaves);
     return since <= until && enters <= least(leaves, 1.0) && leaves >= 0.0;
 }
 
-// A body that moves by a way in the step.
-Mover mover_of(Body *body, Twist way) {
+// A body that moves by a displacement in the step.
+Mover mover_of(Body *body, Twist displacement) {
     Mover mover = {.body = body,
                    .movable = body->dynamic,
                    .pose = pose_of(body->engine),
@@ -216,19 +217,19 @@ Mover mover_of(Body *body, Twist way) {
                    .next = -1,
                    .leader = -1};
     // A disc covers the same ground however it turns.
-    mover.rate = (Twist){way.v, mover.turning > 0.0 ? way.w : 0.0};
+    mover.rate = (Twist){displacement.v, mover.turning > 0.0 ? displacement.w : 0.0};
     fit_box(&mover);
     return mover;
 }
 
-Sweep sweep_of(World *world, Way *way_of) {
+Sweep sweep_of(World *world, DisplacementOf *displacement_of) {
     Arena *arena = &world->own->arena;
     Sweep sweep = {.world = world, .statics = statics_of(world), .movers = TAKE(arena, Mover, world->body_count)};
     sweep.followed = TAKE(arena, bool, world->body_count);
     Box *boxes = TAKE(arena, Box, world->body_count);
     for (int place = 0; place < world->body_count; place++) {
         if (is_solid(world->bodies + place)) {
-            Mover mover = mover_of(world->bodies + place, way_of(world, world->bodies + place));
+            Mover mover = mover_of(world->bodies + place, displacement_of(world, world->bodies + place));
             mover.island = sweep.count;
             boxes[sweep.count] = mover.box;
             sweep.movers[sweep.count++] = mover;

@@ -31,20 +31,20 @@ static inline Mover *mover_at(const Sweep *sweep, int number) {
 // Return the shapes that never move, but sensors.
 const Statics *statics_of(World *world);
 
-// The way and the turn of a body [m, rad].
-typedef Twist Way(const World *world, const Body *body);
+// The displacement and the rotation of a body in the step [m, rad].
+typedef Twist DisplacementOf(const World *world, const Body *body);
 
 static inline bool is_solid(const Body *body) {
     return !body->anchored && !body->sensor;
 }
 
-// A body that moves by a way in the step.
-Mover mover_of(Body *body, Twist way);
+// A body that moves by a displacement in the step.
+Mover mover_of(Body *body, Twist displacement);
 
-// All bodies, each with its way in the step.
-Sweep sweep_of(World *world, Way *way_of);
+// All bodies, each with its displacement in the step.
+Sweep sweep_of(World *world, DisplacementOf *displacement_of);
 
-// Bound the way of a body from where its motion begins to its horizon.
+// Bound the displacement of a body from where its motion begins to its horizon.
 void fit_box(Mover *mover);
 
 // Bring the horizons of bodies nearer until they meet no more than the budget permits.

@@ -3,8 +3,8 @@
 
 // Tight boxes: Chipmunk's broad phase lists pairs of bodies that are near, however fast they are.
 //
-// Problem: `cpBBTree` extends the box of a shape by its way of a tenth of a second (`GetBB`), so that a box of the
-// tree need not change in each step. Fast bodies overlap in the tree then wherever they are (Munk2D as in Pymunk
+// Problem: `cpBBTree` extends the box of a shape by its displacement in a tenth of a second (`GetBB`), so that a box of
+// the tree need not change in each step. Fast bodies overlap in the tree then wherever they are (Munk2D as in Pymunk
 // 7.3.1): 12,000 discs of 20 km/s that touch nothing make pairs of 930 MB and steps of 1.6 s, 40 lists of 900
 // spheres of 1 km/s steps of 40 to 60 s. That is so in a free fall of some minutes, too.
 // Method: a body whose extended boxes overlap more others than indexing it in each step would cost is indexed
@@ -35,8 +35,8 @@ typedef struct Near {
 // Whether the extended boxes of a body may overlap more than `most_pairs` pieces of all. A box of k half widths
 // overlaps k² / 2 others at most, where bodies of a size fill the plane.
 static bool is_fast_in_crowd(const Body *body) {
-    double way = length(body->engine->v) * extension;
-    double most = way * way / (2.0 * body->half_width * body->half_width);
+    double distance = length(body->engine->v) * extension;
+    double most = distance * distance / (2.0 * body->half_width * body->half_width);
     return !body->anchored && body->pieces * most > most_pairs;
 }
 

@@ -128,7 +128,7 @@ static Separation separation_of(const MovingShape *a, const MovingShape *b) {
 static double speed_bound(const MovingShape *a, const MovingShape *b, Vec axis, double lapse) {
     const MovingShape *sides[2] = {a, b};
     Vec relative = sub(a->mover->rate.v, b->mover->rate.v);
-    double way = length(relative), turns[2] = {fabs(a->mover->rate.w), fabs(b->mover->rate.w)};
+    double distance = length(relative), turns[2] = {fabs(a->mover->rate.w), fabs(b->mover->rate.w)};
     double bound = dot(relative, axis) + turns[0] * a->reach + turns[1] * b->reach;
     for (int side = 0; side < 2; side++) {
         const MovingShape *other = sides[1 - side];
@@ -137,8 +137,8 @@ static double speed_bound(const MovingShape *a, const MovingShape *b, Vec axis, 
             Vec arm = sub(other->corners[number].place, sides[side]->pivot);
             far = greatest(far, dot(arm, arm));
         }
-        double seen = turns[side] * (sqrt(far) + way * lapse);
-        bound = least(bound, way + seen + turns[1 - side] * other->reach);
+        double seen = turns[side] * (sqrt(far) + distance * lapse);
+        bound = least(bound, distance + seen + turns[1 - side] * other->reach);
     }
     return bound;
 }
@@ -206,7 +206,7 @@ static double impact_of_shapes(World *world, const Mover *one, const cpShape *a,
     bool is_round = corner_count(a) < 3 || corner_count(b) < 3;
     skin = is_round ? least(skin, radii / 2.0) : skin;
     MovingShape first = side_of(one, a, arena), second = side_of(other, b, arena);
-    bool passing = (is_one_way(one->body) || is_one_way(other->body)) && !is_borne(world, a, b);
+    bool passing = (is_one_way(one->body) || is_one_way(other->body)) && !was_loaded(world, a, b);
     double share = advance(&first, &second, radii, skin, depth, passing);
     arena_release(arena, mark);
     return share;

@@ -48,8 +48,8 @@ static bool hides(const Touch *face, const Touch *corner) {
     if (face->shapes[0] != corner->shapes[0] || !face->on_face || face->met > corner->met) {
         return false;
     }
-    Vec way = sub(corner->places[0][1], face->places[0][1]);
-    return -dot(face->normal, way) <= slop_of(corner->arbiter);
+    Vec offset = sub(corner->places[0][1], face->places[0][1]);
+    return -dot(face->normal, offset) <= slop_of(corner->arbiter);
 }
 
 bool is_hidden(const Touch *touch, const Touch *touches, int count) {

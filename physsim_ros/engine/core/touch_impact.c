@@ -4,18 +4,18 @@
 // Contacts of discs are those of their impact.
 //
 // Problem: Chipmunk finds a contact where the step ends, in which the line of centres has turned since the impact.
-// Method: the way of a disc in the step, as the other body sees it, is a line. Where a circle of its radius first meets
-// the other shape on that (Ericson, "Real-Time Collision Detection", 5.5.7), the contact gets the normal and the arms
-// of that moment.
+// Method: the displacement of a disc in the step, as the other body sees it, is a line. Where a circle of its radius
+// first meets the other shape on that (Ericson, "Real-Time Collision Detection", 5.5.7), the contact gets the normal
+// and the arms of that moment.
 // Scope: pairs that overlap where the step begins keep those of Chipmunk, and so do polygons among themselves, and
 // segments, of which it knows the neighbours in a chain.
 // Cost, and what fails without it: `first_touch.c`.
 
 #include "touch_stages.h"
 
-// Where a disc first meets a shape on a straight way.
+// Where a disc first meets a shape on a straight line.
 typedef struct DiscHit {
-    double share; // of the way; infinite for never
+    double share; // of the displacement; infinite for never
     Vec normal;   // of the shape
     bool on_face;
 } DiscHit;
@@ -49,39 +49,39 @@ static void keep_first(DiscHit *hit, DiscHit other) {
     }
 }
 
-// Where a circle first meets a shape, on a way from `start` that both see from the shape.
-static DiscHit first_hit(Vec start, Vec way, const cpShape *shape, double radius) {
+// Where a circle first meets a shape, on a displacement from `start` that both see from the shape.
+static DiscHit first_hit(Vec start, Vec displacement, const cpShape *shape, double radius) {
     DiscHit hit = {.share = INFINITY};
     int count = corner_count(shape);
-    // Faces, moved outwards by the radius: t of n . (ahead + way t) = r, between their corners.
+    // Faces, moved outwards by the radius: t of n . (ahead + displacement t) = r, between their corners.
     for (int number = 0; number < count && count > 1; number++) {
         Corner corner = corner_in_world(shape, number);
         Vec edge = sub(corner_in_world(shape, (number + count - 1) % count).place, corner.place);
         Vec ahead = sub(start, corner.place);
-        double height = dot(corner.normal, ahead) - radius, share = height / -dot(corner.normal, way);
-        double beside = cross(corner.normal, add(ahead, scaled(way, share)));
+        double height = dot(corner.normal, ahead) - radius, share = height / -dot(corner.normal, displacement);
+        double beside = cross(corner.normal, add(ahead, scaled(displacement, share)));
         if (height >= 0.0 && beside <= 0.0 && beside >= cross(corner.normal, edge)) {
             keep_first(&hit, (DiscHit){share, corner.normal, true});
         }
     }
-    // Corners: t of |ahead + way t| = r.
+    // Corners: t of |ahead + displacement t| = r.
     for (int number = 0; number < count; number++) {
         Vec ahead = sub(start, corner_in_world(shape, number).place);
-        double a = dot(way, way), b = dot(ahead, way);
+        double a = dot(displacement, displacement), b = dot(ahead, displacement);
         double share = (-b - sqrt(b * b - a * (dot(ahead, ahead) - radius * radius))) / a;
-        keep_first(&hit, (DiscHit){share, scaled(add(ahead, scaled(way, share)), 1.0 / radius), false});
+        keep_first(&hit, (DiscHit){share, scaled(add(ahead, scaled(displacement, share)), 1.0 / radius), false});
     }
     return hit;
 }
 
 // By how far two bodies can have approached in the step, at most [m].
 static double approach_in_step(const World *world, const Touch *touch) {
-    double way = 0.0;
+    double distance = 0.0;
     for (int side = 0; side < 2; side++) {
         Vec arm = sub(touch->places[0][side], touch->engines[side]->p);
-        way += length(touch->engines[side]->v) + fabs(touch->engines[side]->w) * length(arm);
+        distance += length(touch->engines[side]->v) + fabs(touch->engines[side]->w) * length(arm);
     }
-    return way * world->dt;
+    return distance * world->dt;
 }
 
 void move_to_impact(const World *world, Touch *touch) {
@@ -91,12 +91,12 @@ void move_to_impact(const World *world, Touch *touch) {
     }
     Moments disc = moments_of(world, touch, 0), other = moments_of(world, touch, 1);
     double radius = radius_of(touch->shapes[0]);
-    // The way of the disc in the frame that the other shape has where the step ends.
+    // The displacement of the disc in the frame that the other shape has where the step ends.
     Vec start = rotated(sub(disc.begin, other.begin), rotation(other.now_yaw - other.begin_yaw));
     Vec stop = rotated(sub(disc.end, other.end), rotation(other.now_yaw - other.end_yaw));
-    Vec way = sub(stop, start);
+    Vec displacement = sub(stop, start);
     start = add(other.now, start);
-    DiscHit hit = first_hit(start, way, touch->shapes[1], radius + radius_of(touch->shapes[1]));
+    DiscHit hit = first_hit(start, displacement, touch->shapes[1], radius + radius_of(touch->shapes[1]));
     if (!(hit.share > 0.0 && hit.share <= 1.0)) {
         return;
     }
@@ -105,7 +105,7 @@ void move_to_impact(const World *world, Touch *touch) {
     if (kind_of(touch->shapes[1]) == SHAPE_SEGMENT) {
         return;
     }
-    Vec on_other = sub(add(start, scaled(way, hit.share)), scaled(hit.normal, radius));
+    Vec on_other = sub(add(start, scaled(displacement, hit.share)), scaled(hit.normal, radius));
     // To the yaw of the impact.
     double yaw = other.begin_yaw + (other.end_yaw - other.begin_yaw) * hit.share;
     Rotation turn = rotation(yaw - other.now_yaw);

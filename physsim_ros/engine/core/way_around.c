@@ -1,13 +1,13 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// The way of a pedestrian around a wall.
+// The path of a pedestrian around a wall.
 //
-// Problem: the models of pedestrians see velocities and forces of now. A wall across the straight way to a point, as
+// Problem: the models of pedestrians see velocities and forces of now. A wall across the straight line to a point, as
 // the one beside a door, holds a pedestrian for ever: its repulsion balances the desire to go on.
 // Method: I. Kamon, E. Rimon and E. Rivlin, "TangentBug: a range-sensor-based navigation algorithm" (International
 // Journal of Robotics Research 17, 1998), its motion toward the target: of the two ends of the nearest wall in the way,
-// a pedestrian walks along the tangent to that by which the way is shorter; of equal ways it takes the one that turns
+// a pedestrian walks along the tangent to that by which the path is shorter; of equal paths it takes the one that turns
 // less, or the right one. An end at which another wall leaves no room is not taken. A wall is a convex shape, grown by
 // the radius of the pedestrian. The motion along a boundary of TangentBug is left out, as it has a memory: who walks
 // through a maze needs points on the way.
@@ -18,7 +18,7 @@
 #include "outline.h"
 
 static const double straight_angle = 3.141592653589793;
-// Both ways are equal within this share [1], more than rounding.
+// Both paths are equal within this share [1], more than rounding.
 static const double equal_share = 1e-9;
 
 // A wall as seen from a point in a direction.
@@ -32,8 +32,8 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
     double grown = radius + radius_of(wall), greatest_angle = -INFINITY, least_angle = INFINITY;
     *span = (Span){.left = -INFINITY, .right = INFINITY};
     for (int number = 0; number < corner_count(wall); number++) {
-        Vec corner = corner_in_world(wall, number).place, way = sub(corner, from);
-        double angle = atan2(cross(ahead, way), dot(ahead, way)), distance = length(way);
+        Vec corner = corner_in_world(wall, number).place, offset = sub(corner, from);
+        double angle = atan2(cross(ahead, offset), dot(ahead, offset)), distance = length(offset);
         double half = distance > grown ? asin(grown / distance) : straight_angle / 2.0;
         span->left = greatest(span->left, angle + half);
         span->right = least(span->right, angle - half);
@@ -48,11 +48,11 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
     return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < straight_angle;
 }
 
-static bool minds(const World *world, const Disc *self, const cpShape *wall, Nearest *nearest) {
+static bool avoids(const World *world, const Disc *self, const cpShape *wall, Nearest *nearest) {
     return !passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, nearest);
 }
 
-// Find the nearest wall that the way to a point meets.
+// Find the nearest wall that the straight line to a point meets.
 static const cpShape *wall_in_way(const World *world, const Surroundings *around, const Disc *self, Vec point,
                                   Vec ahead, Span *span) {
     const cpShape *found = NULL;
@@ -61,7 +61,7 @@ static const cpShape *wall_in_way(const World *world, const Surroundings *around
         const cpShape *wall = around->anchored[number];
         Nearest nearest;
         Span there, back;
-        if (distance_beside(wall, self->place, ahead) < self->radius && minds(world, self, wall, &nearest) &&
+        if (distance_beside(wall, self->place, ahead) < self->radius && avoids(world, self, wall, &nearest) &&
             nearest.distance < least_distance && find_span(wall, self->place, ahead, self->radius, &there) &&
             find_span(wall, point, negated(ahead), self->radius, &back)) {
             found = wall, least_distance = nearest.distance, *span = there;
@@ -86,12 +86,12 @@ static bool is_blocked(const World *world, const Surroundings *around, const Dis
 }
 
 Vec heading_to(const World *world, const Surroundings *around, const Disc *self, Vec point) {
-    Vec way = sub(point, self->place);
-    double distance = length(way);
+    Vec offset = sub(point, self->place);
+    double distance = length(offset);
     if (distance == 0.0) {
-        return way;
+        return offset;
     }
-    Vec ahead = scaled(way, 1.0 / distance);
+    Vec ahead = scaled(offset, 1.0 / distance);
     Span span;
     const cpShape *wall = wall_in_way(world, around, self, point, ahead, &span);
     if (wall == NULL) {

@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// The way of a pedestrian around a wall.
+// The path of a pedestrian around a wall.
 
 #ifndef PHYSSIM_WAY_AROUND_H
 #define PHYSSIM_WAY_AROUND_H

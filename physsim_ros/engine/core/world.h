@@ -29,8 +29,9 @@ typedef struct Private {
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
     struct Statics *statics;
-    struct Pair *borne, *passing; // shapes that one-way bodies bear or that bear these; bodies that pass these
-    int borne_count, passing_count;
+    // Pairs of shapes, one of a one-way body, that carried a load in the last sub-step; of bodies that pass each other.
+    struct Pair *loaded, *passing;
+    int loaded_count, passing_count;
     struct Touch *begun; // contacts that begin in this step
     int begun_count;
     struct Load *loads; // of the contacts of this step
@@ -47,8 +48,8 @@ typedef struct Private {
     // Whether there is a body on which a floor acts; one-way, with a belt, with rolling resistance.
     bool has_floor, has_one_way, has_belt, has_rolling;
     int sub_step;                // number of the sub-step in this step
-    int wishing;                 // number of the actor whose wish is found next
-    bool wishes;                 // wishes of actors are found, before the first sub-step
+    int next_actor;              // number of the actor whose velocity is chosen next
+    bool choosing;               // velocities of actors are being chosen, before the first sub-step
     struct Surroundings *around; // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
@@ -116,9 +117,9 @@ static inline void set_twist(cpBody *body, Twist twist) {
 // Set the pose of a body whose centre of mass is its origin, as `cpBodySetPosition` and `cpBodySetAngle` do.
 void set_pose(cpBody *body, Pose pose);
 
-// A pose after a way.
-static inline Pose moved(Pose pose, Twist way, double share) {
-    return (Pose){add(pose.p, scaled(way.v, share)), pose.yaw + way.w * share};
+// A pose after a displacement.
+static inline Pose moved(Pose pose, Twist displacement, double share) {
+    return (Pose){add(pose.p, scaled(displacement.v, share)), pose.yaw + displacement.w * share};
 }
 
 // The next contact in the list of a body.

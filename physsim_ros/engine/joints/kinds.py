@@ -34,8 +34,8 @@ _NO_BIAS = 1.0
 _NEARLY_NO_BIAS = 1.0 - 1e-4
 # Greatest force of the drive of a slider [N], unless it is set: as the greatest torque of a motor.
 _DRIVE = 1000.0
-# How far behind its lower limit the point lies from which the way of a slider is measured [m]; any
-# distance will do.
+# How far behind its lower limit the point lies from which the travel of a slider is measured [m];
+# any distance will do.
 _BACK = 1.0
 
 
@@ -323,7 +323,7 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """
     Return an anchor on a line of another body, and bodies that do not turn against each other.
 
-    The way along the line may have limits. Chipmunk's `GrooveJoint` solves both directions and
+    The travel along the line may have limits. Chipmunk's `GrooveJoint` solves both directions and
     then drops what is along the line, which is not the velocity constraint of a line where masses
     and arms make the two directions unequal (7.0.3, as in Pymunk 7.3.1): sliders that are loaded
     off centre would gain energy. In its place a `PinJoint` pulls across the line, from a point of
@@ -358,7 +358,7 @@ def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 
 def _rack(joint: Joint, ends: Ends) -> tuple[Part, ...]:
-    """Return a way along a rack, and the same along the rim of the pinion that rolls on it."""
+    """Return a displacement along a rack, and the same along the rim of its pinion."""
     met = -joint.seat.length * joint.seat.phase
     return (_own(lib.PART_DRIVE, ends, Row(lib.ROW_ROLL, met, met)),)
 
@@ -428,7 +428,7 @@ def _engine_guide(
 
 
 def _stop_of(joint: Joint) -> float | None:
-    """Return where on its line a slider without any way stays [m]; None if it has a way."""
+    """Return where on its line a slider without any travel stays [m]; None if it has travel."""
     lower, upper = joint.properties.lower, joint.properties.upper
     if joint.kind is not JointKind.SLIDER or lower is None or upper is None:
         return None

@@ -32,9 +32,9 @@ from physsim_ros.model.errors import BadProperty, Malformed
 
 # Greatest number of points of an actor.
 MOST_POINTS = 1000
-# Way [1, of the coordinates and of the path up to there, at least of 1 m] and turn [rad] up to
-# which a point of a path is the one before: a circle by sine and cosine closes within these, and
-# the times of all other points increase.
+# Distance [1, of the coordinates and of the path up to there, at least of 1 m] and turn [rad] up
+# to which a point of a path is the one before: a circle by sine and cosine closes within these,
+# and the times of all other points increase.
 _SAME_PLACE, _SAME_YAW = 1e-12, 1e-9
 # In the order of `ONCE`, `LOOP`, `TO_AND_FRO` of `engine/core/core.h`.
 _REPEATS = ('once', 'loop', 'to_and_fro')
@@ -219,9 +219,9 @@ class Path(Actor):
         yield 0.0, first
         length, before = 0.0, first
         for station in others:
-            way = math.dist(before[:2], station[:2])
-            if way > _SAME_PLACE * max(1.0, length, *map(abs, station[:2])):
-                length, before = length + way, station
+            distance = math.dist(before[:2], station[:2])
+            if distance > _SAME_PLACE * max(1.0, length, *map(abs, station[:2])):
+                length, before = length + distance, station
                 yield length / speed, station
             elif any(abs(a - b) > _SAME_YAW for a, b in zip(before[2:], station[2:], strict=True)):
                 raise BadProperty('a path that turns at one place needs times', field='points')

@@ -97,7 +97,7 @@ class Drive(Checked, ABC):
 
     @property
     def most_curved(self) -> float:
-        """Return the greatest curvature of its way [1/m]."""
+        """Return the greatest curvature of its path [1/m]."""
         return math.inf
 
     @abstractmethod
@@ -209,7 +209,7 @@ class Car(Drive):
 
     @property
     def most_curved(self) -> float:
-        """Return the greatest curvature of its way [1/m]."""
+        """Return the greatest curvature of its path [1/m]."""
         return math.tan(self.steering) / self.wheelbase
 
     def aim(self, command: Twist) -> Twist:

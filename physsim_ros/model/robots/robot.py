@@ -29,7 +29,7 @@ class Odometry(Checked):
     """
     Odometry, and its drift.
 
-    Errors are random walks: their variance grows with the way.
+    Errors are random walks: their variance grows with the distance.
 
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range
