@@ -11,7 +11,6 @@ time.
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 import time
@@ -90,6 +89,8 @@ class Sketchpad:
             results,
             self._server.list_worlds,
         )
+        # Whether an autosave waits for its turn among the requests, or is under way.
+        self._is_saving = False
         self._sessions: dict[int, PageSession] = {}
         # Numbers of the colours of people, by name.
         self._colors: dict[str, int] = {}
@@ -177,10 +178,13 @@ class Sketchpad:
             session.keep_hand(now)
         self._shared.pasts.send_due(now)
         self._shared.past_contacts.send_due()
-        if self._autosave.is_due(now):
-            # While too many requests wait, the save is put off.
-            with suppress(Busy):
+        if self._autosave.is_due(now) and not self._is_saving:
+            self._is_saving = True
+            try:
                 self._world.make_call(self._save_unsaved, Wait.FOR_SEEK)
+            except Busy:
+                # While too many requests wait, the save is put off.
+                self._is_saving = False
         if self._world.recording_address != self._sent_recording:
             self._sent_recording = self._world.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
@@ -220,8 +224,11 @@ class Sketchpad:
             self._server.send(content)
 
     async def _save_unsaved(self) -> tuple[Answer, ...]:
-        with self._boundary.output('autosave'):
-            await self._autosave.save()
+        try:
+            with self._boundary.output('autosave'):
+                await self._autosave.save()
+        finally:
+            self._is_saving = False
         return ()
 
     def _named_people(self) -> list[str]:

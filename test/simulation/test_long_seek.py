@@ -336,6 +336,33 @@ def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit():
     assert simulation.world.digest() == digest
 
 
+def test_an_undo_among_requests_that_are_replayed_at_one_step_takes_the_last_one():
+    # Found by seed 9100180: a replay that goes on by slices was left between two requests.
+    simulation = Simulation(settings=FLOOR)
+    simulation.advance_frame()
+    for number in range(4):
+        disc = spawning(f'disc/{number}', DISC, (0.0, number + 1.0, 0.0))
+        simulation.requests.submit(disc, topic='')
+    simulation.apply_requests()
+    simulation.advance_frame()
+    together, head = simulation.frame_steps, simulation.step
+    simulation.past.frames.drop_from(0)
+    simulation.seek(0)
+    told = set()
+    for tick in range(30):
+        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        told.add((simulation.step, simulation.past.cursor.is_working, simulation.status.undo))
+        if simulation.step == together and simulation.past.cursor.is_working:
+            break
+    assert {words for step, _, words in told if step < together} == {''}
+    assert (together, True, 'undo spawn disc/3') in told
+    assert simulation.undo().startswith('undid spawn disc/3')
+    assert simulation.apply_requests().snapshot.scene.names == ('disc/0', 'disc/1', 'disc/2')
+    simulation.redo()
+    assert len(simulation.apply_requests().snapshot.scene.names) == 4
+    assert simulation.past.tree.head == head
+
+
 def of_anna_and_ben(seconds: int) -> Simulation:
     """Return a paused world in which Anna and Ben have added a disc each, some time ago."""
     spawns = [spawning(f'{name}/0', DISC, (x, 2.0 * x + 1.0, 0.0)) for x, name in enumerate(NAMES)]

@@ -6,17 +6,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import Future
 from pathlib import Path
 import time
 
 from physsim_ros.files import load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
-from physsim_ros.model.slices import at_once
+from physsim_ros.model.slices import at_once, wrap_future
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sketchpad import autosave as module
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 import pytest
 
+from .browser import Browser
 from ..building import BOX, spawning
 from ..worlds.film import state_of
 
@@ -141,3 +146,36 @@ def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) 
     drawn(simulation, autosave, 'a/0')
     at_once(autosave.save())
     assert autosave.unsaved_at == 0.0
+
+
+def test_one_save_waits_for_its_turn_however_long_a_call_is_under_way(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # A save for each tick of a seek made a reset of 9,000 bodies wait for 38 s.
+    node, written = browser.physsim.node, list[Path]()
+    monkeypatch.setattr(module, 'write_file', lambda path, _: written.append(path))
+    for name in ('PERIOD', 'STILL_PERIOD', 'SHARE'):
+        monkeypatch.setattr(module, name, 0.0)
+    browser.open_page().last('welcome')
+    node.start()
+    requests, held = node.simulation.requests, Future[None]()
+
+    async def hold() -> tuple[Answer, ...]:
+        await wrap_future(held)
+        return ()
+
+    def tick(count: int) -> int:
+        for _ in range(count):
+            node.tick(time.monotonic_ns())
+        return len(written)
+
+    node.simulation.perform(spawning('a/0', BOX))
+    requests.submit_call(hold, Wait.FOR_SEEK)
+    tick(20)
+    assert len(requests) == 1
+    held.set_result(None)
+    browser.until(lambda: tick(1) == 1, settling=False)
+    assert tick(20) == 1
+    # The next change has its save too.
+    node.simulation.perform(spawning('a/1', BOX))
+    browser.until(lambda: tick(1) == 2, settling=False)

@@ -10,8 +10,9 @@ reported as `divergence`. At each checkpoint on its way, the world moves into a 
 from it, as it did the first time.
 
 Long work, a seek, an amendment of the past or steps, is made in slices. Meanwhile `moment` and the
-settings are those of the goal, of steps those that are made, and reading `world` finishes the
-work. A seek replaces another one, and steps; an amendment is finished first.
+settings are those of the goal; of steps, those of the last step that is made, with all requests
+with which it was shown. Reading `world` finishes the work. A seek replaces another one, and steps;
+an amendment is finished first.
 """
 
 from __future__ import annotations
@@ -206,8 +207,12 @@ class Cursor(Replay):
     @property
     def moment(self) -> Moment:
         """Return step and serial, those to which work leads that is under way."""
-        if self._work is None or self._work.kind is _Kind.STEPS:
+        if self._work is None:
             return self._here
+        step = self._world.step_count
+        if self._work.kind is _Kind.STEPS and step < self._tree.head:
+            # The world may be among the requests of this step.
+            return Moment(step, self._tree.serial_shown_at(step))
         return self._work.goal or self._tree.end
 
     @property
