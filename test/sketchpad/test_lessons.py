@@ -169,6 +169,11 @@ def test_a_link_leads_to_a_moment_of_a_lesson(sheet: Sheet) -> None:
     sheet.wait('physsim.records["heavy/0"]?.[0] > 10')
 
 
+# How much of the prediction the body has gone, in each comparison that was written [%].
+SHARES = r"""[...window.written].map((text) => /for (\d+) % of the line/.exec(text)?.[1])
+    .filter(Boolean).map(Number)"""
+
+
 def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) -> None:
     open_lesson(sheet, '2. Horizontal throw')
     sheet.wait('"thrown/0" in physsim.bodies && physsim.time === 0')
@@ -180,12 +185,14 @@ def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) 
     sheet.wait('window.written.has("predicted")')
     sheet.play_until(0.9)
     sheet.wait('[...window.written].some((text) => /^off by 0\\.0/.test(text))')
+    assert max(sheet.page.evaluate(SHARES)) < 100
     # A way as long as the prediction is compared, however fast the body is, and no longer one.
     end = sheet.play_until(1.9)
     assert sheet.pose('thrown/0')[0] > x + 5.5
     sheet.page.evaluate('window.written.clear()')
     sheet.seek(end - 0.1)
     sheet.wait('[...window.written].some((text) => /^off by 0\\.0/.test(text))')
+    assert sheet.page.evaluate(SHARES) == [100]
     # A way that it does not go, in the same world again.
     sheet.press('Reset')
     sheet.wait('physsim.time === 0')

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Predictions: the way that a body is expected to go, drawn before time runs. The way that it goes is drawn beside it,
- * and how far it is from the prediction; again in each run, since the same world goes the same way.
+ * Predictions: the path that a body is expected to take, drawn before time runs. Its own path is drawn beside it in each
+ * run, with how far the prediction is off, and how much of it the body has gone.
  */
 
 import {distanceTo} from '../view/body_path.js';
@@ -12,7 +12,7 @@ import {distance} from '../vectors.js';
 
 /** @import {Point, Sample, SceneView, ToolParts, Touch} from '../types.js' */
 
-const PARTS = 100; // of a way, at whose ends it is compared
+const PARTS = 100; // of a prediction, at whose ends it is compared: percents
 
 export class Prediction extends Gesture {
   /** @param {ToolParts} parts */
@@ -61,10 +61,12 @@ export class Prediction extends Gesture {
       view.line(way, palette.momentum, [8, 6]);
       const [x, y] = camera.toPage(...way[way.length - 1]);
       const gone = records.samples(name).filter(({time}) => time > since && time <= now);
-      view.line(gone.map((sample) => [sample.x, sample.y]), palette.accent);
+      view.line(gone.map((each) => [each.x, each.y]), palette.accent);
       const places = evenly(gone, lengthOf(way) / PARTS);
       const off = places.reduce((sum, [atX, atY]) => sum + distanceTo(way, atX, atY), 0) / places.length;
-      view.write(gone.length ? t('off by {length} m on average', {length: threeDigits(off)}) : t('predicted'), [x + 10, y], palette.momentum);
+      const text = t('off by {length} m on average, for {share} % of the line',
+        {length: threeDigits(off), share: places.length - 1});
+      view.write(gone.length ? text : t('predicted'), [x + 10, y], palette.momentum);
     }
   }
 }
@@ -72,14 +74,14 @@ export class Prediction extends Gesture {
 /**
  * @param {Sample[]} samples
  * @param {number} step [m]
- * @returns {Point[]} places at that distance along a way as long as the prediction
+ * @returns {Point[]} places that far apart, for the length of a prediction
  */
 function evenly(samples, step) {
   /** @type {Point[]} */
   const places = [];
   let next = 0; // of the places, from the sample before [m]
   samples.forEach(({x, y}, i) => {
-    const last = samples[Math.max(i - 1, 0)], length = distance([last.x, last.y], [x, y]);
+    const last = samples[i && i - 1], length = distance([last.x, last.y], [x, y]);
     for (; next <= length && places.length <= PARTS; next += step) {
       const share = length && next / length;
       places.push([last.x + share * (x - last.x), last.y + share * (y - last.y)]);
