@@ -90,9 +90,9 @@ class ContactArrows:
         self._shown = lengths[-1] > 0
         vectors = np.concatenate(forces) / (self._force or 1.0)
         vectors /= np.maximum(1.0, np.hypot(*vectors.T) / CUT)[:, None]
-        shown = LENGTH * change.unit * vectors
+        vectors *= LENGTH * change.unit
         height = ARROWS * change.unit
-        arrows = _arrow_columns(np.concatenate(origins), shown, height, lengths)
+        arrows = _arrow_columns(np.concatenate(origins), vectors, height, lengths)
         self._recording.send_columns(CONTACTS, batch.times_at(chosen), arrows)
 
     def _forces(self, batch: FrameBatch, index: int) -> tuple[Floats, Floats]:
@@ -141,9 +141,9 @@ class VelocityArrows:
         chosen = batch.sampled(max(_VELOCITY_PERIOD, sampling_period(len(moving))))
         snapshots = [batch.frames[index].snapshot for index in chosen]
         origins = np.concatenate([each.centers[moving] for each in snapshots])
-        shown = _AHEAD * np.concatenate([each.twists[moving, :2] for each in snapshots])
+        vectors = _AHEAD * np.concatenate([each.twists[moving, :2] for each in snapshots])
         lengths = [len(moving)] * len(chosen)
-        arrows = _arrow_columns(origins, shown, ARROWS * change.unit, lengths)
+        arrows = _arrow_columns(origins, vectors, ARROWS * change.unit, lengths)
         self._recording.send_columns(VELOCITIES, batch.times_at(chosen), arrows)
 
 
@@ -175,11 +175,11 @@ class AppliedArrows:
         forces = np.array([each.force for _, each, _ in found]).reshape(-1, 2)
         turning = np.array([each.axes == 'body' for _, each, _ in found], np.float64)
         origins = poses[..., :2] + rotated_each(np.array(points).reshape(-1, 2), poses[..., 2])
-        shown = rotated_each(forces, poses[..., 2] * turning)
-        shown *= LENGTH * change.unit / max(norms(forces).max(initial=0.0), 1e-9)
+        vectors = rotated_each(forces, poses[..., 2] * turning)
+        vectors *= LENGTH * change.unit / max(norms(forces).max(initial=0.0), 1e-9)
         lengths = [len(found)] * len(chosen)
         arrows = _arrow_columns(
-            origins.reshape(-1, 2), shown.reshape(-1, 2), ARROWS * change.unit, lengths
+            origins.reshape(-1, 2), vectors.reshape(-1, 2), ARROWS * change.unit, lengths
         )
         self._recording.send_columns(FORCES, batch.times_at(chosen), arrows)
         self._shown = bool(found)
@@ -257,9 +257,9 @@ def _arrow_columns(
     """
     places = np.full((len(origins), 3), height, dtype=np.float32)
     places[:, :2] = origins
-    shown = np.zeros((len(vectors), 3), dtype=np.float32)
-    shown[:, :2] = vectors
-    return rr.Arrows3D.columns(origins=places, vectors=shown).partition(lengths)
+    spatial = np.zeros((len(vectors), 3), dtype=np.float32)
+    spatial[:, :2] = vectors
+    return rr.Arrows3D.columns(origins=places, vectors=spatial).partition(lengths)
 
 
 def _log_style(recording: rr.RecordingStream, path: str, color: tuple[int, int, int]) -> None:

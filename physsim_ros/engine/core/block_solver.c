@@ -45,15 +45,15 @@ typedef struct Hit {
 } Hit;
 
 // A point of a contact.
-typedef struct Spot {
+typedef struct ContactPoint {
     cpArbiter *arbiter;
     cpContact *contact;
-} Spot;
+} ContactPoint;
 
 // Two bodies that hit each other, those that they reach through contacts, and the outermost points of these.
 typedef struct Cluster {
     const cpBody *bodies[CLUSTER_BODIES];
-    Spot spots[CLUSTER_POINTS];
+    ContactPoint contact_points[CLUSTER_POINTS];
     int body_count, count;
     bool too_many;
 } Cluster;
@@ -83,9 +83,9 @@ static bool has_body(const Cluster *cluster, const cpBody *body) {
     return false;
 }
 
-static bool has_spot(const Cluster *cluster, const cpContact *contact) {
+static bool has_point(const Cluster *cluster, const cpContact *contact) {
     for (int number = 0; number < cluster->count; number++) {
-        if (cluster->spots[number].contact == contact) {
+        if (cluster->contact_points[number].contact == contact) {
             return true;
         }
     }
@@ -106,34 +106,34 @@ static bool share_face(const cpArbiter *one, const cpArbiter *other) {
 }
 
 // Where a point lies along the face of a contact [m].
-static double place_along(const cpArbiter *face, Spot spot) {
+static double place_along(const cpArbiter *face, ContactPoint point) {
     const cpBody *body = is_movable(face->body_a) ? face->body_a : face->body_b;
-    Vec arm = body == spot.arbiter->body_a ? spot.contact->r1 : spot.contact->r2;
+    Vec arm = body == point.arbiter->body_a ? point.contact->r1 : point.contact->r2;
     return cross(face->n, arm);
 }
 
 // Add a point to a cluster, unless it lies between two of the same face.
-static void add_spot(Cluster *cluster, Spot spot) {
-    Spot *ends[2];
+static void add_point(Cluster *cluster, ContactPoint point) {
+    ContactPoint *ends[2];
     int count = 0;
     for (int number = 0; number < cluster->count && count < 2; number++) {
-        if (share_face(spot.arbiter, cluster->spots[number].arbiter)) {
-            ends[count++] = cluster->spots + number;
+        if (share_face(point.arbiter, cluster->contact_points[number].arbiter)) {
+            ends[count++] = cluster->contact_points + number;
         }
     }
     if (count < 2) {
         cluster->too_many = cluster->count == CLUSTER_POINTS;
         if (!cluster->too_many) {
-            cluster->spots[cluster->count++] = spot;
+            cluster->contact_points[cluster->count++] = point;
         }
         return;
     }
-    double place = place_along(spot.arbiter, spot), first = place_along(spot.arbiter, *ends[0]),
-           second = place_along(spot.arbiter, *ends[1]);
+    double place = place_along(point.arbiter, point), first = place_along(point.arbiter, *ends[0]),
+           second = place_along(point.arbiter, *ends[1]);
     if (place < least(first, second)) {
-        *ends[first < second ? 0 : 1] = spot;
+        *ends[first < second ? 0 : 1] = point;
     } else if (place > greatest(first, second)) {
-        *ends[first > second ? 0 : 1] = spot;
+        *ends[first > second ? 0 : 1] = point;
     }
 }
 
@@ -142,9 +142,9 @@ static void add_contact(Cluster *cluster, cpArbiter *arbiter) {
     // Far away a distance can be lost in rounding, and with it the direction.
     bool has_normal = arbiter->n.x != 0.0 || arbiter->n.y != 0.0;
     for (int number = 0; number < arbiter->count && has_normal && !cluster->too_many; number++) {
-        Spot spot = {arbiter, arbiter->contacts + number};
-        if (!has_spot(cluster, spot.contact)) {
-            add_spot(cluster, spot);
+        ContactPoint point = {arbiter, arbiter->contacts + number};
+        if (!has_point(cluster, point.contact)) {
+            add_point(cluster, point);
         }
     }
     const cpBody *bodies[2] = {arbiter->body_a, arbiter->body_b};
@@ -260,8 +260,8 @@ static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
 
 static void list_points(const Cluster *cluster, Velocities *velocities, Point *points) {
     for (int number = 0; number < cluster->count; number++) {
-        cpArbiter *each = cluster->spots[number].arbiter;
-        cpContact *contact = cluster->spots[number].contact;
+        cpArbiter *each = cluster->contact_points[number].arbiter;
+        cpContact *contact = cluster->contact_points[number].contact;
         bool begins = each->state == ARBITER_FIRST_COLLISION;
         points[number] = (Point){contact,
                                  each->body_a,
@@ -285,7 +285,7 @@ static void take_out_inner(const Cluster *cluster) {
         for (cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             for (int point = 0; point < each->count && each->state != ARBITER_FIRST_COLLISION; point++) {
                 cpContact *contact = each->contacts + point;
-                if (!has_spot(cluster, contact)) {
+                if (!has_point(cluster, contact)) {
                     contact->jnAcc = contact->jtAcc = 0.0;
                 }
             }

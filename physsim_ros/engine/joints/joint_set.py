@@ -11,7 +11,7 @@ the engine; a `max_force` that is not reached changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Generator, Iterable, Mapping
 from dataclasses import replace
 import itertools
 import math
@@ -29,6 +29,7 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.motor_command import MotorCommand, TimedCommand
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import LARGEST
+from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
@@ -154,7 +155,7 @@ class JointSet:
         for name in self.names_on(body):
             self._add_constraints(self.by_name[name].joint)
 
-    def slices_of_table(self) -> Iterator[None]:
+    def slices_of_table(self) -> Generator[None]:
         """Make the table that the core is to step, if there is none; yield after each slice."""
         if self._table is not None or not self.by_name:
             return
@@ -173,8 +174,7 @@ class JointSet:
 
         :param places: of bodies in the table of bodies, the background among them
         """
-        for _ in self.slices_of_table():
-            pass
+        finish(self.slices_of_table())
         if self._table is None:
             return
         self._table.place_ends(places)

@@ -107,7 +107,8 @@ class Configure(Request):
 
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with the setting if it is one."""
-        return Request.phrase(self, *self.changes if len(self.changes) == 1 else [subject])
+        names = list(self.changes)
+        return Request.phrase(self, names[0] if len(names) == 1 else subject)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

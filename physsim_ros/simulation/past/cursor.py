@@ -206,7 +206,7 @@ class Cursor(Replay):
 
     @property
     def moment(self) -> Moment:
-        """Return step and serial, those to which work leads that is under way."""
+        """Return step and serial: the goal of a seek or amendment, of steps the last one made."""
         if self._work is None:
             return self._here
         step = self._world.step_count

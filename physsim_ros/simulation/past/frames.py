@@ -114,7 +114,7 @@ class FrameCache:
             run.resume(keyframe.checkpoint)
             for node in nodes:
                 run.step(node.step - run.step_count)
-                # What a replay refuses, it reports as a divergence.
+                # A replay reports a refusal as a divergence.
                 with suppress(Refusal):
                     run.replay(node.request)
             run.step(moment.step - run.step_count)

@@ -11,7 +11,7 @@ bits, in another process too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 import hashlib
 from operator import gt
@@ -24,6 +24,7 @@ from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Answer, Contacts, Grip, NO_VECTORS, Snapshot
 from physsim_ros.model.texts import counted
 from physsim_ros.simulation.world import (
@@ -273,11 +274,10 @@ class World(LiveSpace):
         :return: bodies that left the range of numbers and were removed
         :raises StepFailed: in place of any error
         """
-        for _ in self.slices_of_steps(count):
-            pass
+        finish(self.slices_of_steps(count))
         return tuple(self.take_lost())
 
-    def slices_of_steps(self, count: int) -> Iterator[None]:
+    def slices_of_steps(self, count: int) -> Generator[None]:
         """
         Make a number of steps; yield where they take long, within a step too.
 

@@ -81,7 +81,7 @@ function evenly(samples, step) {
   const places = [];
   let next = 0; // of the places, from the sample before [m]
   samples.forEach(({x, y}, i) => {
-    const last = samples[i && i - 1], length = distance([last.x, last.y], [x, y]);
+    const last = samples[i - 1] ?? {x, y}, length = distance([last.x, last.y], [x, y]);
     for (; next <= length && places.length <= PARTS; next += step) {
       const share = length && next / length;
       places.push([last.x + share * (x - last.x), last.y + share * (y - last.y)]);
