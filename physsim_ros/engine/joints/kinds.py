@@ -34,9 +34,6 @@ _NO_BIAS = 1.0
 _NEARLY_NO_BIAS = 1.0 - 1e-4
 # Greatest force of the drive of a slider [N], unless it is set: as the greatest torque of a motor.
 _DRIVE = 1000.0
-# How far behind its lower limit the point lies from which the travel of a slider is measured [m];
-# any distance will do.
-_BACK = 1.0
 
 
 class EngineGuide(NamedTuple):
@@ -339,14 +336,23 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     if lower is None and upper is None:
         return *parts, *along
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
-    # Distances from a point of the line that lies behind its lower limit.
-    back = _BACK if lower is None else _BACK - lower
+    return *parts, _travel(joint, ends, least, most), *along
+
+
+def _travel(joint: Joint, ends: Ends, least: float, most: float) -> Part:
+    """
+    Return the limits of a slider, of which one may be infinite.
+
+    Chipmunk measures a distance, which has no sign: that from a point of the line 1 m beyond a
+    limit, to which the slider never comes.
+    """
+    stop, back = (most, -1.0 - most) if least == -math.inf else (least, 1.0 - least)
+    farthest = math.inf if least == -math.inf else back + most
     (x, y), (ux, uy) = ends.at_b, (joint.seat.ux, joint.seat.uy)
-    origin, nearest = (x - ux * back, y - uy * back), 0.0 if lower is None else back + lower
-    limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
+    origin = (x - ux * back, y - uy * back)
+    limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, abs(back + stop), farthest)
     limit.error_bias = _NO_BIAS
-    row = Row(lib.ROW_ALONG, least, most, below=-1.0)
-    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *along
+    return Part(lib.PART_SLIDE, limit, (Row(lib.ROW_ALONG, least, most, below=-1.0),))
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
