@@ -27,8 +27,8 @@ from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Point
 import pymunk
 
-# Share of the excess of an angle that Chipmunk leaves in a second: 4e-7 of it is closed in a step of
-# 1/240 s. Chipmunk takes a limit of which it closes nothing for one that is not reached.
+# Share of the excess of an angle that Chipmunk leaves in a second: it closes 4e-7 in a step of
+# 1/240 s. A limit of which it closes nothing counts for it as not reached.
 _EXCESS_LEFT = 1.0 - 1e-4
 # Greatest force of the drive of a slider [N], unless it is set: as the greatest torque of a motor.
 _DRIVE = 1000.0
