@@ -18,9 +18,9 @@ _TURNED |= {'in': 'not in', 'not in': 'in'}
 # A constant of a file, or of an enum that has no other.
 _CONSTANTS = re.compile(r'^(static const double .*;|enum \{ \w+ = .* \};)', re.MULTILINE)
 _NUMBER = re.compile(r'(?<== )\d[\d.e+-]*')
-# Loops are left out: one that never ends is no answer.
+# Without loops: one that never ends is no answer. Without assertions, which are tests themselves.
 _CONDITIONS = re.compile(
-    r'^(?!.*\b(?:for|while) \().*(?:\bif \(|\breturn\b| \? |= ).*$', re.MULTILINE
+    r'^(?!.*\b(?:for|while|assert) ?\().*(?:\bif \(|\breturn\b| \? |= ).*$', re.MULTILINE
 )
 _OPERATOR = re.compile(r'(?<= )(<=|>=|<|>|==|!=|&&|\|\|)(?= )')
 
