@@ -23,6 +23,7 @@ enum { ONE, TWO };
 """
 PYTHON = """
 LEAST = 3
+NONE = 0
 NAME = 'µ'
 def found(x, y):
     local = 4

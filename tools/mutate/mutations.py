@@ -85,7 +85,8 @@ def _in_python(text: str) -> Iterator[tuple[int, int, str]]:
     module = ast.parse(text)
     for node in module.body:
         value = node.value if isinstance(node, (ast.Assign, ast.AnnAssign)) else None
-        if isinstance(value, ast.Constant) and type(value.value) in {int, float}:
+        # 0 times 40 is 0.
+        if isinstance(value, ast.Constant) and type(value.value) in {int, float} and value.value:
             end = place(value.end_lineno or 0, value.end_col_offset or 0)
             yield end, end, f' * {FACTOR}'
     for part in ast.walk(module):
