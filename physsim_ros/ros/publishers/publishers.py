@@ -131,9 +131,8 @@ class Publishers:
     @property
     def is_read(self) -> bool:
         """Whether a topic of frames has subscribers."""
-        streams = (*self.streams, self.contacts)
-        others = self._markers.is_read or self.timeline.is_read
-        return others or any(each.is_read for each in streams)
+        topics = (*self.streams, self.contacts, self._markers, self.timeline)
+        return any(each.is_read for each in topics)
 
 
 class Encoder(Protocol):
