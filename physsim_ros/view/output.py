@@ -36,7 +36,7 @@ SILENT_AFTER = 10.0
 STARTING = 'starting'
 
 
-class Output:
+class OutputThread:
     """
     An endpoint with the thread that logs to it; either open, or closed for a reason.
 

@@ -26,7 +26,7 @@ from physsim_ros.view.endpoints import (
     ServerEndpoint,
 )
 from physsim_ros.view.file_endpoint import FileEndpoint
-from physsim_ros.view.output import ANSWERS, Output
+from physsim_ros.view.output import ANSWERS, OutputThread
 from physsim_ros.view.stream import FrameContext
 
 
@@ -61,11 +61,11 @@ class Viewer:
         self._boundary = boundary or ErrorBoundary()
         self._context = context
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
-        self._file: Output | None = None
+        self._file: OutputThread | None = None
         self._file_path = Path()
-        self._window: Output | None = None
+        self._window: OutputThread | None = None
         # Outputs before, which had no time left to end.
-        self._stuck: list[Output] = []
+        self._stuck: list[OutputThread] = []
         # Mode and URL of the viewer to open next; None where it is open.
         self._wanted: tuple[ViewerMode, str] | None = None
         self._shown: Frame | None = None
@@ -101,7 +101,7 @@ class Viewer:
         return '' if self._window is None else self._window.page_address
 
     @property
-    def _outputs(self) -> list[Output]:
+    def _outputs(self) -> list[OutputThread]:
         return [output for output in (self._file, self._window) if output is not None]
 
     def open_viewer(self, mode: ViewerMode, url: str = '') -> None:
@@ -186,14 +186,14 @@ class Viewer:
             native = mode is ViewerMode.SPAWN
             self._window = self._open(ServerEndpoint(native=native, report=self._answers.append))
 
-    def _open(self, endpoint: Endpoint) -> Output:
+    def _open(self, endpoint: Endpoint) -> OutputThread:
         """Return an output to an endpoint, with the last frame in its queue."""
-        output = Output(endpoint, self._boundary, self._answers.append, self._context)
+        output = OutputThread(endpoint, self._boundary, self._answers.append, self._context)
         if self._shown is not None:
             output.put(self._shown)
         return output
 
-    def _retire(self, output: Output) -> None:
+    def _retire(self, output: OutputThread) -> None:
         """Wait for the end of an output, and keep those that are stuck."""
         if not output.join():
             self._stuck.append(output)
