@@ -131,8 +131,8 @@ class Publishers:
     @property
     def is_read(self) -> bool:
         """Whether a topic of frames has subscribers."""
-        topics = (*self.streams, self.contacts, self._markers, self.timeline)
-        return any(each.is_read for each in topics)
+        streams = (each.is_read for each in (*self.streams, self.contacts))
+        return any((self._markers.is_read, self.timeline.is_read, *streams))
 
 
 class Encoder(Protocol):
