@@ -261,6 +261,7 @@ function begin(count, pupils) {
     createElement('p', {id: 'pupils'}, pupils));
   elementOf('all').append(textButton(t('Pupils come here'), showCode), lessons,
     textButton(t('Open the lesson for all'), () => cards.forEach(({connection}) => connection.openLesson(lessons.value))),
+    textButton(t('Play all'), () => toAll('service', {name: 'play'})),
     textButton(t('Pause all'), () => toAll('service', {name: 'pause'})),
     textButton(t('Freeze all'), () => toAll('freeze', {frozen: true})),
     textButton(t('Let them draw again'), () => toAll('freeze', {frozen: false})),

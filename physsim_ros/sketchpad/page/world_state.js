@@ -127,7 +127,7 @@ export class WorldState {
   }
 
   /** @returns {Bounds[]} of the bodies that are kept in sight: all; of a lesson that has a view, those that move */
-  get #keptInSight() {
+  get boxes() {
     const {bodies, lesson} = this.scene;
     return bodies.slice(0, this.count).flatMap(({anchored}, row) => lesson?.view && anchored ? [] : [this.#boundsOf(row)]);
   }
@@ -137,7 +137,7 @@ export class WorldState {
    * @returns {Bounds} of the bodies kept in sight that lie in it whole; infinite where there are none
    */
   boundsWithin([xmin, ymin, xmax, ymax]) {
-    return unionOf(this.#keptInSight.filter(([left, low, right, high]) => left >= xmin && low >= ymin && right <= xmax && high <= ymax));
+    return unionOf(this.boxes.filter(([left, low, right, high]) => left >= xmin && low >= ymin && right <= xmax && high <= ymax));
   }
 
   /**
@@ -223,7 +223,7 @@ export class WorldState {
 
   /** @returns {Bounds} of all bodies that are kept in sight; infinite where there are none */
   bodiesExtent() {
-    return unionOf(this.#keptInSight);
+    return unionOf(this.boxes);
   }
 
   /** @returns {?Bounds} a square about the heaviest body that attracts the others, as they go around it; null where none does */

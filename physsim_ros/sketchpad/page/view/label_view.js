@@ -112,7 +112,7 @@ const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; 
 export function drawNumbers(view) {
   const {ctx, insets, camera, numbers} = view, sides = [insets.left + 4, insets.top + 4, camera.width - insets.right - 4, camera.height - insets.bottom - RULER];
   /** @type {Box[]} */
-  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [view.covered];
+  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [...view.covered];
   ctx.font = FONT;
   if (!numbers.length) return;
   const lines = [...numbers.flatMap(({from, tip}) => from ? [/** @type {const} */ ([from, tip])] : []), ...linesOf(view)];

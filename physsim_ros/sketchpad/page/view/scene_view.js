@@ -6,7 +6,7 @@ import {JointView} from './joint_view.js';
 import {drawGrid, drawLabels, drawNumbers, drawRulers, drawScan} from './label_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
-/** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
+/** @import {Body, Bounds, Camera, Frame, Point, WorldState} from '../types.js' */
 /** @import {Numbered} from './label_view.js' */
 
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
@@ -31,8 +31,8 @@ export class SceneView {
     this.overlays = [];
     /** @type {Numbered[]} of the arrows that were drawn */
     this.numbers = [];
-    /** Of the legend; no number is put there. @type {[left: number, top: number, right: number, bottom: number]} [px] */
-    this.covered = [0, 0, 0, 0];
+    /** Boxes of the legend and the panel; no number is put there. @type {Bounds[]} left, top, right, bottom [px] */
+    this.covered = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
     this.ratio = 1; // pixels of the screen to one of the page
     this.dirty = true;
