@@ -23,6 +23,7 @@ from physsim_ros.files import (
     worlds_in,
 )
 from physsim_ros.model import errors
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world.capacity import check_limit
@@ -440,7 +441,7 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, addr
 # The body of a wrong world file, and what a German page says of it.
 WRONG_BODIES = [
     ('circle: {radius: 1}, att: 1', "den Schlüssel 'att' gibt es nicht, aber 'at'"),
-    ('circle: {radius: 1}, x: 1', "den Schlüssel 'x' gibt es nicht"),
+    ('circle: {radius: 1}, zebra: 1', "den Schlüssel 'zebra' gibt es nicht"),
     ('circle: {radius: -1}', 'radius: -1 liegt nicht zwischen 0.001 und 100000'),
     ('box: {width: 1}', 'height fehlt'),
     ('friction: 1', 'ihm fehlt eines von circle, box, polygon, chain, triangles, compound'),
@@ -457,8 +458,8 @@ WRONG_FILES = [
     (f'format: 1\n{AXLE}', "Verbindung 'j/0': den Körper 'b/0' gibt es nicht"),
     (
         f'format: 1\n{AXLE}'.replace('axle', 'glue'),
-        "Verbindung 'j/0': die Art 'glue' gibt es nicht; es gibt pin, axle, motor, spring, rod, "
-        'rope, slider, gear, rack',
+        "Verbindung 'j/0': die Art 'glue' gibt es nicht; es gibt "
+        + ', '.join(kind for kind in JointKind),
     ),
     ('format: 1\ngravity: 5', 'gravity ist keine Liste von 2 Zahlen'),
     *(

@@ -230,9 +230,13 @@ export class JointView {
     const at = (along, across, from = q) => [from[0] + along * dx - across * dy,
       from[1] + along * dy + across * dx];
     const least = (lower ?? -RAIL) * scale, most = (upper ?? RAIL) * scale;
+    this.ctx.save();
+    // Nothing slides beyond the bounds of the world.
+    this.ctx.clip(this.view.boundsPath());
     this.#line([at(least, 0), at(most, 0)]);
     if (lower !== undefined) this.#line([at(least, -s), at(least, s)]);
     if (upper !== undefined) this.#line([at(most, -s), at(most, s)]);
+    this.ctx.restore();
     this.ctx.beginPath();
     for (const [u, v] of [[1.5, 0.8], [-1.5, 0.8], [-1.5, -0.8], [1.5, -0.8]]) {
       this.ctx.lineTo(...at(u * s, v * s, p));

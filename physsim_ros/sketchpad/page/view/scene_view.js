@@ -95,13 +95,20 @@ export class SceneView {
     this.ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
   }
 
+  /** @returns {Path2D} around the world, or around the page where the world has no bounds */
+  boundsPath() {
+    const {camera, world: {scene: {bounds}}} = this, path = new Path2D();
+    if (bounds.length) path.rect(...camera.toPage(bounds[0], bounds[3]), (bounds[2] - bounds[0]) * camera.scale, (bounds[3] - bounds[1]) * camera.scale);
+    else path.rect(0, 0, camera.width, camera.height);
+    return path;
+  }
+
   #drawBounds() {
-    const {ctx, camera, palette} = this, {bounds} = this.world.scene;
-    if (!bounds.length) return;
-    const [x, y] = camera.toPage(bounds[0], bounds[3]);
+    const {ctx, palette} = this;
+    if (!this.world.scene.bounds.length) return;
     ctx.strokeStyle = palette.ink;
     ctx.lineWidth = 2;
-    ctx.strokeRect(x, y, (bounds[2] - bounds[0]) * camera.scale, (bounds[3] - bounds[1]) * camera.scale);
+    ctx.stroke(this.boundsPath());
   }
 
   /**
