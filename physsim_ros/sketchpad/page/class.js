@@ -96,7 +96,7 @@ class Card {
     const {world, world: {scene: {lesson}, frame: {time}}} = this;
     if (!lesson?.view || !time) this.left = false;
     else if (!this.left) {
-      const first = world.extent(), reached = unionOf([first, world.bodiesExtent()]);
+      const first = world.extent(), reached = unionOf([first, ...world.boxes]);
       this.left = reached.some((edge, i) => edge !== first[i]);
     }
   }

@@ -221,11 +221,6 @@ export class WorldState {
     return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
-  /** @returns {Bounds} of all bodies that are kept in sight; infinite where there are none */
-  bodiesExtent() {
-    return unionOf(this.boxes);
-  }
-
   /** @returns {?Bounds} a square about the heaviest body that attracts the others, as they go around it; null where none does */
   #orbits() {
     const {scene: {bodies, gravitation}, frame: {x, y}} = this;
@@ -249,7 +244,7 @@ export class WorldState {
 
   /** @returns {Bounds} of what a lesson shows first; of the world, or of its bodies, with the hinges in it */
   extent() {
-    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.#orbits() ?? this.bodiesExtent());
+    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.#orbits() ?? unionOf(this.boxes));
     return box.every(Number.isFinite) ? unionOf([box, ...this.#hingesIn(box)]) : [-6, -1, 6, 6];
   }
 }

@@ -55,7 +55,7 @@ export class Room {
   /** Frame the bounds of the world, and every body: it may have been dragged beyond them. */
   frameAll() {
     const {world} = this.parts;
-    this.frame(unionOf([world.extent(), world.bodiesExtent()]));
+    this.frame(unionOf([world.extent(), ...world.boxes]));
   }
 
   /**

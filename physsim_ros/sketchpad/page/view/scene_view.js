@@ -158,10 +158,15 @@ export class SceneView {
     ctx.lineWidth = 2.5;
     ctx.lineCap = ctx.lineJoin = 'round';
     ctx.setLineDash(dash);
-    ctx.beginPath();
-    for (const point of points) ctx.lineTo(...this.camera.toPage(...point));
-    ctx.stroke();
+    this.polyline(points.map((point) => this.camera.toPage(...point)));
     ctx.setLineDash([]);
+  }
+
+  /** @param {Point[]} points of the canvas */
+  polyline(points) {
+    this.ctx.beginPath();
+    for (const [x, y] of points) this.ctx.lineTo(x, y);
+    this.ctx.stroke();
   }
 
   /**
@@ -192,10 +197,7 @@ export class SceneView {
       /** @type {Point} */ ([px + ux * along - uy * across, py + uy * along + ux * across]);
     ctx.lineCap = 'butt';
     this.onRim(color, width, (rim) => {
-      ctx.beginPath();
-      ctx.moveTo(px, py);
-      ctx.lineTo(...at(length - head / 2, 0));
-      ctx.stroke();
+      this.polyline([[px, py], at(length - head / 2, 0)]);
       ctx.beginPath();
       for (const side of [1, -1]) ctx.lineTo(...at(length - head - rim, side * (head * 0.45 + rim)));
       ctx.lineTo(...at(length + rim, 0));
@@ -204,12 +206,7 @@ export class SceneView {
     if (!cut) return;
     ctx.strokeStyle = this.palette.paper;
     ctx.lineWidth = 3;
-    for (const along of [0.45, 0.52]) {
-      ctx.beginPath();
-      ctx.moveTo(...at(along * length - 3, -6));
-      ctx.lineTo(...at(along * length + 3, 6));
-      ctx.stroke();
-    }
+    for (const along of [0.45, 0.52]) this.polyline([at(along * length - 3, -6), at(along * length + 3, 6)]);
   }
 
   /**
@@ -255,14 +252,15 @@ export class SceneView {
    * @param {Point} at its begin, or its middle [px]; what begins on the page ends there, too
    * @param {string} color
    * @param {CanvasTextAlign} align
+   * @param {number} size of letters [px]
    */
-  write(text, [x, y], color, align = 'left') {
+  write(text, [x, y], color, align = 'left', size = 13) {
     const {ctx, camera} = this;
-    ctx.font = '13px system-ui, sans-serif';
+    ctx.font = `${size}px system-ui, sans-serif`;
     ctx.textAlign = align;
     if (align === 'left' && x < camera.width) x = Math.min(x, camera.width - ctx.measureText(text).width - 4);
     ctx.lineJoin = 'round';
-    ctx.lineWidth = 4;
+    ctx.lineWidth = 0.3 * size;
     ctx.strokeStyle = this.palette.paper;
     ctx.strokeText(text, x, y);
     ctx.fillStyle = color;
