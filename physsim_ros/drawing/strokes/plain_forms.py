@@ -139,10 +139,10 @@ def _shapes(outline: Floats) -> Iterator[Form]:
     oval = ellipse.corners(_OVAL_SIDES)
     yield Form(name=OVAL, weight=circle * (1.0 - circular), points=oval, measures=measures)
     square = _SIDED.below(off)
-    if len(at) == 4 and _squareness(found) > square:
-        corners, square = found, _squareness(found)
-    else:
-        corners = narrowed(corners)
+    sharpness = _squareness(found) if len(at) == 4 else 0.0
+    # Corners that are sharp are more exact than the rectangle of least squares.
+    corners = found if 2.0 * sharpness > square else narrowed(corners)
+    square = max(square, sharpness)
     weight = (1.0 - edgeless) * square
     yield Form(name=RECTANGLE, weight=weight, points=corners, measures=measures)
     if len(at) >= 3 and crosses_itself(found):
