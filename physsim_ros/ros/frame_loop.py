@@ -74,12 +74,13 @@ class FrameLoop:
         :param now_ns: steady time, monotonic [ns]
         """
         began = time.perf_counter_ns()
+        self._note_readers()
         self._take_commands()
         frames: tuple[Frame, ...] = ()
         step = self._simulation.step
         request_time = _RequestTime(self._rest_ns)
         # In a rewind commands are ignored, and no controller is awaited.
-        if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
+        if self._simulation.speed < 0.0 or not self._fleet.waits():
             # A short seek is finished first: its slices are no frames for controllers to answer.
             self.finish_short_seek()
             frames = self._simulation.advance(
@@ -109,12 +110,13 @@ class FrameLoop:
         statistics.add(
             now_ns=now_ns,
             stamp=self._simulation.stamp,
-            step_ns=stepped - began,
+            step_ns=stepped - request_time.ended,
             frame_ns=time.perf_counter_ns() - began,
         )
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
+        self._note_readers()
         self._take_commands()
         self._outputs.show(self._simulation.advance_frame())
 
@@ -126,6 +128,7 @@ class FrameLoop:
         """
         if not count:
             return 0
+        self._note_readers()
         self._take_commands()
         if self._simulation.is_read:
             return 0
@@ -171,7 +174,7 @@ class FrameLoop:
         elif wait is not Wait.NONE:
             self._simulation.requests.apply_waiting()
             # No tick goes on with a replay that the call began.
-            self._simulation.finish_seek(lambda: False)
+            self._simulation.finish_work(lambda: False)
 
     def current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""
@@ -183,11 +186,10 @@ class FrameLoop:
     def finish_short_seek(self) -> None:
         """Have a seek be done at once if it is short; else the next ticks go on with it."""
         began = time.perf_counter_ns()
-        self._simulation.finish_seek(lambda: _is_overdue(began))
+        self._simulation.finish_work(lambda: _is_overdue(began))
 
     def _take_commands(self) -> None:
-        """Take the messages of pages, and what robots were told; nothing while in the past."""
-        self._note_readers()
+        """Handle messages of pages, and submit commands of robots, which the past refuses."""
         if self._outputs.sketchpad is not None:
             self._outputs.sketchpad.handle_messages()
         self._fleet.submit_commands(

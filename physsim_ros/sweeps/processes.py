@@ -15,17 +15,18 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+import gc
 import math
 import mmap
 import os
 import pickle
 import resource
-import select
+import selectors
 import signal
 import struct
 import sys
 import time
-from typing import Any, NoReturn
+from typing import NoReturn
 import warnings
 
 import numpy as np
@@ -95,6 +96,9 @@ class _Process:
     def _work(self, out: int) -> NoReturn:
         """Run the case, send what came of it, and end; in the process itself."""
         status = 1
+        # Garbage of the parent is not this process's own either: a node of ROS that is freed
+        # without its threads ends it.
+        gc.freeze()
         try:
             seconds = math.ceil(self._experiment.cpu_limit * self._attempts)
             _, most = resource.getrlimit(resource.RLIMIT_CPU)
@@ -190,22 +194,26 @@ def run_apart(
     """
     waiting = deque(_Job(number, case) for number, case in cases)
     running: dict[int, _Process] = {}
+    selector = selectors.DefaultSelector()
     try:
         while waiting or running:
             while waiting and len(running) < processes:
                 process = _Process(experiment, waiting.popleft())
                 running[process.pipe] = process
+                selector.register(process.pipe, selectors.EVENT_READ)
             due = min(each.deadline for each in running.values()) - time.monotonic()
-            ready: list[Any] = select.select([*running], [], [], max(0.0, due))[0]
+            ready = {key.fd for key, _ in selector.select(max(0.0, due))}
             for process in [*running.values()]:
                 is_over = process.pipe in ready and process.receive()
                 if is_over or time.monotonic() >= process.deadline:
                     del running[process.pipe]
+                    selector.unregister(process.pipe)
                     result = process.result()
                     if isinstance(result, Run):
                         yield process.job.number, result
                     else:
                         waiting.appendleft(result)
     finally:
+        selector.close()
         for process in running.values():
             process.close()

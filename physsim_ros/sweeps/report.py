@@ -88,7 +88,8 @@ def picture_of_runs(
     # The failed ones on top.
     ordered = sorted(runs, key=lambda run: bool(run.failure))
     lines = [(run.way, _FAILED if run.failure else _WELL) for run in ordered]
-    ends = [(run.way[-1], _FAILED) for run in ordered if run.failure]
+    # A run whose process has ended may have no way.
+    ends = [(run.way[-1], _FAILED) for run in ordered if run.failure and len(run.way)]
     return picture_of(simulation.frame.snapshot, width, lines=lines, crosses=ends)
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+import gc
 import multiprocessing
 import os
 from pathlib import Path
@@ -73,6 +74,7 @@ def test_processes_have_the_same_runs_to_the_bit(runs: list[Run]) -> None:
         assert told(sweep(experiment(), CASES, pool.map)) == told(runs)
 
 
+@pytest.mark.slow
 def test_a_cluster_has_the_same_runs_to_the_bit(
     runs: list[Run], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -133,6 +135,8 @@ def test_a_picture_has_the_ways_red_where_they_failed(runs: list[Run]) -> None:
     assert reds(runs[4:]) == 0
     # Half a metre at 63 pixels a metre, and a cross, each.
     assert reds(runs[:4]) > 4 * 30
+    # A process that ended twice has left no way.
+    assert reds([replace(runs[0], way=np.empty((0, 2))), *runs[4:]]) == 0
 
 
 def test_a_failed_run_opens_at_the_moment_before_and_fails_again(
@@ -210,6 +214,36 @@ def test_a_controller_that_ends_its_process_as_it_is_made_leaves_the_world_of_th
     assert run.failure == 'killed by SIGKILL'
     assert run.seconds == 0.0
     assert run.before is not None
+
+
+def test_no_run_frees_the_garbage_of_the_process_that_began_it() -> None:
+    class Garbage:
+        """A cycle of references, as a node of ROS that was destroyed; its end tells where."""
+
+        def __init__(self) -> None:
+            self.itself = self
+
+        def __del__(self) -> None:
+            if os.getpid() != parent:
+                os._exit(5)
+
+    class Collects(Fated):
+        """Has its garbage collected."""
+
+        def __call__(self, robot: Robot) -> None:
+            gc.collect()
+            super().__call__(robot)
+
+    parent = os.getpid()
+    gc.disable()
+    try:
+        Garbage()
+        (run,) = sweep(
+            experiment(controller=Collects, seconds=0.3), cases_of(range(1), fate=('',))
+        )
+    finally:
+        gc.enable()
+    assert run.failure == ''
 
 
 def test_what_a_controller_starts_ends_with_its_run() -> None:

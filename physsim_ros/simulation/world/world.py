@@ -178,7 +178,7 @@ class World(LiveSpace):
         self.space.clear_contacts()
 
     def digest(self) -> str:
-        """Return a hash of time, scene, poses, velocities, wrenches, commands, grips and roles."""
+        """Return the digest, by which worlds are compared; it leaves out cached impulses."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         state, free, _ = self.space.core.read_state()
@@ -230,7 +230,7 @@ class World(LiveSpace):
         """Return the numbers of bodies and of joints."""
         return len(self.space.bodies.by_name), len(self.space.joints.by_name)
 
-    def slices_of_replay(self, request: Request) -> Generator[None]:
+    def slices_of_reapplying(self, request: Request) -> Generator[None]:
         """
         Carry out a request again, whose capacity was checked the first time; yield after slices.
 
@@ -238,10 +238,10 @@ class World(LiveSpace):
         """
         if isinstance(request, Restore):
             yield from self.slices_of_beginning(request.state)
-        self.replay(request)
+        self.reapply(request)
 
-    def replay(self, request: Request) -> None:
-        """Do as `slices_of_replay` at once."""
+    def reapply(self, request: Request) -> None:
+        """Do as `slices_of_reapplying` at once."""
         self.capacity.checking = False
         try:
             self.apply(request)
