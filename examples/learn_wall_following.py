@@ -68,20 +68,20 @@ def make_task():
 
 
 def evaluate(act, episodes=20):
-    """Return crashes, mean way of an episode [m], and mean error of the distance [m]."""
+    """Return crashes, mean path of an episode [m], and mean error of the distance [m]."""
     env = RobotEnv(make_task())
-    crashes, ways, errors = 0, [], []
+    crashes, paths, errors = 0, [], []
     for seed in range(episodes):
         observation, _ = env.reset(seed=10_000 + seed)
         over = cut = False
-        way = 0.0
+        path = 0.0
         while not (over or cut):
             observation, _, over, cut, _ = env.step(act(observation))
-            way += env.robot.truth().twist[0] * env.task.period
+            path += env.robot.truth().twist[0] * env.task.period
             errors.append(abs(to_the_right(env.robot) - DISTANCE))
         crashes += over
-        ways.append(way)
-    return crashes, float(np.mean(ways)), float(np.mean(errors))
+        paths.append(path)
+    return crashes, float(np.mean(paths)), float(np.mean(errors))
 
 
 def main():
@@ -101,7 +101,7 @@ def main():
     def act(observation):
         return model.predict(observation, deterministic=True)[0]
 
-    print('20 episodes of up to 60 s  crashes  way [m]  error of the distance [m]')
+    print('20 episodes of up to 60 s  crashes  path [m]  error of the distance [m]')
     print('before                    {:8d} {:8.2f} {:8.3f}'.format(*evaluate(act)))
     model.learn(options.steps)
     print('after {:7d} steps       {:8d} {:8.2f} {:8.3f}'.format(options.steps, *evaluate(act)))

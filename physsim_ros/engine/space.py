@@ -35,6 +35,9 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
+# Of a space of Pymunk as it is made.
+_WITHOUT_GRAVITY = WorldSettings(gravity=(0.0, 0.0))
+
 
 class Space:
     """
@@ -82,7 +85,7 @@ class Space:
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
         self.grips = GripSet()
-        self._settings = WorldSettings(gravity=(0.0, 0.0))
+        self._settings = _WITHOUT_GRAVITY
         self.configure(settings)
 
     @property

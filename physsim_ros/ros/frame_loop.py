@@ -74,6 +74,7 @@ class FrameLoop:
         :param now_ns: steady time, monotonic [ns]
         """
         began = time.perf_counter_ns()
+        self._note_readers()
         self._take_commands()
         frames: tuple[Frame, ...] = ()
         step = self._simulation.step
@@ -115,6 +116,7 @@ class FrameLoop:
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
+        self._note_readers()
         self._take_commands()
         self._outputs.show(self._simulation.advance_frame())
 
@@ -126,6 +128,7 @@ class FrameLoop:
         """
         if not count:
             return 0
+        self._note_readers()
         self._take_commands()
         if self._simulation.is_read:
             return 0
@@ -171,7 +174,7 @@ class FrameLoop:
         elif wait is not Wait.NONE:
             self._simulation.requests.apply_waiting()
             # No tick goes on with a replay that the call began.
-            self._simulation.finish_seek(lambda: False)
+            self._simulation.finish_work(lambda: False)
 
     def current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""
@@ -183,11 +186,10 @@ class FrameLoop:
     def finish_short_seek(self) -> None:
         """Have a seek be done at once if it is short; else the next ticks go on with it."""
         began = time.perf_counter_ns()
-        self._simulation.finish_seek(lambda: _is_overdue(began))
+        self._simulation.finish_work(lambda: _is_overdue(began))
 
     def _take_commands(self) -> None:
-        """Take the messages of pages, and what robots were told; nothing while in the past."""
-        self._note_readers()
+        """Handle the messages of pages, and submit the commands of robots; none in the past."""
         if self._outputs.sketchpad is not None:
             self._outputs.sketchpad.handle_messages()
         self._fleet.submit_commands(

@@ -135,24 +135,24 @@ class FrameMaker:
         self.playback.seek_shown()
         return self.past
 
-    def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
+    def finish_work(self, is_overdue: Callable[[], bool]) -> bool:
         """
-        Replay up to the goal of a seek whose frame is not cached, or to the end of an amendment.
+        Go on with the work that is under way: a seek, an amendment of the past, or steps.
 
-        Until then no step is due.
+        Until it is done, nothing else is due. A seek is done once its frame is shown.
 
         :param is_overdue: whether the work is to continue in another call
         :return: whether it is done
         """
-        is_done = self._replay(self.playback.slices_of_work(), is_overdue)
+        is_done = self._carry_out(self.playback.slices_of_work(), is_overdue)
         self.requests.note_arrival()
         return is_done
 
-    def _replay(self, slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
-        """Carry out a replay until time is up, and return whether it is done."""
-        if _carry_out(slices, is_overdue):
+    def _carry_out(self, slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+        """Carry out slices for which time waits, until time is up; return whether all are done."""
+        if _are_done(slices, is_overdue):
             return True
-        # The time of this replay is not made up for.
+        # Their time is not made up for.
         self.playback.clock.restart()
         return False
 
@@ -235,14 +235,14 @@ class FrameMaker:
         self.past.free_slice()
         if playback.is_world_due or self.requests.has_requests:
             playback.seek_shown()
-        if not self.finish_seek(is_overdue):
+        if not self.finish_work(is_overdue):
             return ()
         if frame := self._finished_frame():
             return (frame,)
         if playback.speed > 0.0:
             self._drive_on()
         self.requests.apply_up_to_seek(is_spent)
-        if not self.finish_seek(is_overdue):
+        if not self.finish_work(is_overdue):
             return ()
         if self.requests.is_in_gesture or (playback.frames_due and self.requests.is_busy):
             playback.clock.restart()
@@ -328,9 +328,9 @@ class FrameMaker:
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
         before = self.playback.step
-        if not self._replay(self.playback.rewind(steps), is_overdue):
+        if not self._carry_out(self.playback.rewind(steps), is_overdue):
             return None
-        _carry_out(self.playback.replay_ahead(steps), is_overdue)
+        _are_done(self.playback.replay_ahead(steps), is_overdue)
         if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self.requests.report_oldest('; paused')
@@ -362,6 +362,6 @@ class FrameMaker:
         return frame
 
 
-def _carry_out(slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+def _are_done(slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
     """Carry out slices of work until time is up, and return whether all are done."""
     return not any(is_overdue() for _ in slices)

@@ -281,7 +281,7 @@ class Playback:
         """
         step = max(self._past.tree.oldest, self.step - steps)
         if step < self.step:
-            while (shown := self._past.frames.frame_at(step)) is None:
+            while (shown := self._past.frames.replay_to_frame(step)) is None:
                 yield
             self._shown, self._lacks_contacts = shown, False
 

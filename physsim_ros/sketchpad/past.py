@@ -202,7 +202,7 @@ class PastContacts:
             frames: list[CachedFrame] = []
             while step < end and time.monotonic() - begin < REPLAY_TIME:
                 wanted = min(end, step - step % past.frame_steps + past.frame_steps)
-                if past.frames.frame_at(wanted) is not None:
+                if past.frames.replay_to_frame(wanted) is not None:
                     frames += past.frames.frames_after(step, wanted)
                     step = wanted
             if frames:

@@ -6,7 +6,7 @@ Runs, each in a process of its own: an exit, a kill and a hang are failures of t
 
 A process is forked for a case, and ends with its run, which it sends through a pipe. Of one that
 ends otherwise, the count of the controller's calls is known, which it keeps in shared memory: the
-case is run again up to the last of them, to the bit, for its way and the world before its end.
+case is run again up to the last of them, to the bit, for its path and the world before its end.
 """
 
 from __future__ import annotations
@@ -170,7 +170,7 @@ class _Process:
             case=case,
             failure=self.job.end.failure,
             seconds=max(0, self.job.end.calls - 1) * experiment.period,
-            way=np.empty((0, 2)),
+            path=np.empty((0, 2)),
             score=math.nan,
             before=None,
             physics_rate=experiment.physics_rate,

@@ -78,7 +78,7 @@ class FrameRecorder:
         """Time of the last frame on the timeline `recorded` [ns]."""
         return self._clock.recorded
 
-    def draw(self, frames: Sequence[Frame], *, context: FrameContext) -> None:
+    def log(self, frames: Sequence[Frame], *, context: FrameContext) -> None:
         """
         Log frames, except those that are equal to the one before.
 
@@ -99,7 +99,7 @@ class FrameRecorder:
                 self._last = frame
         batch = None
         for batch in self._clock.batches(fresh):
-            self._draw_batch(batch)
+            self._log_batch(batch)
         if batch is not None:
             self._plots.send_pace(batch, context.real_time_factor or 0.0)
 
@@ -111,7 +111,7 @@ class FrameRecorder:
             return True
         return not np.array_equal(now.poses, before.poses)
 
-    def _draw_batch(self, batch: FrameBatch) -> None:
+    def _log_batch(self, batch: FrameBatch) -> None:
         scene, first = batch.scene, batch.frames[0].snapshot
         everything = batch.numbers.start >= self._due
         changed = everything or scene is not self._scene

@@ -18,6 +18,7 @@ import sys
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.view.endpoint_thread import ANSWERS, EndpointThread
 from physsim_ros.view.endpoints import (
     ClientEndpoint,
     DEFAULT_URL,
@@ -26,7 +27,6 @@ from physsim_ros.view.endpoints import (
     ServerEndpoint,
 )
 from physsim_ros.view.file_endpoint import FileEndpoint
-from physsim_ros.view.output import ANSWERS, Output
 from physsim_ros.view.stream import FrameContext
 
 
@@ -61,11 +61,11 @@ class Viewer:
         self._boundary = boundary or ErrorBoundary()
         self._context = context
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
-        self._file: Output | None = None
+        self._file: EndpointThread | None = None
         self._file_path = Path()
-        self._window: Output | None = None
-        # Outputs before, which had no time left to end.
-        self._stuck: list[Output] = []
+        self._window: EndpointThread | None = None
+        # Threads before, which had no time left to end.
+        self._stuck: list[EndpointThread] = []
         # Mode and URL of the viewer to open next; None where it is open.
         self._wanted: tuple[ViewerMode, str] | None = None
         self._shown: Frame | None = None
@@ -73,27 +73,27 @@ class Viewer:
     @property
     def state(self) -> str:
         """Return the states of viewer and file, as a sentence."""
-        return '; '.join(output.state for output in self._outputs) or 'none'
+        return '; '.join(thread.state for thread in self._threads) or 'none'
 
     @property
     def failure(self) -> str:
         """Return the reason why a viewer or file has no frames; '' where there is none."""
-        return '; '.join(filter(None, (output.failure for output in self._outputs)))
+        return '; '.join(filter(None, (thread.failure for thread in self._threads)))
 
     @property
     def is_open(self) -> bool:
         """Whether there is a viewer or a file."""
-        return any(output.is_open for output in self._outputs)
+        return any(thread.is_open for thread in self._threads)
 
     @property
     def is_read(self) -> bool:
         """Whether frames are logged now, or may be later by an output that failed."""
-        return not all(output.has_ended for output in self._outputs)
+        return not all(thread.has_ended for thread in self._threads)
 
     @property
     def reads_contacts(self) -> bool:
         """Whether frames are logged, or will be, by one that is silent."""
-        return any(output.reads_contacts for output in self._outputs)
+        return any(thread.reads_contacts for thread in self._threads)
 
     @property
     def page_address(self) -> str:
@@ -101,8 +101,8 @@ class Viewer:
         return '' if self._window is None else self._window.page_address
 
     @property
-    def _outputs(self) -> list[Output]:
-        return [output for output in (self._file, self._window) if output is not None]
+    def _threads(self) -> list[EndpointThread]:
+        return [thread for thread in (self._file, self._window) if thread is not None]
 
     def open_viewer(self, mode: ViewerMode, url: str = '') -> None:
         """
@@ -137,8 +137,8 @@ class Viewer:
         :param frame: its arrays are not changed any more
         """
         self._shown = frame
-        for output in self._outputs:
-            output.put(frame)
+        for thread in self._threads:
+            thread.put(frame)
 
     def poll(self) -> tuple[Answer, ...]:
         """
@@ -149,17 +149,17 @@ class Viewer:
         :return: the answers since the last call
         """
         self._open_wanted()
-        for output in self._outputs:
-            output.poll()
+        for thread in self._threads:
+            thread.poll()
         return tuple(self._answers.popleft() for _ in range(len(self._answers)))
 
     def close(self) -> None:
         """Log the queued frames until the time for closing is over, and end."""
         self._wanted = None
-        outputs = [*self._outputs, *self._stuck]
-        for output in outputs:
-            output.end()
-        ended = [output.join() for output in outputs]
+        threads = [*self._threads, *self._stuck]
+        for thread in threads:
+            thread.end()
+        ended = [thread.join() for thread in threads]
         unregister = getattr(sys.modules.get('rerun'), 'unregister_shutdown', None)
         if not all(ended) and unregister is not None:
             # At exit Rerun (0.41) waits for its recordings, without end where a viewer is frozen;
@@ -186,15 +186,15 @@ class Viewer:
             native = mode is ViewerMode.SPAWN
             self._window = self._open(ServerEndpoint(native=native, report=self._answers.append))
 
-    def _open(self, endpoint: Endpoint) -> Output:
-        """Return an output to an endpoint, with the last frame in its queue."""
-        output = Output(endpoint, self._boundary, self._answers.append, self._context)
+    def _open(self, endpoint: Endpoint) -> EndpointThread:
+        """Return a thread that logs to an endpoint, with the last frame in its queue."""
+        thread = EndpointThread(endpoint, self._boundary, self._answers.append, self._context)
         if self._shown is not None:
-            output.put(self._shown)
-        return output
+            thread.put(self._shown)
+        return thread
 
-    def _retire(self, output: Output) -> None:
+    def _retire(self, thread: EndpointThread) -> None:
         """Wait for the end of an output, and keep those that are stuck."""
-        if not output.join():
-            self._stuck.append(output)
+        if not thread.join():
+            self._stuck.append(thread)
         self._stuck = [each for each in self._stuck if not each.has_ended]

@@ -255,3 +255,10 @@ def test_a_body_that_cannot_move_is_gone_when_its_life_ends(world):
     assert 'floor/0' in world
     world.step(1)
     assert 'floor/0' not in world
+
+
+@pytest.mark.parametrize('shape', [BOX, DISC], ids=['box', 'disc'])
+def test_a_point_is_of_a_body_up_to_a_hundred_millionth_of_a_metre_from_it(world, shape):
+    spawn(world, 'a/0', shape, (0.0, 0.0, 0.0))
+    assert world.space.bodies.at((0.5 + 5e-10, 0.0)) == ['a/0']
+    assert world.space.bodies.at((0.5 + 1e-8, 0.0)) == []

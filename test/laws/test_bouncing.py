@@ -58,6 +58,17 @@ def test_a_ball_loses_the_same_share_of_its_height_in_each_bounce(report, rate, 
     report.check(8, 'six bounces, height by e²', np.abs(shares - 1.0).max(), 0.0, 5e-4, '–')
 
 
+@pytest.mark.parametrize('shape', [Disc(radius=0.5), Box(width=1.0, height=1.0)])
+def test_what_bounces_off_its_like_turns_round_where_their_outlines_meet(report, shape):
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+    spawn(sim, 'still/0', shape, (3.0, 0.0, 0.0), anchored=True)
+    row = spawn(sim, 'flying/0', shape, velocity=(3.0, 0.0))
+
+    place = run(sim, 1.5).poses[row, 0]
+
+    report.check(21, 'bounce at 3 m/s, place 2.5 m later', place, -0.5, 1e-10, 'm')
+
+
 # Outlines that stand on y = 0.
 FLAT = {
     'upright': ((-0.25, 0.0), (0.25, 0.0), (0.25, 1.0), (-0.25, 1.0)),

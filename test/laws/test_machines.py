@@ -355,6 +355,25 @@ def test_a_slider_stays_between_its_limits(report):
     report.check(23, 'slider, lower limit reached', min(reached), -0.5, 0.005, 'm')
 
 
+@pytest.mark.parametrize(('limit', 'side'), [({'lower': -0.5}, 1.0), ({'upper': 0.5}, -1.0)])
+def test_a_slider_with_one_limit_is_free_the_other_way_and_held_by_it(report, limit, side):
+    sim = simulation(gravity=(-2.0 * side, 0.0))
+    sim.reports_contacts = True
+    box = Box(width=0.4, height=0.4)
+    spawn(sim, 'block/0', box, (0.0, 0.0, 0.3), velocity=(6.0 * side, 0.0), mass=3.0)
+    points = [(0.0, 0.0), (1.0, 0.0)]
+    join(sim, 'joint/0', 'slider', points, a='block/0', b='world', **limit)
+
+    # 9 m away and back to the limit.
+    top = run(sim, 3.0).poses[0, 0]
+    last = run(sim, 5.0)
+
+    report.check(23, 'slider with one limit, farthest', top, 9.0 * side, 1e-9, 'm')
+    report.check(23, 'the same, back at its limit', last.poses[0, 0], -0.5 * side, 2e-4, 'm')
+    pull, weight = last.pulls[0, 0], -6.0 * side
+    report.check(23, 'the same, force of the limit', pull, weight, 0.01, 'N', relative=True)
+
+
 def test_a_rope_is_slack_and_then_taut(report):
     sim = simulation()
     spawn(sim, 'ball/0', Disc(radius=0.1), (0.0, 0.0, 0.0))

@@ -91,3 +91,14 @@ def test_ten_coins_stand_on_each_other(report, size):
     report.check(48, 'ten coins, displacement', moved, 0.0, 0.1, 'sizes')
     tilt = float(np.abs(end.poses[1:, 2]).max())
     report.check(48, 'ten coins, tilt', tilt, 0.0, 0.01, 'rad')
+
+
+def test_a_small_box_is_pushed_out_until_a_tenth_of_its_half_width_is_left(report):
+    sim = simulation()
+    ground(sim, 0.02)
+    spawn(sim, 'box/0', Box(width=0.02, height=0.02), (0.0, 0.006, 0.0))
+
+    end = rested(sim, 0.02)
+
+    left = overlaps(end.poses[1:, 1], 0.02)[0] * 0.02
+    report.check(48, 'a box of 2 cm that was 4 mm in the floor, overlap', left, 1e-3, 2e-4, 'm')

@@ -43,7 +43,7 @@ from ..laws.test_random_worlds import random_crowd, random_world
 from ..laws.test_ropes import loaded_rope
 from ..laws.test_rows import row as row_of_elastic_bodies
 from ..laws.test_tracks import ball_in_track
-from ..laws.test_way import plough
+from ..laws.test_travel import plough
 from ..worlds.digests import scene as drawn_scene
 from ..worlds.film import state_of
 

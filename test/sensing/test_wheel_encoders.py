@@ -5,7 +5,8 @@
 
 import math
 
-from physsim_ros.model.requests import DriveRobot
+from physsim_ros import robot_spawn
+from physsim_ros.model.requests import DriveRobot, Unjoin
 from physsim_ros.model.shapes import Disc
 from physsim_ros.sensing import read_wheels
 import pytest
@@ -96,3 +97,14 @@ def test_a_wheel_on_an_axle_is_read_against_the_robot_whichever_of_the_two_is_na
     assert turned > -0.3
     assert wheels.positions[-1] == pytest.approx(turned)
     assert wheels.velocities[-1] == pytest.approx(rate[2])
+
+
+def test_joints_of_the_robot_itself_are_read_while_they_are_there():
+    world = plane()
+    world.apply(robot_spawn('arm', name='arm/0'))
+    row = world.scene.names.index('arm/0')
+    assert read_wheels(world.snapshot(), row).names == ('shoulder', 'elbow')
+
+    world.apply(Unjoin(name='arm/0/elbow/0'))
+
+    assert read_wheels(world.snapshot(), row).names == ('shoulder',)

@@ -233,6 +233,20 @@ def test_a_spawn_again_that_changes_nothing_leaves_the_digest():
     assert world.digest() == before
 
 
+@pytest.mark.parametrize(
+    ('offset', 'red', 'same'),
+    [(1e-10, 0.5, True), (1e-8, 0.5, False), (0.0, 0.5 + 1e-7, True), (0.0, 0.5 + 1e-5, False)],
+)
+def test_a_marker_that_comes_back_with_its_rounding_changes_nothing(world, offset, red, same):
+    gray = (0.5, 0.5, 0.5, 1.0)
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0), color=gray)
+    before = world.digest()
+
+    spawn(world, 'a/0', BOX, (offset, 0.0, 0.0), color=(red, *gray[1:]))
+
+    assert (world.digest() == before) is same
+
+
 def test_a_wrench_stays_through_a_change(world):
     spawn(world, 'a/0', DISC, mass=2.0)
     world.apply(Configure(changes={'command_timeout': 0.0}))

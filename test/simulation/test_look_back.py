@@ -75,7 +75,7 @@ OF_SIMULATION: dict[str, Call] = {
     'at_shown_moment': of_simulation(Simulation.at_shown_moment),
     'begin': of_simulation(begun_anew),
     'checkpoint': of_simulation(Simulation.checkpoint),
-    'finish_seek': of_simulation(lambda it: it.finish_seek(lambda: False)),
+    'finish_work': of_simulation(lambda it: it.finish_work(lambda: False)),
     'is_changed': of_simulation(lambda it: it.is_changed),
     'is_past': of_simulation(lambda it: it.is_past),
     'pass_frames': of_simulation(lambda it: it.pass_frames(3)),

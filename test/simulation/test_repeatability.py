@@ -320,6 +320,18 @@ def test_the_checkpoint_of_a_world_that_has_just_begun_has_its_requests():
     assert 'late/0' in world.renew().scene.names
 
 
+def test_a_checkpoint_is_built_ahead_in_three_quarters_of_the_time_to_it():
+    simulation = Simulation(speed=1.0, checkpoints=0.5)
+    for number in range(60):
+        simulation.perform(spawning(f'a/{number}', DISC, (3.0 * number, 5.0, 0.0)))
+
+    # Of 30 frames, the first and the last ones until which a part is still to be built.
+    for frame, is_built in ((15, False), (29, True)):
+        while simulation.step < 4 * frame:
+            simulation.advance_frame()
+        assert simulation.world.is_built_ahead is is_built
+
+
 def test_a_world_that_was_built_ahead_of_another_one_is_not_begun_with():
     world = World()
     world.put_ahead(beginning_of(busy_world().save(), world.physics_rate))

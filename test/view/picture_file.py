@@ -76,7 +76,7 @@ class Recording:
 
     def draw(self, *frames, **context):
         """Draw frames; return the time of the last on the timeline of the picture [ns]."""
-        self._recorder.draw(frames, context=FrameContext(**context))
+        self._recorder.log(frames, context=FrameContext(**context))
         return self._recorder.recorded
 
     def close(self):

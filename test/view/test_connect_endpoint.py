@@ -66,9 +66,9 @@ FROZEN = """
     import os, signal, sys, threading
     from pathlib import Path
     from test.view.viewers import bulk, Events, frame, until
-    from physsim_ros.view import output, Viewer, ViewerMode
+    from physsim_ros.view import endpoint_thread, Viewer, ViewerMode
 
-    output.SILENT_AFTER = 1.0
+    endpoint_thread.SILENT_AFTER = 1.0
     url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
     viewer = Viewer()
     viewer.record(Path(path))
@@ -100,7 +100,7 @@ def test_a_frozen_viewer_holds_up_neither_frames_nor_closing_nor_the_end(server,
 
 
 def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server, monkeypatch):
-    monkeypatch.setattr('physsim_ros.view.output.SILENT_AFTER', 1.0)
+    monkeypatch.setattr('physsim_ros.view.endpoint_thread.SILENT_AFTER', 1.0)
     server.start()
     viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
     until(lambda: ', open,' in viewer.state)

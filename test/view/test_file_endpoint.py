@@ -117,7 +117,7 @@ def test_a_recording_is_replaced_and_another_file_is_not(viewers, tmp_path):
 
 
 def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_path, monkeypatch):
-    monkeypatch.setattr('physsim_ros.view.output.SILENT_AFTER', 0.1)
+    monkeypatch.setattr('physsim_ros.view.endpoint_thread.SILENT_AFTER', 0.1)
     go_on = threading.Event()
     create = file_endpoint._create_regular_file  # noqa: SLF001  it stands for the share
 
@@ -168,9 +168,9 @@ FULL_DISK = """
     from pathlib import Path
     from resource import getrlimit, RLIM_INFINITY, RLIMIT_FSIZE, setrlimit
     from test.view.viewers import bulk, Events, frame, until
-    from physsim_ros.view import output, Viewer, ViewerMode
+    from physsim_ros.view import endpoint_thread, Viewer, ViewerMode
 
-    output.SILENT_AFTER = 1.0
+    endpoint_thread.SILENT_AFTER = 1.0
     setrlimit(RLIMIT_FSIZE, (300_000, RLIM_INFINITY))
     viewer = Viewer()
     viewer.record(Path(sys.argv[1]))

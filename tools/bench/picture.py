@@ -93,7 +93,7 @@ def print_lag(frames: list[Frame]) -> None:
         for first in range(0, len(frames), SHOWN):
             time.sleep(max(0.0, begun + first / FRAMES - time.monotonic()))
             end = first + SHOWN
-            recorder.draw(frames[first:end], context=CONTEXT)
+            recorder.log(frames[first:end], context=CONTEXT)
 
     thread = threading.Thread(target=send)
     thread.start()

@@ -379,7 +379,7 @@ static Twist before_impact(const World *world, const cpBody *body) {
 }
 
 static Twist after_impact(const World *world, const cpBody *body, Twist end) {
-    return at_impact(world, body_of(body), end, body_of(body)->scratch.parts);
+    return at_impact(world, body_of(body), end, body_of(body)->scratch.bounces);
 }
 
 // The energy that the impulses give to the bodies [J]; < 0 is lost. What is gained by rounding counts as nothing.

@@ -53,7 +53,7 @@ typedef struct BodyScratch {
     double since;    // time from its first impact to the end of its motion [s]
     Twist rest;      // displacement that remains after its impact [m, rad]
     uint8_t rests;   // that displacement has been found
-    uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
+    uint8_t bounces; // its impact throws it off, so gravity acts on the new velocity
     uint8_t thrown;  // its velocity was set before this sub-step
     double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
     Twist field;     // half of what fields change its velocity by in this step

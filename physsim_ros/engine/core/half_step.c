@@ -178,18 +178,22 @@ static bool begins_on_spring(const Body *body) {
     return body->state.free && body->dynamic && body->sprung && !body->motored;
 }
 
-// Find half of what the coming step changes velocities by, of bodies that begin on springs (body_count); the rest 0.
+// Find half of what the coming step changes velocities by, of bodies that begin on springs (body_count; the rest is 0);
+// NULL if none begins.
 static const Twist *half_changes(World *world) {
-    Twist *changes = TAKE(&world->own->arena, Twist, world->body_count);
-    bool *begins = TAKE(&world->own->arena, bool, world->body_count), any = false;
+    Twist *changes = NULL;
+    bool *begins = NULL;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        int place = place_of(world, body->engine);
-        begins[place] = begins_on_spring(body);
-        changes[place] = begins[place] ? body->state.lead : (Twist){0};
-        any = any || begins[place];
+        if (begins_on_spring(body)) {
+            changes = changes == NULL ? TAKE(&world->own->arena, Twist, world->body_count) : changes;
+            begins = begins == NULL ? TAKE(&world->own->arena, bool, world->body_count) : begins;
+            int place = place_of(world, body->engine);
+            begins[place] = true;
+            changes[place] = body->state.lead;
+        }
     }
-    if (any) {
+    if (changes != NULL) {
         pull_springs(world, begins, changes, world->dt / 2.0);
     }
     return changes;
@@ -205,7 +209,8 @@ void begin_half_step(World *world) {
         int place = place_of(world, body->engine);
         if (free[place] != body->state.free) {
             world->chipmunk.body_activate(body->engine);
-            set_twist(body->engine, twist_sum(with_lead(body, free[place]), changes[place], 1.0));
+            Twist twist = with_lead(body, free[place]);
+            set_twist(body->engine, changes == NULL ? twist : twist_sum(twist, changes[place], 1.0));
             body->state.free = free[place];
         }
         if (unsupported[place]) {
@@ -234,7 +239,7 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
             // Without the impulse, the true velocity and that of the engine would be these.
             Vec true_end = add(body->scratch.twist.v, body->state.lead.v),
                 engine_end = add(true_end, body->state.lead.v);
-            double lead = body->scratch.parts ? 0.0 : fabs(dot(body->state.lead.v, impulse)) / size;
+            double lead = body->scratch.bounces ? 0.0 : fabs(dot(body->state.lead.v, impulse)) / size;
             load += fabs(dot(sub(lead > 0.0 ? true_end : engine_end, against), impulse));
             all += fabs(dot(sub(engine_end, against), impulse));
             taken_back += body->engine->m * lead;

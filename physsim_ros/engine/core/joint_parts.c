@@ -141,14 +141,14 @@ static Pose ahead(const cpBody *body, double dt) {
     return moved(pose_of(body), twist_of(body), dt);
 }
 
-// Put the point from which a limit measures on the axis through the first anchor, as far behind the second one as it
-// was, so that it acts along the axis however far the anchor is off its line.
-static void put_behind(const Joint *joint, const Anchors *anchors, cpSlideJoint *limit) {
+// Put the point from which a limit measures on the axis through the first anchor, as far along it as it was, so that it
+// acts along the axis however far the anchor is off its line.
+static void put_on_axis(const Joint *joint, const Anchors *anchors, cpSlideJoint *limit) {
     Vec axis = vec(joint->axis[0], joint->axis[1]), across = perpendicular(axis);
     Vec second = vec(joint->anchor_b[0], joint->anchor_b[1]);
-    double behind = dot(axis, sub(limit->anchorA, second));
+    double along = dot(axis, sub(limit->anchorA, second));
     double beside = dot(across, rotated_back(anchors->apart, anchors->of_b));
-    limit->anchorA = add(second, add(scaled(axis, behind), scaled(across, beside)));
+    limit->anchorA = add(second, add(scaled(axis, along), scaled(across, beside)));
 }
 
 void prepare_parts(World *world) {
@@ -166,7 +166,7 @@ void prepare_parts(World *world) {
         pin->anchorA = rotated_back(beside, anchors.of_b);
         const Part *limit = world->parts + joint->first_part + LIMIT_PART;
         if (joint->part_count > LIMIT_PART && limit->kind == PART_SLIDE) {
-            put_behind(joint, &anchors, (cpSlideJoint *)limit->constraint);
+            put_on_axis(joint, &anchors, (cpSlideJoint *)limit->constraint);
         }
     }
 }
@@ -210,7 +210,7 @@ static Vec between(const cpConstraint *constraint, Vec at_a, Vec at_b) {
 // The unit vector along which a constraint about an axis acts on the second body of its joint.
 //
 // Pin and limit have the bodies of the joint the other way round, and their anchors are put anew in each step, so
-// that their lines are taken from the axis. Chipmunk turns the normal of a limit round at the lower one.
+// that their lines are taken from the axis. Chipmunk turns the normal of a limit round at the lesser distance.
 static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     const cpBody *a = world->bodies[joint->a].engine, *b = world->bodies[joint->b].engine;
     Vec axis = rotated(vec(joint->axis[0], joint->axis[1]), rotation(b->a));
@@ -222,8 +222,10 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     }
     const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
     Vec at_a = world_place(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
-    double distance = length(sub(at_a, world_place(b, limit->anchorA)));
-    return 2.0 * distance < limit->min + limit->max ? axis : negated(axis);
+    // From the point beyond the upper limit, the anchor lies against the axis.
+    double distance = dot(sub(at_a, world_place(b, limit->anchorA)), axis);
+    bool at_lesser = 2.0 * fabs(distance) < limit->min + limit->max;
+    return at_lesser == (distance > 0.0) ? axis : negated(axis);
 }
 
 // Whether a part acts along a line: that of a rod, a rope, a spring, a limit or a drive.

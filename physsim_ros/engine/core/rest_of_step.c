@@ -34,18 +34,18 @@ static double true_parting(const World *world, const cpArbiter *arbiter, const c
     return dot(sub(velocity_at(true_twist(b), point->r2), velocity_at(true_twist(a), point->r1)), arbiter->n);
 }
 
-// Have an impact take place when it did; return whether the bodies part. The velocity of a body in free flight leads by
-// half a step (`half_step.c`).
+// Have an impact take place when it did; return whether the bodies bounce. The velocity of a body in free flight leads
+// by half a step (`half_step.c`).
 static bool set_bounce(const World *world, const cpArbiter *arbiter, double left) {
-    bool parts = false;
+    bool bounces = false;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         double rate = 0.0, parting = true_parting(world, arbiter, point, &rate);
         double then = parting + rate * (world->dt - left);
         point->bounce = -greatest(-arbiter->e * then + rate * (left + world->dt / 2.0), 0.0);
-        parts = parts || point->bounce < 0.0;
+        bounces = bounces || point->bounce < 0.0;
     }
-    return parts;
+    return bounces;
 }
 
 static double deepest_of(const Touch *touch) {
@@ -94,10 +94,10 @@ void time_impacts(World *world) {
         }
         double since = clamped(deepest_of(touch) / approach, 0.0, world->dt);
         Body *a = body_of(touch->engines[0]), *b = body_of(touch->engines[1]);
-        bool parts =
+        bool bounces =
             set_bounce(world, touch->arbiter, least(since + greatest(a->scratch.left, b->scratch.left), world->dt));
-        a->scratch.parts |= parts;
-        b->scratch.parts |= parts;
+        a->scratch.bounces |= bounces;
+        b->scratch.bounces |= bounces;
         a->scratch.since = greatest(a->scratch.since, since);
         b->scratch.since = greatest(b->scratch.since, since);
     }
@@ -111,7 +111,7 @@ double time_left(const Body *a, const Body *b) {
 }
 
 Twist displacement_gained(const Body *body, Twist after, double left, double dt) {
-    double ahead = body->scratch.parts ? left / dt + 1.0 : 0.0;
+    double ahead = body->scratch.bounces ? left / dt + 1.0 : 0.0;
     Twist mean = twist_sum(after, body->state.lead, -ahead);
     return twist_sum((Twist){0}, twist_sum(mean, body->scratch.twist, -1.0), left);
 }

@@ -12,7 +12,7 @@ static void begin_body(Body *body) {
     body->scratch.twist = twist_of(body->engine);
     body->scratch.carried = body->scratch.rest = (Twist){0};
     body->scratch.left = body->scratch.since = 0.0;
-    body->scratch.parts = body->scratch.rests = false;
+    body->scratch.bounces = body->scratch.rests = false;
     body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
 }
 

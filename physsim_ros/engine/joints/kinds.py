@@ -27,16 +27,11 @@ from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Point
 import pymunk
 
-# The bias of constraints whose gaps the core closes: a share of 0 of the gap is closed in a step.
-_NO_BIAS = 1.0
-# With 1 Chipmunk takes a limit of an angle whose bias is 0 for one that is not reached: this
-# corrects a share of 4e-7 of an angle in a step of 1/240 s.
-_NEARLY_NO_BIAS = 1.0 - 1e-4
+# Share of the excess of an angle that Chipmunk leaves in a second: it closes 4e-7 in a step of
+# 1/240 s. A limit of which it closes nothing counts for it as not reached.
+_EXCESS_LEFT = 1.0 - 1e-4
 # Greatest force of the drive of a slider [N], unless it is set: as the greatest torque of a motor.
 _DRIVE = 1000.0
-# How far behind its lower limit the point lies from which the travel of a slider is measured [m];
-# any distance will do.
-_BACK = 1.0
 
 
 class EngineGuide(NamedTuple):
@@ -141,7 +136,6 @@ class EngineJoint:
 def _pivot(ends: Ends) -> Part:
     """Return two anchors that coincide; Chipmunk's impulse pushes the second body."""
     constraint = pymunk.PivotJoint(ends.a, ends.b, ends.at_a, ends.at_b)
-    constraint.error_bias = _NO_BIAS
     rows = (Row(lib.ROW_X, below=-1.0, above=-1.0), Row(lib.ROW_Y, below=-1.0, above=-1.0))
     return Part(lib.PART_PIVOT, constraint, rows)
 
@@ -150,7 +144,6 @@ def _turn(joint: Joint, ends: Ends) -> Part:
     """Return ratio yaw_b - yaw_a = phase; the first body gets a share of Chipmunk's impulse."""
     phase, ratio = joint.seat.phase, joint.number('ratio')
     constraint = pymunk.GearJoint(ends.a, ends.b, phase, ratio)
-    constraint.error_bias = _NO_BIAS
     return Part(lib.PART_GEAR, constraint, (_angle_row(joint),))
 
 
@@ -193,7 +186,6 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     least = -math.inf if upper is None else phase - upper
     most = math.inf if lower is None else phase - lower
     limit = pymunk.RotaryLimitJoint(ends.a, ends.b, least, most)
-    limit.error_bias = _NEARLY_NO_BIAS
     row = Row(lib.ROW_ANGLE, least, most)
     return *parts, Part(lib.PART_ROTARY_LIMIT, limit, (row,))
 
@@ -243,7 +235,7 @@ def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """Return two anchors that keep their distance."""
     rod = pymunk.PinJoint(ends.a, ends.b, ends.at_a, ends.at_b)
-    rod.distance, rod.error_bias = joint.seat.length, _NO_BIAS
+    rod.distance = joint.seat.length
     return (Part(lib.PART_PIN, rod, (Row(lib.ROW_DISTANCE, rod.distance, rod.distance),)),)
 
 
@@ -303,7 +295,6 @@ def _rope(joint: Joint, ends: Ends) -> tuple[Part, ...]:
         return _path(joint, ends)
     longest = joint.rest_length
     rope = pymunk.SlideJoint(ends.a, ends.b, ends.at_a, ends.at_b, 0.0, longest)
-    rope.error_bias = _NO_BIAS
     # It only holds back, from its least length on too.
     row = Row(lib.ROW_DISTANCE, 0.0, longest, below=-1.0)
     return (Part(lib.PART_SLIDE, rope, (_winch(joint, row),)),)
@@ -330,7 +321,6 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     the second body that the core puts beside the anchor in each step.
     """
     pin = pymunk.PinJoint(ends.b, ends.a, ends.at_b, ends.at_a)
-    pin.error_bias = _NO_BIAS
     parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
     drive = _drives(joint, ends)
     lower, upper = joint.properties.lower, joint.properties.upper
@@ -339,14 +329,22 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     if lower is None and upper is None:
         return *parts, *along
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
-    # Distances from a point of the line that lies behind its lower limit.
-    back = _BACK if lower is None else _BACK - lower
+    return *parts, _travel(joint, ends, least, most), *along
+
+
+def _travel(joint: Joint, ends: Ends, least: float, most: float) -> Part:
+    """
+    Return the limits of a slider, of which one may be infinite.
+
+    Chipmunk measures a distance, which has no sign: that from a point of the line 1 m beyond a
+    limit, to which the slider never comes.
+    """
+    stop, back = (most, -1.0 - most) if least == -math.inf else (least, 1.0 - least)
+    farthest = math.inf if least == -math.inf else back + most
     (x, y), (ux, uy) = ends.at_b, (joint.seat.ux, joint.seat.uy)
-    origin, nearest = (x - ux * back, y - uy * back), 0.0 if lower is None else back + lower
-    limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
-    limit.error_bias = _NO_BIAS
-    row = Row(lib.ROW_ALONG, least, most, below=-1.0)
-    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *along
+    origin = (x - ux * back, y - uy * back)
+    limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, abs(back + stop), farthest)
+    return Part(lib.PART_SLIDE, limit, (Row(lib.ROW_ALONG, least, most, below=-1.0),))
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -408,6 +406,9 @@ def build_joint(
     for part in built.parts:
         # No callback of the engine asks for a constraint.
         handles_of(part.constraint)
+        # The core closes gaps.
+        is_turn_limit = isinstance(part.constraint, pymunk.RotaryLimitJoint)
+        part.constraint.error_bias = _EXCESS_LEFT if is_turn_limit else 1.0
         # With the background, which is the walls of `bounds` too, a body always collides.
         part.constraint.collide_bodies = joint.collide or b is None
         # Motors have their own.

@@ -122,7 +122,7 @@ class Replay:
         for node in self._tree.nodes_between(self.serial, serial):
             yield from self._enter_checkpoint()
             try:
-                yield from self._world.slices_of_replay(node.request)
+                yield from self._world.slices_of_reapplying(node.request)
             except Refusal as refusal:
                 self._report('divergence', f'a request of the log is refused now: {refusal}')
             self.serial += 1

@@ -116,7 +116,7 @@ class FrameCache:
                 run.step(node.step - run.step_count)
                 # A replay reports a refusal as a divergence.
                 with suppress(Refusal):
-                    run.replay(node.request)
+                    run.reapply(node.request)
             run.step(moment.step - run.step_count)
             return run.save()
 
@@ -148,7 +148,7 @@ class FrameCache:
             return self._frames[step].copy()
         return None
 
-    def frame_at(self, step: int) -> CachedFrame | None:
+    def replay_to_frame(self, step: int) -> CachedFrame | None:
         """Return the frame of a step if it is cached; else replay the next frame on its way."""
         if not self._is_cached(step):
             _, end = self._tree.segment(step)

@@ -12,7 +12,7 @@ the same impulses; joints need a step, too.
 
 Law: an impact is not a force at rest: what approaches has no contact before it touches.
 
-Limit: forces on a body that rests are those that later steps report to 0.1 %, in a stack of three
+Limit: loads of bodies that rest are those that later steps report to 0.1 %, in a stack of three
 equal boxes to 0.2 %, of five to 0.5 %, of ten to 30 %: eight steps do not bring it to rest.
 """
 

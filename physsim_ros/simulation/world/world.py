@@ -230,7 +230,7 @@ class World(LiveSpace):
         """Return the numbers of bodies and of joints."""
         return len(self.space.bodies.by_name), len(self.space.joints.by_name)
 
-    def slices_of_replay(self, request: Request) -> Generator[None]:
+    def slices_of_reapplying(self, request: Request) -> Generator[None]:
         """
         Carry out a request again, whose capacity was checked the first time; yield after slices.
 
@@ -238,10 +238,10 @@ class World(LiveSpace):
         """
         if isinstance(request, Restore):
             yield from self.slices_of_beginning(request.state)
-        self.replay(request)
+        self.reapply(request)
 
-    def replay(self, request: Request) -> None:
-        """Do as `slices_of_replay` at once."""
+    def reapply(self, request: Request) -> None:
+        """Do as `slices_of_reapplying` at once."""
         self.capacity.checking = False
         try:
             self.apply(request)

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Laws 28 and 35: a way is the integral of the reported velocity, and fast bars hit all."""
+"""Laws 28 and 35: a displacement is the integral of velocity, and fast bars hit all."""
 
 import math
 
@@ -19,8 +19,8 @@ def plough(sim, speed=30.0, mass=1000.0):
     return spawn(sim, 'plough/0', Box(width=0.3, height=1.0), mass=mass, velocity=(speed, 0.0))
 
 
-def check_way(report, sim, row, what, count=SECOND):
-    """Hold the way of a body against its velocity; return the last snapshot."""
+def check_displacement(report, sim, row, what, count=SECOND):
+    """Hold the displacement of a body against its velocity; return the last snapshot."""
     first = last = sim.world.snapshot()
     integral = still = 0.0
     for snapshot in steps(sim, count):
@@ -31,54 +31,56 @@ def check_way(report, sim, row, what, count=SECOND):
         still = still + 1 if at_rest else 0
         assert still <= 2, 'at rest while it reports a speed'
         last = snapshot
-    way = last.centers[row] - first.centers[row]
-    # Along the way, so that small sideways motion does not count as a share of itself.
+    moved = last.centers[row] - first.centers[row]
+    # Along its direction, so that small sideways motion does not count as a share of itself.
     along = integral / np.hypot(*integral)
-    report.check(28, what, way @ along, integral @ along, 0.02, 'm', relative=True)
+    report.check(28, what, moved @ along, integral @ along, 0.02, 'm', relative=True)
     return last
 
 
 @pytest.mark.parametrize('gap', [0.12, 0.15, 0.3])
-def test_the_way_of_a_plough_through_two_discs(report, gap):
+def test_the_displacement_of_a_plough_through_two_discs(report, gap):
     sim = simulation(gravity=NOWHERE)
     row = plough(sim)
     for number in range(2):
         spawn(sim, f'disc/{number}', Disc(radius=0.05), (1.0 + gap * number, 0, 0), mass=1.0)
 
-    check_way(report, sim, row, 'plough of 1,000 kg through two discs, way')
+    check_displacement(report, sim, row, 'plough of 1,000 kg through two discs, displacement')
 
 
 @pytest.mark.parametrize(
     ('speed', 'elasticity'), [(8.0, 1.0), (30.0, 0.5), (100.0, 0.0), (100.0, 1.0)]
 )
-def test_the_way_of_a_plough_through_200_light_balls(report, speed, elasticity):
+def test_the_displacement_of_a_plough_through_200_light_balls(report, speed, elasticity):
     sim = simulation(gravity=NOWHERE, elasticity=elasticity)
     row = plough(sim, speed=speed)
     for number in range(200):
         place = (1.0 + 0.12 * (number // 8), 0.13 * (number % 8) - 0.46, 0.0)
         spawn(sim, f'ball/{number}', Disc(radius=0.05), place, mass=0.1)
 
-    check_way(report, sim, row, f'plough through 200 balls, e = {elasticity:g}, way')
+    check_displacement(
+        report, sim, row, f'plough through 200 balls, e = {elasticity:g}, displacement'
+    )
 
 
 @pytest.mark.parametrize('mass', [300.0, 1000.0, 3000.0])
-def test_the_way_of_what_is_heavy_into_what_is_heavy(report, mass):
+def test_the_displacement_of_what_is_heavy_into_what_is_heavy(report, mass):
     sim = simulation(gravity=NOWHERE)
     row = plough(sim)
     other = spawn(sim, 'other/0', Box(width=0.5, height=0.5), (3.0, 0.0, 0.0), mass=mass)
 
-    last = check_way(report, sim, other, 'heavy box, struck by a heavy box, way')
+    last = check_displacement(report, sim, other, 'heavy box, struck by a heavy box, displacement')
     assert last.centers[row, 0] < last.centers[other, 0]
 
 
-def test_the_way_of_a_bullet_through_a_stack(report):
+def test_the_displacement_of_a_bullet_through_a_stack(report):
     sim = simulation(gravity=NOWHERE)
     row = spawn(sim, 'bullet/0', Disc(radius=0.03), mass=5.0, velocity=(200.0, 0.0))
     for number in range(10):
         place = (1.0 + 0.31 * number, 0.0, 0.0)
         spawn(sim, f'box/{number}', Box(width=0.3, height=0.3), place, mass=0.1)
 
-    check_way(report, sim, row, 'bullet through ten light boxes, way')
+    check_displacement(report, sim, row, 'bullet through ten light boxes, displacement')
 
 
 def test_the_turn_of_a_wrecking_ball_on_an_axle(report):

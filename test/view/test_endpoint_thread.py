@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The queue of an output: what is new comes first, and no answer is lost."""
+"""The queue of an endpoint: what is new comes first, and no answer is lost."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ import weakref
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.sizes import frame_size
-from physsim_ros.view import output as output_module
+from physsim_ros.view import endpoint_thread
+from physsim_ros.view.endpoint_thread import EndpointThread
 from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.file_endpoint import FileEndpoint
-from physsim_ros.view.output import Output
 
 from .viewers import BOX, frame, PATIENCE, rows, until
 
@@ -37,9 +37,9 @@ def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers(tmp_path, mo
     path, told = tmp_path / 'it.rrd', []
     one = frame(0)
     size = frame_size(one.snapshot, one.contacts)
-    monkeypatch.setattr(output_module, 'WAITING_BYTES', 10.5 * size)
+    monkeypatch.setattr(endpoint_thread, 'WAITING_BYTES', 10.5 * size)
     endpoint = Blocked(path)
-    output = Output(endpoint, ErrorBoundary(), told.append)
+    output = EndpointThread(endpoint, ErrorBoundary(), told.append)
     output.put(frame(0, 'answer 0'))
     until(lambda: ' 1 frames' in output.state)
     assert endpoint.entered.wait(PATIENCE)
@@ -61,7 +61,7 @@ def test_where_rerun_is_missing_it_is_told_what_to_install(tmp_path, monkeypatch
     monkeypatch.setitem(sys.modules, 'rerun', None)
     told = []
     endpoint = FileEndpoint(tmp_path / 'it.rrd', overwrite=True)
-    output = Output(endpoint, ErrorBoundary(), told.append)
+    output = EndpointThread(endpoint, ErrorBoundary(), told.append)
 
     reason = 'rerun is not installed: install physsim_ros with its extra [viewer]'
     assert output.wait_until_tried() == reason
@@ -72,7 +72,7 @@ def test_where_rerun_is_missing_it_is_told_what_to_install(tmp_path, monkeypatch
 
 def test_closing_gives_up_on_one_that_takes_nothing(tmp_path):
     endpoint = Blocked(tmp_path / 'it.rrd')
-    output = Output(endpoint, ErrorBoundary(), lambda _: None)
+    output = EndpointThread(endpoint, ErrorBoundary(), lambda _: None)
     assert endpoint.entered.wait(PATIENCE)
     endpoint.closing = 0.0
 
@@ -88,7 +88,7 @@ def test_a_bug_is_told_and_nothing_is_open_any_more():
             raise ZeroDivisionError('by zero')
 
     told, log = [], []
-    output = Output(Buggy(), ErrorBoundary(log.append), told.append)
+    output = EndpointThread(Buggy(), ErrorBoundary(log.append), told.append)
 
     until(lambda: output.has_ended)
     assert not output.is_open
@@ -111,7 +111,7 @@ def test_what_waited_for_a_receiver_that_failed_is_let_go():
             raise ConnectionError('there never can be one')
 
     endpoint = Failing()
-    output = Output(endpoint, ErrorBoundary(), lambda _: None)
+    output = EndpointThread(endpoint, ErrorBoundary(), lambda _: None)
     waiting = frame(0, 'answer')
     kept = weakref.ref(waiting.snapshot)
     output.put(waiting)

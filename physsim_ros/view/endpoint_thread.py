@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-An output of the viewer: a thread that logs frames to an endpoint, from a queue of its own.
+A thread that logs frames to an endpoint, from a queue of its own.
 
 Law: the producer of a frame never blocks. The thread blocks where its receiver takes nothing; the
 queue then drops its oldest frames, and `poll` reports that there is no answer.
@@ -36,7 +36,7 @@ SILENT_AFTER = 10.0
 STARTING = 'starting'
 
 
-class Output:
+class EndpointThread:
     """
     An endpoint with the thread that logs to it; either open, or closed for a reason.
 
@@ -195,7 +195,7 @@ class Output:
             while not ending:
                 ending = self._ending.wait(self._endpoint.period)
                 while frames := self._take_batch():
-                    recorder.draw(frames, context=self._context())
+                    recorder.log(frames, context=self._context())
                     self._logged += len(frames)
                     self._note_progress()
                 stream.flush()
