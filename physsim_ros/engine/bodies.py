@@ -61,8 +61,8 @@ BODY_STATE = dtype_of('BodyState')
 _NEW = np.zeros(1, BODY_STATE)[0]
 _NEW['free'] = _NEW['fresh'] = _NEW['thrown'] = True
 _SPAWNED, _WAITING = np.array([SPAWNED], ROBOT_STATE)[0], np.array([WAITING], ACTOR_STATE)[0]
-# Pieces of a body that enter the engine's tree in their order [1]: of 1,000 segments in a row blocks
-# of 16 or 32 make the fastest steps; in their order they take three times as long to enter it.
+# Pieces of a body that enter the engine's tree in their order [1]: of 1,000 segments in a row,
+# blocks of 16 or 32 make the fastest steps; all in their order take three times as long to enter.
 _BLOCK = 32
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
@@ -293,7 +293,7 @@ def scattered(number: int) -> int:
 
 
 def _in_blocks(pieces: Sequence[Piece]) -> Iterator[Piece]:
-    """Yield the pieces of a body as they enter the engine's tree: in blocks, which are scattered."""
+    """Yield the pieces of a body as they enter the engine's tree: in scattered blocks."""
     starts = range(0, len(pieces), _BLOCK)
     for block in sorted(range(len(starts)), key=scattered):
         yield from pieces[starts[block] : starts[block] + _BLOCK]
