@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 import math
 import operator
 
@@ -294,9 +295,8 @@ def scattered(number: int) -> int:
 
 def _in_blocks(pieces: Sequence[Piece]) -> Iterator[Piece]:
     """Yield the pieces of a body as they enter the engine's tree: in scattered blocks."""
-    starts = range(0, len(pieces), _BLOCK)
-    for block in sorted(range(len(starts)), key=scattered):
-        yield from pieces[starts[block] : starts[block] + _BLOCK]
+    for block in sorted(range(-(-len(pieces) // _BLOCK)), key=scattered):
+        yield from islice(pieces, block * _BLOCK, (block + 1) * _BLOCK)
 
 
 def _shape(piece: Piece, pm_body: pymunk.Body, offset: Point) -> pymunk.Shape:

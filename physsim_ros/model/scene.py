@@ -318,7 +318,7 @@ class Scene:
 
     @cached_property
     def piece_count(self) -> int:
-        """Number of convex pieces of all bodies."""
+        """Total of the convex pieces of all bodies."""
         return sum(len(body.shape.form.pieces) for body in self.bodies)
 
     @cached_property

@@ -52,7 +52,7 @@ def _is_ignorable(character: str) -> bool:
 
 def _is_visible_joiner(name: str, place: int) -> bool:
     """Return whether the character at a place is a joiner where joiners are visible."""
-    sign, before, after = name[place], name[:place], name[place + 1 :]
+    before, sign, after = name[:place], name[place], name[place:][1:]
     if sign not in {_NON_JOINER, _JOINER} or not before or not after:
         return False
     if unicodedata.combining(before[-1]) == _VIRAMA:
