@@ -124,7 +124,7 @@ def split(outline: Floats, start: Floats, end: Floats) -> list[Floats]:
     """
     Return the pieces of a simple outline that is cut from one point to another.
 
-    :param outline: (n, 2) float64: the vertices in order, either way round
+    :param outline: (n, 2) float64: the vertices in order, in either orientation
     :param start: (2,) float64: of the cut, outside
     :param end: (2,) float64: of it, outside
     :return: (m, 2) float64 each; none where the cut does not pass through

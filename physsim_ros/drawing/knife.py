@@ -226,13 +226,13 @@ def _piece_at(point: Point, shapes: dict[str, Shape]) -> str:
 
     forms = {name: shape.form for name, shape in shapes.items()}
     least = {name: math.dist(point, form.centroid) - form.outer for name, form in forms.items()}
-    nearest, way = '', math.inf
+    nearest, least_distance = '', math.inf
     # By the distance of their circles, up to those that are farther than a piece.
     for name in sorted(shapes, key=least.__getitem__):
-        if least[name] > way:
+        if least[name] > least_distance:
             break
-        if (found := distance(name)) < way:
-            nearest, way = name, found
+        if (found := distance(name)) < least_distance:
+            nearest, least_distance = name, found
     return nearest
 
 

@@ -162,9 +162,9 @@ class SceneQuery:
         :param end: of it [m]
         """
         scene, centers = self.snapshot.scene, self.snapshot.centers
-        way = np.subtract(end, start)
-        share = dots(centers - start, way) / max(math.hypot(*way) ** 2, 1e-300)
-        nearest = start + np.clip(share, 0.0, 1.0)[:, None] * way
+        line = np.subtract(end, start)
+        share = dots(centers - start, line) / max(math.hypot(*line) ** 2, 1e-300)
+        nearest = start + np.clip(share, 0.0, 1.0)[:, None] * line
         rows = np.flatnonzero(norms(centers - nearest) <= scene.outer_radii)
         extents = [extent_of(scene.bodies[row].shape.form) for row in rows.tolist()]
         low, high = np.moveaxis(np.array(extents).reshape(-1, 2, 2), 1, 0)

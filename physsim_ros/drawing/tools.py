@@ -251,7 +251,7 @@ def gear(clicks: Sequence[Click], scene: SceneQuery, _settings: DrawingSettings)
     a, b = names
     centers = scene.centroid(a), scene.centroid(b)
     radii = [scene.body(name).shape.form.outer for name in names]
-    # A wheel within a ring turns the same way as the ring.
+    # A wheel within a ring turns in the same direction as the ring.
     sense = 1.0 if math.dist(*centers) < max(radii) else -1.0
     properties = JointProperties(ratio=sense * radii[1] / radii[0])
     return _finished(

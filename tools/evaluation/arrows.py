@@ -53,11 +53,11 @@ def arrow(rng: Random) -> Figure:
     head = heads[rng.integers(len(heads))]
     head_first = rng.random() < 0.15
     if head_first:
-        way = np.vstack((one, tip, other, again, shaft[::-1]))
+        path = np.vstack((one, tip, other, again, shaft[::-1]))
     else:
-        way = np.vstack((shaft, head))
-    way = turned(way, rng.uniform(0, 7))
-    return Figure(kind='arrow', way=way, tail=-1 if head_first else 0)
+        path = np.vstack((shaft, head))
+    path = turned(path, rng.uniform(0, 7))
+    return Figure(kind='arrow', path=path, tail=-1 if head_first else 0)
 
 
 def round_arrow(rng: Random) -> Figure:
@@ -72,10 +72,10 @@ def round_arrow(rng: Random) -> Figure:
     barbs = 0.5 * turned_about_origin(_barbs(rng, _BARB_ROUND), heading)
     one, other = tip + (barbs if rng.random() < 0.5 else barbs[::-1])
     heads = (one, tip + rng.normal(0.0, 0.02, 2), other), (one, other), (one, other, tip)
-    way = np.vstack((arc, heads[rng.integers(len(heads))]))
-    way = way * (1.0, rng.choice([-1.0, 1.0]))
+    path = np.vstack((arc, heads[rng.integers(len(heads))]))
+    path = path * (1.0, rng.choice([-1.0, 1.0]))
     # About the axle, and not about the middle of its extent.
-    return Figure(kind='round arrow', way=turned_about_origin(way, rng.uniform(0, 7)))
+    return Figure(kind='round arrow', path=turned_about_origin(path, rng.uniform(0, 7)))
 
 
 def shaft_and_head(rng: Random) -> list[Floats]:

@@ -29,7 +29,7 @@ class Fault:
     """
     A fault.
 
-    :param figure: changes the way of the pen; None where this figure cannot be drawn so
+    :param figure: changes the path of the pen; None where this figure cannot be drawn so
     :param hand: changes the hand
     :param samples: changes the samples, (n, 3) float64: x, y [m], time [s]
     """
@@ -40,7 +40,7 @@ class Fault:
 
 
 def _resting(samples: Floats, rng: Random) -> Floats:
-    """Let the pen rest for 400 samples at the beginning, at the end or on its way."""
+    """Let the pen rest for 400 samples at the beginning, at the end or between."""
     at = int(rng.choice([0, len(samples) - 1, rng.integers(len(samples))]))
     first, later = np.split(samples, [at + 1])
     rest = np.repeat(first[-1:], 400, axis=0)
@@ -71,25 +71,25 @@ def _twice(figure: Figure, rng: Random) -> Figure | None:
     """Draw a closed outline nearly twice, or a little more."""
     if not figure.closed:
         return None
-    again = figure.way * rng.uniform(0.95, 1.05, 2) + rng.normal(0.0, 0.015, 2)
-    both = np.vstack((figure.way, again))
-    return replace(figure, way=both)
+    again = figure.path * rng.uniform(0.95, 1.05, 2) + rng.normal(0.0, 0.015, 2)
+    both = np.vstack((figure.path, again))
+    return replace(figure, path=both)
 
 
 def _one_round_corner(figure: Figure, rng: Random) -> Figure | None:
     """Round one corner by a quarter of its shorter side."""
     if figure.corners < 3 or figure.smooth or figure.thin < 0.2:
         return None
-    way, count = figure.way, len(figure.way)
+    path, count = figure.path, len(figure.path)
     corner = int(rng.integers(1, count - 1))
-    before, here, after = way[corner - 1], way[corner], way[corner + 1]
+    before, here, after = path[corner - 1], path[corner], path[corner + 1]
     reach = 0.25 * min(math.dist(before, here), math.dist(here, after))
     start = here + (before - here) * reach / math.dist(before, here)
     end = here + (after - here) * reach / math.dist(after, here)
     share = np.linspace(0.0, 1.0, 9)[:, None]
     bend = (1 - share) ** 2 * start + 2 * share * (1 - share) * here + share**2 * end
-    rest = np.delete(way, range(corner + 1), axis=0)
-    return replace(figure, way=np.vstack((way[:corner], bend, rest)))
+    rest = np.delete(path, range(corner + 1), axis=0)
+    return replace(figure, path=np.vstack((path[:corner], bend, rest)))
 
 
 def _closed_only(figure: Figure, _rng: Random) -> Figure | None:
@@ -108,14 +108,14 @@ def _carelessly_closed(hand: Hand, rng: Random) -> Hand:
 
 def _unequal_arms(figure: Figure, rng: Random) -> Figure | None:
     """Draw the four ends of an x at 0.6 to 1.4 times their distance from its middle."""
-    if figure.kind != 'x' or len(figure.way) > 4:
+    if figure.kind != 'x' or len(figure.path) > 4:
         return None
-    return replace(figure, way=figure.way * rng.uniform(0.6, 1.4, (len(figure.way), 1)))
+    return replace(figure, path=figure.path * rng.uniform(0.6, 1.4, (len(figure.path), 1)))
 
 
 def _few_turns_only(figure: Figure, _rng: Random) -> Figure | None:
     """Return a figure whose turns ten samples show; they show none of a scribble's or a coil's."""
-    return figure if turning(figure.way) < _MOST_TURNING else None
+    return figure if turning(figure.path) < _MOST_TURNING else None
 
 
 def _sharp_only(figure: Figure, _rng: Random) -> Figure | None:

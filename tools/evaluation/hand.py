@@ -22,7 +22,7 @@ class Hand:
     bow: float  # how much straight lines are bent
     hook_down: float  # flick when the pen is set down
     hook_up: float  # flick when it is lifted
-    closing: float  # how much of a closed way is missing (< 0) or drawn twice (> 0)
+    closing: float  # how much of a closed path is missing (< 0) or drawn twice (> 0)
     slip: float  # how far the end misses the beginning
     spiral: float  # how much the radius of a curve shrinks (> 0) or grows from end to end
     slowing: float  # of the pen at corners, 0 .. 1
@@ -38,4 +38,4 @@ class Hand:
     lag: float = 0.0  # of the pen behind the hand [s]
     missed: float = 0.0  # typical distance of a corner from where it should be
     arc: float = 0.0  # typical height of the arc of a straight side, in shares of its length
-    wander: float = 0.0  # typical distance of the hand from its way
+    wander: float = 0.0  # typical distance of the hand from its path

@@ -25,7 +25,7 @@ from . import strangers
 from .figures import Figure, Floats, Random
 from .hand import Hand
 
-# The greatest distance of a way from the samples that show it, in shares of the size, beside what
+# The greatest distance of a path from the samples that show it, in shares of the size, beside what
 # the hand trembles: a circle of eight samples has 0.03.
 _SHOWN = 0.03
 # The least and the greatest size of a pixel, in shares of the size of the figure; and the least
@@ -42,7 +42,7 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     Hands `apart` are of another kind: they slant and distort what they draw, and their other
     habits have longer tails. Those of `strangers` have another mechanism.
     """
-    corners = max(turning(figure.way) / (math.pi / 2) if figure.smooth else len(figure.way), 3)
+    corners = max(turning(figure.path) / (math.pi / 2) if figure.smooth else len(figure.path), 3)
     # People draw thin shapes with more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
     # Seconds a corner. A pen in a hurry cuts corners.
@@ -108,29 +108,29 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
 
     :return: (n, 3) float64: x, y [m], time [s]
     """
-    way = _way(figure, somebody, rng)
+    path = _path(figure, somebody, rng)
     if somebody.lag:
-        way = strangers.sketched(way, figure, somebody, rng)
-    way = _dense(way)
+        path = strangers.sketched(path, figure, somebody, rng)
+    path = _dense(path)
     if somebody.slant or somebody.warp:
-        way = _distorted(way, somebody, rng)
+        path = _distorted(path, somebody, rng)
     if not figure.smooth:
-        way = _bowed(way, figure, somebody, rng)
-    length = float(np.hypot(*np.diff(way, axis=0).T).sum())
-    way = _smoothed(way, somebody.rounding / length * len(way))
-    way = _with_hooks(way, somebody, rng)
-    samples = _sampled(way, somebody, rng)
+        path = _bowed(path, figure, somebody, rng)
+    length = float(np.hypot(*np.diff(path, axis=0).T).sum())
+    path = _smoothed(path, somebody.rounding / length * len(path))
+    path = _with_hooks(path, somebody, rng)
+    samples = _sampled(path, somebody, rng)
     for _ in range(_ATTEMPTS):
-        if _show(samples, way * somebody.size + somebody.place, somebody):
+        if _show(samples, path * somebody.size + somebody.place, somebody):
             break
         somebody = replace(somebody, duration=1.5 * somebody.duration)
-        samples = _sampled(way, somebody, rng)
+        samples = _sampled(path, somebody, rng)
     return samples
 
 
-def _sampled(way: Floats, somebody: Hand, rng: Random) -> Floats:
-    """Return the samples that arrive of a way of the pen, (n, 3) float64: x, y [m], time [s]."""
-    here, times = _paced(way, somebody, rng)
+def _sampled(path: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return the samples that arrive of a path of the pen, (n, 3) float64: x, y [m], time [s]."""
+    here, times = _paced(path, somebody, rng)
     if somebody.lag:
         here = strangers.followed(here, times, somebody.lag)
         here = here + strangers.wandering(times, somebody.wander, rng)
@@ -142,19 +142,19 @@ def _sampled(way: Floats, somebody: Hand, rng: Random) -> Floats:
     return _received(np.column_stack((here, times)), somebody, rng)
 
 
-def _show(samples: Floats, way: Floats, somebody: Hand) -> bool:
+def _show(samples: Floats, path: Floats, somebody: Hand) -> bool:
     """
-    Return whether the line through samples shows the way: who sees a polygon drew no circle.
+    Return whether the line through samples shows the path: who sees a polygon drew no circle.
 
     The long first step of a finger does not count.
     """
     x, y = samples[:, :2].T
     along_x, along_y = np.diff(x), np.diff(y)
-    away_x, away_y = way[:, :1] - x[:-1], way[:, 1:] - y[:-1]
+    away_x, away_y = path[:, :1] - x[:-1], path[:, 1:] - y[:-1]
     length = np.maximum(along_x**2 + along_y**2, 1e-12)
     share = np.clip((away_x * along_x + away_y * along_y) / length, 0.0, 1.0)
     off = np.sqrt(((away_x - share * along_x) ** 2 + (away_y - share * along_y) ** 2).min(axis=1))
-    begun = np.hypot(*(way - way[0]).T) > somebody.first_step * somebody.size
+    begun = np.hypot(*(path - path[0]).T) > somebody.first_step * somebody.size
     late = np.maximum.accumulate(begun)
     trembling = somebody.drift + somebody.tremor + somebody.noise + somebody.wander
     return bool(off[late].max(initial=0.0) <= (_SHOWN + 3.0 * trembling) * somebody.size)
@@ -179,14 +179,14 @@ def _pixel(rng: Random, thin: float, corners: float) -> float:
     return min(pixel, thin / _PIXELS, 1.0 / corners / _PIXELS)
 
 
-def turning(way: Floats) -> float:
-    """Return the sum of the turns of a way [rad]."""
-    steps = np.diff(way, axis=0)
+def turning(path: Floats) -> float:
+    """Return the sum of the turns of a path [rad]."""
+    steps = np.diff(path, axis=0)
     return float(np.abs(np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))).sum())
 
 
 def _closing(rng: Random, figure: Figure) -> float:
-    """Return the share of a closed way that is missing (< 0), or drawn twice (> 0)."""
+    """Return the share of a closed path that is missing (< 0), or drawn twice (> 0)."""
     gap, overlap = abs(rng.normal(0.0, 0.05)), abs(rng.normal(0.0, 0.1))
     missing, twice = (0.15, 0.25) if figure.smooth else (0.1, 0.12)
     return float(rng.choice([0.0, -min(gap, missing), min(overlap, twice)]))
@@ -197,97 +197,97 @@ def _often(rng: Random, chance: float, spread: float) -> float:
     return float(abs(rng.normal(0.0, spread))) if rng.random() < chance else 0.0
 
 
-def _way(figure: Figure, somebody: Hand, rng: Random) -> Floats:
-    """Return the way that the pen is to take: where it begins, which way round, where it ends."""
-    way = figure.way / np.hypot(*np.ptp(figure.way, axis=0))
+def _path(figure: Figure, somebody: Hand, rng: Random) -> Floats:
+    """Return the path that the pen is to take: its beginning, direction and end."""
+    path = figure.path / np.hypot(*np.ptp(figure.path, axis=0))
     if rng.random() < 0.5:
-        way = way[::-1] if 'arrow' not in figure.kind else way
+        path = path[::-1] if 'arrow' not in figure.kind else path
     if not figure.closed:
-        return way
-    way = np.roll(way, rng.integers(len(way)), axis=0)
+        return path
+    path = np.roll(path, rng.integers(len(path)), axis=0)
     # Most begin at a corner, some in the middle of a side.
     if not figure.smooth and rng.random() < 0.25:
         share = rng.uniform(0.2, 0.8)
-        way = np.vstack((way[0] + share * (way[1] - way[0]), way[1:], way[0]))
-    way = np.vstack((way, way[:1]))
-    length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))))
+        path = np.vstack((path[0] + share * (path[1] - path[0]), path[1:], path[0]))
+    path = np.vstack((path, path[:1]))
+    length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))))
     end = length[-1] * (1.0 + somebody.closing)
     if somebody.closing < 0:
         keep = length < end
-        last = [np.interp(end, length, way[:, axis]) for axis in (0, 1)]
-        way = np.vstack((way[keep], last))
+        last = [np.interp(end, length, path[:, axis]) for axis in (0, 1)]
+        path = np.vstack((path[keep], last))
     elif somebody.closing > 0:
         again = length[1:] < end - length[-1]
-        last = [np.interp(end - length[-1], length, way[:, axis]) for axis in (0, 1)]
-        way = np.vstack((way, way[1:][again], last))
+        last = [np.interp(end - length[-1], length, path[:, axis]) for axis in (0, 1)]
+        path = np.vstack((path, path[1:][again], last))
     # The end misses the beginning more and more over the last third.
     angle = rng.uniform(0, 7)
-    share = np.clip(np.linspace(-2.0, 1.0, len(way)), 0.0, 1.0)[:, None]
-    way = way + somebody.slip * share * (math.cos(angle), math.sin(angle))
-    return np.asarray(way * np.linspace(1.0, 1.0 - somebody.spiral, len(way))[:, None])
+    share = np.clip(np.linspace(-2.0, 1.0, len(path)), 0.0, 1.0)[:, None]
+    path = path + somebody.slip * share * (math.cos(angle), math.sin(angle))
+    return np.asarray(path * np.linspace(1.0, 1.0 - somebody.spiral, len(path))[:, None])
 
 
-def _dense(way: Floats, count: int = 600) -> Floats:
-    """Return points along a way, evenly spaced."""
-    length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))))
+def _dense(path: Floats, count: int = 600) -> Floats:
+    """Return points along a path, evenly spaced."""
+    length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))))
     at = np.linspace(0.0, length[-1], count)
-    return np.column_stack([np.interp(at, length, way[:, axis]) for axis in (0, 1)])
+    return np.column_stack([np.interp(at, length, path[:, axis]) for axis in (0, 1)])
 
 
-def _distorted(way: Floats, somebody: Hand, rng: Random) -> Floats:
-    """Return a way sheared, and moved by a smooth field of two waves."""
-    way = way + somebody.slant * np.column_stack((way[:, 1], np.zeros(len(way))))
+def _distorted(path: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return a path sheared, and moved by a smooth field of two waves."""
+    path = path + somebody.slant * np.column_stack((path[:, 1], np.zeros(len(path))))
     waves = rng.normal(0.0, 4.0, (2, 2))
     phases = rng.uniform(0.0, 7.0, 2)
-    return np.asarray(way + somebody.warp * np.sin(way @ waves + phases))
+    return np.asarray(path + somebody.warp * np.sin(path @ waves + phases))
 
 
-def _bowed(way: Floats, figure: Figure, somebody: Hand, rng: Random) -> Floats:
+def _bowed(path: Floats, figure: Figure, somebody: Hand, rng: Random) -> Floats:
     """Bend what is straight: a wave about as long as the figure's sides."""
-    waves = max(len(figure.way) / 2, 1.0) * rng.uniform(0.3, 1.0)
-    share = np.linspace(0.0, 1.0, len(way))
-    along = np.gradient(way, axis=0)
+    waves = max(len(figure.path) / 2, 1.0) * rng.uniform(0.3, 1.0)
+    share = np.linspace(0.0, 1.0, len(path))
+    along = np.gradient(path, axis=0)
     along /= np.maximum(np.hypot(*along.T), 1e-12)[:, None]
     across = np.column_stack((-along[:, 1], along[:, 0]))
-    # Across the way itself, but smoothly: at corners it turns at once.
-    across = _smoothed(across, len(way) / 80)
-    length = np.hypot(*np.diff(way, axis=0).T).sum() / max(len(figure.way), 2)
+    # Across the path itself, but smoothly: at corners it turns at once.
+    across = _smoothed(across, len(path) / 80)
+    length = np.hypot(*np.diff(path, axis=0).T).sum() / max(len(figure.path), 2)
     swing = somebody.bow * length * np.sin(2 * math.pi * (waves * share + rng.random()))
-    return np.asarray(way + swing[:, None] * across, dtype=np.float64)
+    return np.asarray(path + swing[:, None] * across, dtype=np.float64)
 
 
-def _smoothed(way: Floats, width: float) -> Floats:
+def _smoothed(path: Floats, width: float) -> Floats:
     """Round the corners, by a width in points."""
     if width < 0.5:
-        return way
+        return path
     reach = math.ceil(3 * width)
     kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
     kernel /= kernel.sum()
     padded = np.vstack(
         (
-            2 * way[0] - way[slice(1, reach + 1)][::-1],
-            way,
-            2 * way[-1] - way[slice(-1 - reach, -1)][::-1],
+            2 * path[0] - path[slice(1, reach + 1)][::-1],
+            path,
+            2 * path[-1] - path[slice(-1 - reach, -1)][::-1],
         )
     )
     return np.column_stack([np.convolve(padded[:, axis], kernel, 'valid') for axis in (0, 1)])
 
 
-def _with_hooks(way: Floats, somebody: Hand, rng: Random) -> Floats:
+def _with_hooks(path: Floats, somebody: Hand, rng: Random) -> Floats:
     """Add the flicks of a pen that is set down before it rests, or lifted late."""
-    parts = [way]
+    parts = [path]
     for length, end, at in ((somebody.hook_down, 0, 0), (somebody.hook_up, 1, -1)):
         if length:
             angle = rng.uniform(0, 7)
-            tip = way[at] + min(length, 0.08) * np.array([math.cos(angle), math.sin(angle)])
-            flick = np.linspace(tip, way[at], 12, endpoint=False)
+            tip = path[at] + min(length, 0.08) * np.array([math.cos(angle), math.sin(angle)])
+            flick = np.linspace(tip, path[at], 12, endpoint=False)
             parts.insert(0, flick) if end == 0 else parts.append(flick[::-1])
     return np.vstack(parts)
 
 
-def _paced(way: Floats, somebody: Hand, rng: Random) -> tuple[Floats, Floats]:
+def _paced(path: Floats, somebody: Hand, rng: Random) -> tuple[Floats, Floats]:
     """Return the pen's places at even times, slow at corners, unsteady elsewhere."""
-    step = np.diff(way, axis=0)
+    step = np.diff(path, axis=0)
     heading = np.unwrap(np.arctan2(step[:, 1], step[:, 0]))
     turn = np.abs(np.gradient(heading))
     turn = np.convolve(turn, np.ones(15) / 15, 'same')
@@ -303,7 +303,7 @@ def _paced(way: Floats, somebody: Hand, rng: Random) -> tuple[Floats, Floats]:
     times = np.arange(0.0, somebody.duration, 1.0 / somebody.rate)
     times[1:] += rng.uniform(-0.5, 0.5, len(times) - 1) * somebody.uneven / somebody.rate
     times = np.append(np.minimum(times, somebody.duration), somebody.duration)
-    here = np.column_stack([np.interp(times, spent, way[:, axis]) for axis in (0, 1)])
+    here = np.column_stack([np.interp(times, spent, path[:, axis]) for axis in (0, 1)])
     return here, times
 
 

@@ -47,7 +47,7 @@ def _over_wheels(count: int) -> Callable[[Random, str], Thing]:
         ]
         # A hand ends within the weight.
         drawn = [end + 0.2 * size * rng.normal(0.0, 1.0, 2) for end in ends]
-        way = np.vstack((drawn[0], *arcs, drawn[1]))
+        path = np.vstack((drawn[0], *arcs, drawn[1]))
         names = {each.name for each in under}
 
         def right(snapshot: Snapshot) -> bool:
@@ -57,7 +57,7 @@ def _over_wheels(count: int) -> Callable[[Random, str], Thing]:
                 {joints[0].a, joints[0].b},
             ) == (names, {'a/0', 'a/1'})
 
-        return Thing(ways=[way], under=(*under, *weights), right=right)
+        return Thing(paths=[path], under=(*under, *weights), right=right)
 
     return thing
 
@@ -107,8 +107,8 @@ def _axle_through(count: int, rings: int) -> Callable[[Random, str], Thing]:
             alone = len(snapshot.scene.bodies) == count
             return axles and alone and joined == ends and len(joints) == len(ends) - 1
 
-        ways = [_circle(rng, planks) for _ in range(rings)]
-        return Thing(ways=ways, under=planks, right=right)
+        paths = [_circle(rng, planks) for _ in range(rings)]
+        return Thing(paths=paths, under=planks, right=right)
 
     return thing
 
@@ -127,18 +127,18 @@ def _on_two(kind: JointKind) -> Callable[[Random, str], Thing]:
             shape = Box(width=wide, height=high)
             planks.append(Spawn(name=f'a/{number}', shape=shape, pose=pose))
         if kind is JointKind.AXLE:
-            way = _circle(rng, planks)
+            path = _circle(rng, planks)
         else:
             half = rng.uniform(0.2, 0.4) * high
             corners = line((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1))
             corners[1:-1] += rng.uniform(-0.1, 0.1, (3, 2))
-            way = half * corners
+            path = half * corners
 
         def right(snapshot: Snapshot) -> bool:
             joints = [(each.kind, {each.a, each.b}) for each in snapshot.scene.joints]
             return joints == [(kind, {'a/0', 'a/1'})] and len(snapshot.scene.bodies) == 2
 
-        return Thing(ways=[way], under=planks, right=right)
+        return Thing(paths=[path], under=planks, right=right)
 
     return thing
 

@@ -26,12 +26,12 @@ def regular(rng: Random, count: int, radius: float = 0.5) -> Floats:
 def triangle(rng: Random) -> Floats:
     """Return a triangle, none of its angles below 20 degrees."""
     while True:
-        way = rng.uniform(-0.5, 0.5, (3, 2))
-        sides = np.hypot(*(np.roll(way, -1, axis=0) - way).T)
+        path = rng.uniform(-0.5, 0.5, (3, 2))
+        sides = np.hypot(*(np.roll(path, -1, axis=0) - path).T)
         a, b, c = np.sort(sides)
         # No angle below 20 degrees.
         if a > 0.35 * c and (b**2 + c**2 - a**2) / (2 * b * c) < 0.94:
-            return np.asarray(way / c, dtype=np.float64)
+            return np.asarray(path / c, dtype=np.float64)
 
 
 def trapezoid(rng: Random) -> Floats:
@@ -95,5 +95,5 @@ POLYGONS: tuple[Callable[[Random], Floats], ...] = (
 
 def nudged(rng: Random, points: Floats | list[tuple[float, float]]) -> Floats:
     """Move each point a little."""
-    way = np.array(points, dtype=np.float64)
-    return way + rng.uniform(-0.025, 0.025, way.shape)
+    path = np.array(points, dtype=np.float64)
+    return path + rng.uniform(-0.025, 0.025, path.shape)

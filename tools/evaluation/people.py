@@ -75,14 +75,14 @@ def drawn_by(
     now = 0.0
     for stroke in strokes:
         now += _BETWEEN
-        for way in _parts(_vertices(stroke)) if person == SEVERAL else [_vertices(stroke)]:
-            figure, place = figure_of(way)
+        for path in _parts(_vertices(stroke)) if person == SEVERAL else [_vertices(stroke)]:
+            figure, place = figure_of(path)
             somebody = hand(np.random.default_rng((SEEDS[half], number)), figure, half)
             somebody = all_arrive(somebody, rng)
             faulty = fault.figure(figure, rng)
             if faulty is not None:
                 figure, somebody = faulty, fault.hand(somebody, rng)
-            samples = drawn(figure, placed(somebody, way, place, rng), rng)
+            samples = drawn(figure, placed(somebody, path, place, rng), rng)
             samples = fault.samples(samples, rng)
             yield samples, now
             now += float(np.ptp(samples[:, 2])) + _WITHIN
@@ -102,41 +102,41 @@ def _turns(points: Floats) -> Floats:
     return np.abs(np.diff(headings))
 
 
-def _is_closed(way: Floats) -> bool:
-    return bool(np.hypot(*(way[0] - way[-1])) < 1e-6)
+def _is_closed(path: Floats) -> bool:
+    return bool(np.hypot(*(path[0] - path[-1])) < 1e-6)
 
 
-def _parts(way: Floats) -> list[Floats]:
+def _parts(path: Floats) -> list[Floats]:
     """Return the lines of a polygon or an x, or else all in one."""
-    if _is_closed(way) and len(way) - 1 <= _MOST_LINES:
-        return [way[[side, side + 1]] for side in range(len(way) - 1)]
-    if _crosses(way):
-        return [way[:2], way[2:]]
-    return [way]
+    if _is_closed(path) and len(path) - 1 <= _MOST_LINES:
+        return [path[[side, side + 1]] for side in range(len(path) - 1)]
+    if _crosses(path):
+        return [path[:2], path[2:]]
+    return [path]
 
 
-def _crosses(way: Floats) -> bool:
-    """Return whether a way is an x: two diagonals and a side between them."""
-    if len(way) != 4:
+def _crosses(path: Floats) -> bool:
+    """Return whether a path is an x: two diagonals and a side between them."""
+    if len(path) != 4:
         return False
-    (a, b), (c, d) = way[:2], way[2:]
+    (a, b), (c, d) = path[:2], path[2:]
     sides = [np.linalg.det(np.array((q - p, r - p))) for p, q, r in ((a, b, c), (a, b, d))]
     return sides[0] * sides[1] < 0.0 and bool(np.hypot(*(a - c)) < np.hypot(*(a - b)) * 1.1)
 
 
-def figure_of(way: Floats) -> tuple[Figure, Floats]:
-    """Return a way as a figure about the origin, and where that lies [m]."""
-    closed = _is_closed(way)
-    sharp = np.count_nonzero(_turns(way) > _CORNER)
-    curved = len(way) - 2 - sharp > sharp
-    away = way[:-1] if closed else way
+def figure_of(path: Floats) -> tuple[Figure, Floats]:
+    """Return a path as a figure about the origin, and where that lies [m]."""
+    closed = _is_closed(path)
+    sharp = np.count_nonzero(_turns(path) > _CORNER)
+    curved = len(path) - 2 - sharp > sharp
+    away = path[:-1] if closed else path
     middle = away.mean(axis=0)
     away = away - middle
     spread = np.linalg.svd(away, compute_uv=False)
     return Figure(
         # The head of an arrow is drawn last.
         kind='arrow' if curved and sharp else '',
-        way=away,
+        path=away,
         closed=closed,
         corners=-1 if curved else len(away),
         thin=float(max(spread[-1] / spread[0], 0.05)) if closed else 1.0,
@@ -144,9 +144,9 @@ def figure_of(way: Floats) -> tuple[Figure, Floats]:
     ), middle
 
 
-def placed(somebody: Hand, way: Floats, place: Floats, rng: np.random.Generator) -> Hand:
-    """Return a hand that draws a way where it is, in its size, and not less exactly if large."""
-    size = float(np.hypot(*np.ptp(way, axis=0)))
+def placed(somebody: Hand, path: Floats, place: Floats, rng: np.random.Generator) -> Hand:
+    """Return a hand that draws a path where it is, in its size, and not less exactly if large."""
+    size = float(np.hypot(*np.ptp(path, axis=0)))
     share = min(1.0, _STEADY / size)
     x, y = (place + rng.normal(0.0, _AIM, 2)).tolist()
     exact = {name: share * getattr(somebody, name) for name in _LENGTHS}

@@ -118,9 +118,9 @@ def _nothing(_figure: Figure, _somebody: Hand, _rng: Random) -> list[Placed]:
 
 def _at_ends(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     """Put a body about either end."""
-    way = figure.way / np.hypot(*np.ptp(figure.way, axis=0))
+    path = figure.path / np.hypot(*np.ptp(figure.path, axis=0))
     placed: list[Placed] = []
-    for end in way[[0, -1]] * somebody.size + somebody.place:
+    for end in path[[0, -1]] * somebody.size + somebody.place:
         radius = somebody.size * rng.uniform(0.1, 0.2)
         shape = Disc(radius=radius) if rng.random() < 0.5 else Box(width=2 * radius, height=radius)
         x, y = (end + rng.uniform(-0.3, 0.3, 2) * radius).tolist()
@@ -167,7 +167,7 @@ def _scribbled(_figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
 def _squiggle(rng: Random) -> Figure:
     """Return a figure without a meaning: a signature, a letter, a knot."""
     angle = np.linspace(0.0, 2.0 * math.pi, 200)
-    way = sum(
+    path = sum(
         np.column_stack(
             (
                 rng.normal(0.0, 0.3 / wave) * np.sin(wave * angle + rng.uniform(0, 7)),
@@ -176,7 +176,7 @@ def _squiggle(rng: Random) -> Figure:
         )
         for wave in np.arange(0.6, 3.2, 0.5)
     )
-    return Figure(kind='', way=np.asarray(way), smooth=True)
+    return Figure(kind='', path=np.asarray(path), smooth=True)
 
 
 _PLAIN = Fault()

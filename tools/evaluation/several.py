@@ -5,7 +5,7 @@
 Things that people draw in several strokes, and drawings of ten strokes, read by one session.
 
 Between strokes of one thing people pause for 0.3 to 0.7 s, 88 % of them for less than 0.8 s. A
-thing is right when the world is as it should be, whatever was read on the way.
+thing is right when the world is as it should be, whatever was read in between.
 """
 
 from __future__ import annotations
@@ -96,22 +96,22 @@ def _is_right(thing: Thing, half: str, rng: Random) -> bool:
 
 def _samples_of(thing: Thing, half: str, rng: Random) -> Iterator[Floats]:
     """Yield the samples of each stroke of a thing, (n, 3) float64: x, y [m], time [s]."""
-    somebody = hand(rng, figure_of(thing.ways[0])[0], half)
-    whole = _extent(np.vstack(thing.ways))
-    for way in thing.ways:
+    somebody = hand(rng, figure_of(thing.paths[0])[0], half)
+    whole = _extent(np.vstack(thing.paths))
+    for path in thing.paths:
         # The first step of a finger is as long for a barb as for a shaft.
-        first_step = min(somebody.first_step * whole / _extent(way), _LONGEST_STEP)
-        yield _by_hand(way, replace(somebody, first_step=first_step), rng)
+        first_step = min(somebody.first_step * whole / _extent(path), _LONGEST_STEP)
+        yield _by_hand(path, replace(somebody, first_step=first_step), rng)
 
 
-def _by_hand(way: Floats, somebody: Hand, rng: Random) -> Floats:
-    """Return the samples of a way that somebody draws where it is."""
-    figure, place = figure_of(way)
-    return drawn(figure, placed(somebody, way, place, rng), rng)
+def _by_hand(path: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return the samples of a path that somebody draws where it is."""
+    figure, place = figure_of(path)
+    return drawn(figure, placed(somebody, path, place, rng), rng)
 
 
-def _extent(way: Floats) -> float:
-    return float(np.hypot(*np.ptp(way, axis=0)))
+def _extent(path: Floats) -> float:
+    return float(np.hypot(*np.ptp(path, axis=0)))
 
 
 def _misread(half: str, rng: Random) -> list[str]:

@@ -4,7 +4,7 @@
 """
 Strangers: hands of another mechanism than the others, with which nothing was chosen.
 
-The pen follows its way as a critically damped mass on a spring, so that speed cuts corners. Every
+The pen follows its path as a critically damped mass on a spring, so that speed cuts corners. Every
 corner is missed a little, every straight side is an arc of its own, and the hand wanders as a
 first-order autoregressive process. Arrows of strangers have proportions of their own.
 """
@@ -51,30 +51,30 @@ def stranger(somebody: Hand, care: float, rng: Random) -> Hand:
     )
 
 
-def sketched(way: Floats, figure: Figure, somebody: Hand, rng: Random) -> Floats:
-    """Return the way of a stranger: each corner missed, each straight side an arc."""
+def sketched(path: Floats, figure: Figure, somebody: Hand, rng: Random) -> Floats:
+    """Return the path of a stranger: each corner missed, each straight side an arc."""
     if figure.smooth:
-        return way
-    steps = np.diff(way, axis=0)
+        return path
+    steps = np.diff(path, axis=0)
     heading = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
     sharp = 1 + np.flatnonzero(np.abs(np.diff(heading)) > _CORNER)
-    corners = [0, *sharp.tolist(), len(way) - 1]
+    corners = [0, *sharp.tolist(), len(path) - 1]
     off = rng.normal(0.0, somebody.missed, (len(corners), 2))
     parts = []
     for number, (first, last) in enumerate(itertools.pairwise(corners)):
         rows = np.linspace(first, last, _SIDE, endpoint=False)
-        side = np.column_stack([np.interp(rows, range(len(way)), each) for each in way.T])
+        side = np.column_stack([np.interp(rows, range(len(path)), each) for each in path.T])
         share = np.linspace(0.0, 1.0, _SIDE, endpoint=False)[:, None]
-        along = way[last] - way[first]
+        along = path[last] - path[first]
         across = np.array((-along[1], along[0])) * rng.normal(0.0, somebody.arc)
         missed = (1.0 - share) * off[number] + share * off[number + 1]
         parts.append(side + missed + 4.0 * share * (1.0 - share) * across)
-    return np.vstack((*parts, way[-1:] + off[-1]))
+    return np.vstack((*parts, path[-1:] + off[-1]))
 
 
 def followed(here: Floats, times: Floats, lag: float) -> Floats:
     """
-    Return where the pen is at some times if it follows its way by a time constant.
+    Return where the pen is at some times if it follows its path by a time constant.
 
     :param here: (n, 2) float64: where it is to be
     :param times: (n,) float64 [s]
@@ -108,20 +108,20 @@ def arrow(rng: Random) -> Figure:
     tip = shaft[-1]
     one, other = _head(rng, tip, 0.32)
     back = tip + rng.normal(0.0, 0.025, 2)
-    way = rng.choice(5)
-    if way == 0:
+    order = rng.choice(5)
+    if order == 0:
         head = (one, other, back)
-    elif way == 1:
+    elif order == 1:
         head = (one, back, other, tip + rng.normal(0.0, 0.025, 2))
     else:
         head = (one, back, other)
     if rng.random() < 0.1:
         return Figure(
             kind='arrow',
-            way=turned(np.vstack((one, tip, other, back, shaft[::-1])), rng.uniform(0, 7)),
+            path=turned(np.vstack((one, tip, other, back, shaft[::-1])), rng.uniform(0, 7)),
             tail=-1,
         )
-    return Figure(kind='arrow', way=turned(np.vstack((shaft, *head)), rng.uniform(0, 7)))
+    return Figure(kind='arrow', path=turned(np.vstack((shaft, *head)), rng.uniform(0, 7)))
 
 
 def shaft_and_head(rng: Random) -> list[Floats]:

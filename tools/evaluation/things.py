@@ -29,14 +29,14 @@ class Thing:
     """
     A thing of several strokes.
 
-    :param ways: of the pen, (n, 2) float64 each [m]
+    :param paths: of the pen, (n, 2) float64 each [m]
     :param under: the bodies that it is drawn over
     :param right: tells whether the world is as it should be
-    :param kind: of all ways together, as that of a figure; '' where they are no sign
+    :param kind: of all paths together, as that of a figure; '' where they are no sign
     :param tail: of an arrow, (2,) float64 [m]
     """
 
-    ways: Sequence[Floats]
+    paths: Sequence[Floats]
     under: Sequence[Spawn] = ()
     right: Callable[[Snapshot], bool]
     kind: str = ''
@@ -47,11 +47,11 @@ def line(*points: tuple[float, float] | Floats) -> Floats:
     return np.array(points, dtype=np.float64)
 
 
-def placed_at_random(rng: Random, *ways: Floats, turn: float = 7.0) -> list[Floats]:
-    """Return ways turned and sized together, about the origin."""
+def placed_at_random(rng: Random, *paths: Floats, turn: float = 7.0) -> list[Floats]:
+    """Return paths turned and sized together, about the origin."""
     angle, size = rng.uniform(0.0, turn), rng.uniform(0.6, 3.0)
     cos, sin = size * math.cos(angle), size * math.sin(angle)
-    return [way @ np.array(((cos, sin), (-sin, cos))) for way in ways]
+    return [path @ np.array(((cos, sin), (-sin, cos))) for path in paths]
 
 
 def _x(rng: Random) -> list[Floats]:
@@ -64,19 +64,19 @@ def _x(rng: Random) -> list[Floats]:
     return lines if rng.random() < 0.5 else lines[::-1]
 
 
-def _body_under(ways: Sequence[Floats], rng: Random) -> Spawn:
-    """Return a box under all of some ways, 1.2 to 3 times as large."""
-    x, y = rng.uniform(1.2, 3.0) * np.ptp(np.vstack(ways), axis=0) * rng.uniform(1.0, 1.3, 2)
-    middle = np.vstack(ways)
+def _body_under(paths: Sequence[Floats], rng: Random) -> Spawn:
+    """Return a box under all of some paths, 1.2 to 3 times as large."""
+    x, y = rng.uniform(1.2, 3.0) * np.ptp(np.vstack(paths), axis=0) * rng.uniform(1.0, 1.3, 2)
+    middle = np.vstack(paths)
     at = (middle.min(axis=0) + middle.max(axis=0)) / 2
     return Spawn(name='a/0', shape=Box(width=float(x), height=float(y)), pose=(*at.tolist(), 0.0))
 
 
 def _anchoring(turn: float) -> Callable[[Random, str], Thing]:
     def thing(rng: Random, _half: str) -> Thing:
-        lines = (figures.turned_about_origin(way, turn) for way in _x(rng))
-        ways = placed_at_random(rng, *lines, turn=0.2)
-        body = _body_under(ways, rng)
+        lines = (figures.turned_about_origin(path, turn) for path in _x(rng))
+        paths = placed_at_random(rng, *lines, turn=0.2)
+        body = _body_under(paths, rng)
 
         def right(snapshot: Snapshot) -> bool:
             (found, *others) = snapshot.scene.bodies
@@ -84,7 +84,7 @@ def _anchoring(turn: float) -> Callable[[Random, str], Thing]:
             same = math.isclose(found.total_mass, mass, rel_tol=1e-6)
             return found.anchored and same and not others and not snapshot.scene.joints
 
-        return Thing(ways=ways, under=(body,), right=right, kind='x')
+        return Thing(paths=paths, under=(body,), right=right, kind='x')
 
     return thing
 
@@ -131,8 +131,8 @@ def _other_arrow(head_of: Callable[[Random, Floats], list[Floats]]) -> Callable[
 
 def _gravity_arrow(rng: Random, half: str, parts: list[Floats] | None = None) -> Thing:
     parts = _shaft_and_head(rng, half) if parts is None else parts
-    ways = placed_at_random(rng, *parts)
-    shaft = ways[0][-1] - ways[0][0]
+    paths = placed_at_random(rng, *parts)
+    shaft = paths[0][-1] - paths[0][0]
 
     def right(snapshot: Snapshot) -> bool:
         x, y = snapshot.scene.settings.gravity
@@ -142,13 +142,13 @@ def _gravity_arrow(rng: Random, half: str, parts: list[Floats] | None = None) ->
     if shaft[1] < -0.7 * float(np.hypot(*shaft)):
         # Gravity is downwards already.
         return _gravity_arrow(rng, half, parts)
-    ordered = ways if rng.random() < 0.7 else [*ways[1:], ways[0]]
-    return Thing(ways=ordered, right=right, kind='arrow', tail=ways[0][0])
+    ordered = paths if rng.random() < 0.7 else [*paths[1:], paths[0]]
+    return Thing(paths=ordered, right=right, kind='arrow', tail=paths[0][0])
 
 
 def _velocity_arrow(rng: Random, half: str) -> Thing:
-    ways = placed_at_random(rng, *_shaft_and_head(rng, half))
-    tail, tip = ways[0][[0, -1]]
+    paths = placed_at_random(rng, *_shaft_and_head(rng, half))
+    tail, tip = paths[0][[0, -1]]
     radius = float(np.hypot(*(tip - tail))) * rng.uniform(0.2, 0.5)
     body = Spawn(name='a/0', shape=Disc(radius=radius), pose=(*tail.tolist(), 0.0))
 
@@ -158,7 +158,7 @@ def _velocity_arrow(rng: Random, half: str) -> Thing:
         alone = len(snapshot.scene.bodies) == 1 and not snapshot.scene.joints
         return alone and off < 0.3 * float(np.hypot(*(tip - tail)))
 
-    return Thing(ways=ways, under=(body,), right=right, kind='arrow', tail=tail)
+    return Thing(paths=paths, under=(body,), right=right, kind='arrow', tail=tail)
 
 
 def _four_lines(rng: Random, _half: str) -> Thing:
@@ -168,13 +168,13 @@ def _four_lines(rng: Random, _half: str) -> Thing:
     off = rng.uniform(0.02, 0.08)
     sides = [side + off * rng.uniform(-0.7, 0.7, (2, 2)) for side in sides]
     order = rng.permutation(4) if rng.random() < 0.5 else np.arange(4)
-    ways = placed_at_random(rng, *(sides[each] for each in order.tolist()), turn=0.1)
-    return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Box: 1})
+    paths = placed_at_random(rng, *(sides[each] for each in order.tolist()), turn=0.1)
+    return Thing(paths=paths, right=lambda snapshot: _shapes(snapshot) == {Box: 1})
 
 
 def _crossing_walls(rng: Random, _half: str) -> Thing:
     return Thing(
-        ways=placed_at_random(rng, *_x(rng)),
+        paths=placed_at_random(rng, *_x(rng)),
         right=lambda snapshot: _shapes(snapshot) == {Chain: 2},
         kind='x',
     )
@@ -185,8 +185,8 @@ def _meeting_walls(rng: Random, _half: str) -> Thing:
     at, length = rng.uniform(0.0, 1.0), rng.uniform(0.5, 1.0)
     angle = rng.uniform(1.1, 2.0)
     foot = line((at, 0.02), (at + length * math.cos(angle), length * math.sin(angle)))
-    ways = placed_at_random(rng, line((0, 0), (1, 0)), foot)
-    return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Chain: 2})
+    paths = placed_at_random(rng, line((0, 0), (1, 0)), foot)
+    return Thing(paths=paths, right=lambda snapshot: _shapes(snapshot) == {Chain: 2})
 
 
 def _marked_circle(rng: Random, _half: str) -> Thing:
@@ -196,8 +196,8 @@ def _marked_circle(rng: Random, _half: str) -> Thing:
     reach = rng.uniform(0.45, 1.2, 2)
     high = rng.uniform(-0.15, 0.15)
     mark = line((-reach[0], high), (reach[1], high))
-    ways = placed_at_random(rng, circle, mark)
-    return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Disc: 1})
+    paths = placed_at_random(rng, circle, mark)
+    return Thing(paths=paths, right=lambda snapshot: _shapes(snapshot) == {Disc: 1})
 
 
 def _line_with_bob(rng: Random, half: str) -> Thing:
@@ -205,11 +205,11 @@ def _line_with_bob(rng: Random, half: str) -> Thing:
     shaft, _ = _shaft_and_head(rng, half)
     size = rng.uniform(0.15, 0.5)
     bob = (figures.disc, figures.rectangle, figures.polygon)[rng.integers(3)](rng)
-    outline = bob.way / np.hypot(*np.ptp(bob.way, axis=0)) * size
+    outline = bob.path / np.hypot(*np.ptp(bob.path, axis=0)) * size
     outline = np.add(np.vstack((outline, outline[:1])), (0.5 + 0.3 * size, 0.0))
-    ways = placed_at_random(rng, shaft, outline)
+    paths = placed_at_random(rng, shaft, outline)
     return Thing(
-        ways=ways if rng.random() < 0.5 else ways[::-1],
+        paths=paths if rng.random() < 0.5 else paths[::-1],
         right=lambda snapshot: snapshot.scene.settings.gravity == (0.0, -9.81),
     )
 

@@ -83,22 +83,24 @@ def stands_on(name: str, end: Point, scene: SceneQuery, steepness: float = SLOPE
     return math.dist(end, surface) < reach and _downward(end, surface, scene) > steepness
 
 
-def hangs_from(name: str, way: tuple[Point, Point], scene: SceneQuery, snap: float) -> bool:
+def hangs_from(name: str, last: tuple[Point, Point], scene: SceneQuery, snap: float) -> bool:
     """
     Return whether a body hangs from the end of a line that goes down to its upper side.
 
-    :param way: a point of the line before its end, and its end, beside the body [m]
+    :param last: a point of the line before its end, and its end, beside the body [m]
     """
-    before, end = way
+    before, end = last
     above = _towards(end, before, snap)
     falls = _downward(above, _surface(above, name, scene), scene)
-    return name in scene.bodies_at(end, snap) and min(falls, _downward(*way, scene)) > SLOPE
+    return name in scene.bodies_at(end, snap) and min(falls, _downward(*last, scene)) > SLOPE
 
 
 def _downward(start: Point, end: Point, scene: SceneQuery) -> float:
-    """Return the cosine of the angle between gravity and a way; 0 without gravity."""
-    way, gravity = np.subtract(end, start), np.array(scene.settings.gravity)
-    return float(dots(way, gravity)) / max(float(norms(way) * norms(gravity)), 1e-300)
+    """Return the cosine of the angle between gravity and a displacement; 0 without gravity."""
+    displacement, gravity = np.subtract(end, start), np.array(scene.settings.gravity)
+    return float(dots(displacement, gravity)) / max(
+        float(norms(displacement) * norms(gravity)), 1e-300
+    )
 
 
 def wheels_passed(

@@ -48,7 +48,7 @@ LEAST = 0.002
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Candidate:
     """
-    A way in which a stroke may be a sign: with its tail at either end, with either crossing.
+    A stroke as a sign: with its tail at one of both ends, with one of its crossings.
 
     :param measures: of the stroke by name, as the table of the sign has them
     :param points: (n, 2) float64: the points that describe the sign, in the world [m]

@@ -266,7 +266,7 @@ def arrow_in(
     arrow = joined_arrow(strokes)
     if arrow is None:
         return None
-    # The looks of the way from the one part to the other tell nothing.
+    # The gaps between the parts are no evidence for other forms.
     return in_scene(_joined(arrow), scene, settings, lambda it: sign_forms(it, (ARROW,))[0])
 
 

@@ -126,9 +126,9 @@ def convex_hull(points: Floats) -> Floats:
     """
     ordered = sorted(set(map(point_of, points)))
     hull: list[Point] = []
-    for way in (ordered, ordered[::-1]):
+    for run in (ordered, ordered[::-1]):
         start = len(hull)
-        for x, y in way:
+        for x, y in run:
             while len(hull) > start + 1:
                 (a, b), (c, d) = hull[-2:]
                 if (c - a) * (y - b) - (d - b) * (x - a) > 0.0:

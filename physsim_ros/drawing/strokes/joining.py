@@ -5,7 +5,7 @@
 Several strokes as one: which touch each other, and their order as if the pen had not been lifted.
 
 Law: the shape of a figure does not depend on the order and the directions of its strokes. Each is
-followed by the one that begins nearest to its end; the first one is that with the shortest ways
+followed by the one that begins nearest to its end; the first one is that with the shortest gaps
 between all. A shaft and a head, open, closed or filled, are joined as an arrow in one stroke.
 """
 
@@ -44,13 +44,13 @@ _STRAIGHT, _WIDEST, _BALANCE, _LONGEST, _NECK = 0.8, 2.3, 0.35, 1.1, 0.35
 # A closed head: its least length by that of the hull around it, whose greatest distance from a
 # triangle, in lengths of its longer side.
 _ROUND, _OFF = 0.7, 0.2
-# The number of points along the way between two strokes, which is then no jump of the pen.
+# The number of points in the gap between two strokes, which is then no jump of the pen.
 _BETWEEN = 32
 
 
 def joined_strokes(strokes: Sequence[Floats]) -> Floats:
     """
-    Return several strokes as one, with points along the straight ways between them.
+    Return several strokes as one, with points along the straight gaps between them.
 
     :param strokes: each (n, 2) float64: evenly spaced [m]
     :return: (n, 2) float64 [m]; a single stroke as it is
@@ -58,12 +58,12 @@ def joined_strokes(strokes: Sequence[Floats]) -> Floats:
     paths = list(strokes)
     if len(paths) < 2:
         return paths[0]
-    ways = [
+    orders = [
         _nearest_next(first, paths[:at] + paths[slice(at + 1, None)])
         for at, path in enumerate(paths)
         for first in (path, path[::-1])
     ]
-    ordered = min(ways, key=_way_between)
+    ordered = min(orders, key=_gap_between)
     gaps = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
     return np.vstack([ordered[0], *itertools.chain(*zip(gaps, ordered[1:], strict=True))])
 
@@ -137,17 +137,17 @@ def _open_headed(shaft: Floats, head: Floats) -> list[Floats] | None:
 
 def _nearest_next(first: Floats, others: Sequence[Floats]) -> list[Floats]:
     """Return paths from a first one on, each the one that begins nearest to the end before it."""
-    ordered, left = [first], [way for path in others for way in (path, path[::-1])]
+    ordered, left = [first], [each for path in others for each in (path, path[::-1])]
     while left:
-        at = min(range(len(left)), key=lambda way: math.dist(left[way][0], ordered[-1][-1]))
+        at = min(range(len(left)), key=lambda each: math.dist(left[each][0], ordered[-1][-1]))
         ordered.append(left[at])
         # Both directions of that path are done.
         del left[slice(at - at % 2, at - at % 2 + 2)]
     return ordered
 
 
-def _way_between(paths: Sequence[Floats]) -> float:
-    """Return the length of the way between the paths [m]."""
+def _gap_between(paths: Sequence[Floats]) -> float:
+    """Return the length of all gaps between the paths [m]."""
     return sum(math.dist(a[-1], b[0]) for a, b in itertools.pairwise(paths))
 
 

@@ -115,7 +115,7 @@ class Sign:
     A sign: a form that is told from lines and outlines by evidence.
 
     :param name: of the form, and of its rows in the table of evidence
-    :param candidates: yields the ways in which a stroke may have this form, with their measures
+    :param candidates: yields what a stroke would be as this sign, with the measures of each
     :param meanings: yields the meanings of the form; their weights add up to that of the form
     """
 

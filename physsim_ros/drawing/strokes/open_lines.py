@@ -106,7 +106,7 @@ def _is_held(body: str, context: Context) -> bool:
 
 def _is_toothed(features: Features, points: Floats) -> bool:
     """
-    Return whether a line goes to and fro across its way: sharp teeth, or round ones.
+    Return whether a line goes to and fro across its direction: sharp teeth, or round ones.
 
     :param points: its ends and bends
     """

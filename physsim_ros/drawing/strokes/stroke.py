@@ -49,7 +49,7 @@ _CUT_COST = 0.6
 _HEADING, _HEADING_AT_END = 6, 3
 # The greatest distance of lines that cross, in steps between points; the least cosine of the angle
 # between lines that overlap: the ends of a corner that cross are not antiparallel.
-_CROSSING, _SAME_WAY = 1.0, -0.5
+_CROSSING, _SAME_DIRECTION = 1.0, -0.5
 # The least distance of two samples that are kept, in shares of the stroke's size: a resting pen
 # jitters by some 0.2 % (standard deviation), and no side of a figure is shorter than 4 %.
 GRAIN = 0.01
@@ -191,8 +191,8 @@ def _seam(points: Floats) -> tuple[int, int]:
     """
     Return the first and the last point of an outline whose ends overlap by `_OVERLAP`.
 
-    Ends overlap where they cross or run the same way; those of a plank that lacks a part of one
-    side run against each other.
+    Ends overlap where they cross or run in the same direction; those of a plank that lacks a part
+    of one side run against each other.
     """
     count = len(points)
     step = float(norms(np.diff(points, axis=0)).mean())
@@ -204,7 +204,7 @@ def _seam(points: Floats) -> tuple[int, int]:
     onward = points[_HEADING:][:ends] - head
     until = tail - points[:-_HEADING][-ends:]
     cosines = dots(onward[:, None], until[None]) / (norms(onward)[:, None] * norms(until) + 1e-300)
-    overlap = (cosines > _SAME_WAY) | (gaps < _CROSSING * step) | (cut == 0)
+    overlap = (cosines > _SAME_DIRECTION) | (gaps < _CROSSING * step) | (cut == 0)
     best = int(np.where(overlap, gaps + _CUT_COST * step * cut, np.inf).argmin())
     first, last = divmod(best, ends)
     return first, count - ends + last

@@ -40,8 +40,7 @@ static const double same_normal = 1e-3;
 // A contact that begins with an impact.
 typedef struct Hit {
     cpArbiter *contact;
-    int a, b; // places of its bodies, the lesser first; those that forces do not move are one
-    bool done;
+    int a, b; // places of its bodies, the lesser first; those that forces do not move are one: `body_count`
 } Hit;
 
 // A point of a contact.
@@ -176,7 +175,7 @@ static int list_hits(World *world, Hit *hits) {
         if (is_impact(each)) {
             int a = is_movable(each->body_a) ? place_of(world, each->body_a) : world->body_count;
             int b = is_movable(each->body_b) ? place_of(world, each->body_b) : world->body_count;
-            hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a, false};
+            hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a};
         }
     }
     sort(hits, count, sizeof(Hit), by_bodies);
@@ -456,19 +455,17 @@ static void solve_cluster(const World *world, const Cluster *cluster) {
     }
 }
 
-// Solve the contacts by which two bodies hit each other, with what they reach.
-static void solve_pair(const World *world, const Hit *impact, int count, Hit *hits, int hit_count) {
+// Solve the contacts by which two bodies hit each other, with what they reach; mark the bodies that are then solved.
+static void solve_pair(const World *world, const Hit *hits, int count, bool *solved) {
     Cluster cluster = {.count = 0};
     for (int number = 0; number < count; number++) {
-        add_contact(&cluster, impact[number].contact);
+        add_contact(&cluster, hits[number].contact);
     }
     add_neighbours(&cluster);
     if (!cluster.too_many) {
         solve_cluster(world, &cluster);
-        for (int number = 0; number < hit_count; number++) {
-            const cpArbiter *each = hits[number].contact;
-            bool solved = has_body(&cluster, each->body_a) || has_body(&cluster, each->body_b);
-            hits[number].done = hits[number].done || solved;
+        for (int number = 0; number < cluster.body_count; number++) {
+            solved[place_of(world, cluster.bodies[number])] = true;
         }
     }
 }
@@ -478,12 +475,14 @@ void solve_impacts(World *world) {
         return;
     }
     Hit *hits = TAKE(&world->own->arena, Hit, arbiter_count(world));
+    // By place, and for all that forces do not move: that is never marked.
+    bool *solved = TAKE(&world->own->arena, bool, world->body_count + 1);
     int count = list_hits(world, hits), last = 0;
     for (int first = 0; first < count; first = last) {
         for (last = first; last < count && hits[last].a == hits[first].a && hits[last].b == hits[first].b; last++) {
         }
-        if (!hits[first].done) {
-            solve_pair(world, hits + first, last - first, hits, count);
+        if (!solved[hits[first].a] && !solved[hits[first].b]) {
+            solve_pair(world, hits + first, last - first, solved);
         }
     }
 }

@@ -36,6 +36,12 @@ static int by_y(const void *one, const void *other) {
     return a->middle.y < b->middle.y ? -1 : 1;
 }
 
+static void clear_nodes(Tree *tree) {
+    for (size_t node = 0; node < 2 * tree->leaves; node++) {
+        tree->nodes[node] = nowhere;
+    }
+}
+
 Tree tree_of(const Box *boxes, int count, Arena *arena) {
     Tree tree = {.count = count, .leaves = 1};
     while (tree.leaves < (size_t)count) {
@@ -59,9 +65,7 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
         int size = count - first < slice ? count - first : slice;
         sort(tiles + first, size, sizeof(Tile), by_y);
     }
-    for (size_t node = 0; node < 2 * tree.leaves; node++) {
-        tree.nodes[node] = nowhere;
-    }
+    clear_nodes(&tree);
     for (int place = 0; place < count; place++) {
         int number = tiles[place].number;
         tree.members[place] = number;
@@ -73,6 +77,13 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
     }
     arena_release(arena, mark);
     return tree;
+}
+
+Tree emptied(const Tree *tree, Arena *arena) {
+    Tree other = *tree;
+    other.nodes = TAKE(arena, Box, 2 * tree->leaves);
+    clear_nodes(&other);
+    return other;
 }
 
 void tree_set(Tree *tree, int number, Box box) {

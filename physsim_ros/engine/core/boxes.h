@@ -20,6 +20,9 @@ typedef struct Tree {
 // Return the tree of boxes.
 Tree tree_of(const Box *boxes, int count, Arena *arena);
 
+// Return a tree of as many boxes, which are nowhere, each at the leaf that it has in another one.
+Tree emptied(const Tree *tree, Arena *arena);
+
 // Replace a box.
 void tree_set(Tree *tree, int number, Box box);
 

@@ -7,7 +7,8 @@
 // Method: rounds. Each finds the impacts to come, and joins those that meet before anything near them does. The two go
 // on with their common momentum and angular momentum, or as the anchored or kinematic body that they have met, the
 // leader.
-// Cost: `swept_boxes.c` bounds the pairs of a round, and `IMPACT_ROUNDS` the rounds.
+// Cost: `swept_boxes.c` bounds the pairs of an island in a round, and `IMPACT_ROUNDS` the rounds; what is near an
+// impact is found by a tree.
 
 #include "impact_islands.h"
 #include "time_of_impact.h"
@@ -205,12 +206,17 @@ static void join(Sweep *sweep, Impact impact, const int *members, int count) {
     sweep->movers[members[0]].leader = leader;
 }
 
-// What a round has passed: boxes of islands that met, and islands that wait for the next round.
+// What a round has passed: the boxes that islands had before they met, and islands that wait for the next round.
 typedef struct Passed {
-    Box *boxes;
-    int count;
+    Tree boxes;  // by mover
     bool *waits; // by the first member of an island
 } Passed;
+
+static bool note_box(int number, void *data) {
+    (void)number;
+    *(bool *)data = true;
+    return false;
+}
 
 // Whether something near an impact is to come first, after which it may not take place.
 static bool has_to_wait(const Sweep *sweep, const Passed *passed, const int *members, int count) {
@@ -219,10 +225,10 @@ static bool has_to_wait(const Sweep *sweep, const Passed *passed, const int *mem
         if (passed->waits[mover->island]) {
             return true;
         }
-        for (int box = 0; box < passed->count; box++) {
-            if (overlap(mover->box, passed->boxes[box])) {
-                return true;
-            }
+        bool near = false;
+        tree_query(&passed->boxes, mover->box, note_box, &near);
+        if (near) {
+            return true;
         }
     }
     return false;
@@ -231,7 +237,8 @@ static bool has_to_wait(const Sweep *sweep, const Passed *passed, const int *mem
 // Join those that meet before anything near them does; list the bodies that move otherwise.
 static int resolve(Sweep *sweep, const Impacts *impacts, int *changed) {
     Arena *arena = &sweep->world->own->arena;
-    Passed passed = {.boxes = TAKE(arena, Box, sweep->count), .waits = TAKE(arena, bool, sweep->count)};
+    size_t mark = arena_mark(arena);
+    Passed passed = {.boxes = emptied(&sweep->tree, arena), .waits = TAKE(arena, bool, sweep->count)};
     int *members = TAKE(arena, int, sweep->count), changed_count = 0;
     for (int number = 0; number < impacts->count; number++) {
         Impact impact = impacts->list[number];
@@ -244,12 +251,13 @@ static int resolve(Sweep *sweep, const Impacts *impacts, int *changed) {
         }
         for (int member = 0; member < count; member++) {
             // No island is joined twice in a round.
-            assert(passed.count < sweep->count);
-            passed.boxes[passed.count++] = sweep->movers[members[member]].box;
+            assert(changed_count < sweep->count);
+            tree_set(&passed.boxes, members[member], sweep->movers[members[member]].box);
             changed[changed_count++] = members[member];
         }
         join(sweep, impact, members, count);
     }
+    arena_release(arena, mark);
     return changed_count;
 }
 

@@ -75,6 +75,16 @@ static int point_count(const cpBody *body) {
     return count;
 }
 
+// Whether a body that is touched bears few enough points for all of them to be rows.
+static bool bears_little(const cpBody *body) {
+    int count = 0;
+    for (const cpArbiter *each = body->arbiterList; each != NULL && count <= MOST_BEARINGS;
+         each = next_of(each, body)) {
+        count += each->count;
+    }
+    return count <= MOST_BEARINGS;
+}
+
 // The bodies all of whose contacts are rows: those with joints, then those that they touch, and do not pass.
 typedef struct Members {
     int *places, count;
@@ -94,8 +104,8 @@ static Members members_of(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
             int place = place_of(world, other);
-            bool bears = each->count > 0 && world->bodies[place].dynamic && point_count(other) <= MOST_BEARINGS;
-            if (bears && !members.marks[place]) {
+            bool touched = each->count > 0 && world->bodies[place].dynamic && !members.marks[place];
+            if (touched && bears_little(other)) {
                 members.marks[place] = true;
                 members.places[members.count++] = place;
             }

@@ -518,14 +518,16 @@ static void write_impulses(Solve *solve, const Solution *solution) {
 // A joint of which a row has reached its greatest force does not hold; one that drives or springs holds all the same.
 static void find_yielded(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
-    for (int row = 0; row < island->joint_row_count; row++) {
-        const Row *of_joint = island->rows[row];
-        if (of_joint->law == LAW_BOUNDS && fabs(solution->impulses[row]) >= of_joint->most) {
-            for (int other = 0; other < island->joint_row_count; other++) {
-                if (island->joint_of_row[other] == island->joint_of_row[row]) {
-                    solve->holds[other] = false;
-                }
-            }
+    int last = 0;
+    for (int first = 0; first < island->joint_row_count; first = last) {
+        bool yields = false;
+        // Rows of a joint follow one another.
+        for (; last < island->joint_row_count && island->joint_of_row[last] == island->joint_of_row[first]; last++) {
+            const Row *row = island->rows[last];
+            yields = yields || (row->law == LAW_BOUNDS && fabs(solution->impulses[last]) >= row->most);
+        }
+        for (int row = first; row < last && yields; row++) {
+            solve->holds[row] = false;
         }
     }
 }
