@@ -5,10 +5,11 @@
 The canonical spelling of names: names that look the same are the same, as far as characters go.
 
 Method: Unicode Normalization Form C (Unicode Standard Annex 15), and no invisible characters
-(Default_Ignorable_Code_Point). Joiners are visible in Persian, Hindi and emoji, and are allowed
-where they are, by the contextual rules of RFC 5892, appendix A.1 and A.2. Whether two letters of
-an Arabic script join is read off their presentation forms (U+FB50 to U+FEFC), which Python has,
-in place of Joining_Type, which it has not: letters without such forms count as not joining.
+(Default_Ignorable_Code_Point). Joiners are visible in Persian, Hindi and emoji, and selectors
+after emoji; there they are allowed, joiners by the contextual rules of RFC 5892, appendix A.1 and
+A.2. Whether two letters of an Arabic script join is read off their presentation forms (U+FB50 to
+U+FEFC), which Python has, in place of Joining_Type, which it has not: letters without such forms
+count as not joining.
 Letters of different scripts that look alike (Unicode Technical Standard 39) stay different.
 """
 
@@ -24,18 +25,16 @@ _IGNORABLE = (
     *((0xFE00, 0xFE0F), (0xFEFF, 0xFEFF), (0xFFA0, 0xFFA0), (0xFFF0, 0xFFF8)),
     *((0x1BCA0, 0x1BCA3), (0x1D173, 0x1D17A), (0xE0000, 0xE0FFF)),
 )
-# Selectors of the presentation of an emoji, which keyboards add unasked.
-_PRESENTATION = {0xFE0E: None, 0xFE0F: None}
+# Selectors of the presentation of an emoji, which they follow.
+_SELECTORS = '\ufe0e\ufe0f'
 _NON_JOINER, _JOINER = '\u200c', '\u200d'
 # Canonical combining class of a virama; Unicode categories of an emoji and of its skin colour.
 _VIRAMA, _EMOJI = 9, {'So', 'Sk'}
 
 
 def canonical(name: str) -> str:
-    """Return a name in Normalization Form C, without selectors of the presentation of emoji."""
-    if name.isascii():
-        return name
-    return unicodedata.normalize('NFC', name.translate(_PRESENTATION))
+    """Return a name in Normalization Form C."""
+    return name if name.isascii() else unicodedata.normalize('NFC', name)
 
 
 def has_invisible(name: str) -> bool:
@@ -51,8 +50,11 @@ def _is_ignorable(character: str) -> bool:
 
 
 def _is_visible_joiner(name: str, place: int) -> bool:
-    """Return whether the character at a place is a joiner where joiners are visible."""
+    """Return whether a place has a joiner, or a selector of an emoji, where that is visible."""
     before, sign, after = name[:place], name[place], name[place:][1:]
+    if sign in _SELECTORS:
+        return unicodedata.category(before[-1:] or ' ') in _EMOJI
+    before = before.rstrip(_SELECTORS)
     if sign not in {_NON_JOINER, _JOINER} or not before or not after:
         return False
     if unicodedata.combining(before[-1]) == _VIRAMA:
