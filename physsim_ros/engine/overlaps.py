@@ -34,6 +34,8 @@ _PART = 200_000
 # Share of a core in the bounding box of a piece: a disc's is the square in it; rounding and the
 # turning of pieces that lie on each other leave 95 %; of a triangle's box half is inside.
 _OF_DISC, _OF_BAR, _OF_CONVEX = math.sqrt(0.5), 0.95, 0.5
+# Gap between a rectangle's corner and that of its box, as a share of the width of the box [1].
+_SQUARE = 0.005
 # The least share: pieces may be as small as the overlap that the engine leaves.
 _LEAST = 0.2
 
@@ -89,11 +91,9 @@ def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float
             middle = (low + high) / 2
             # All corners of a rectangle are corners of its box.
             gaps = np.abs(np.abs(along - middle) - (high - low) / 2).max()
-            if len(corners) == 4 and gaps < COLLISION_SLOP * float((high - low).min()):
-                share, center = _OF_BAR, corners.mean(axis=0)
-            else:
-                share, center = _OF_CONVEX, corners.mean(axis=0)
-            x, y = center.tolist()
+            is_rectangle = len(corners) == 4 and gaps < _SQUARE * float((high - low).min())
+            share = _OF_BAR if is_rectangle else _OF_CONVEX
+            x, y = corners.mean(axis=0).tolist()
             length, width = ((high - low) / 2).tolist()
             return (x, y), (_reduced(length, share), _reduced(width, share)), yaw
 

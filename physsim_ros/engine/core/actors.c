@@ -76,8 +76,8 @@ static bool is_near(const World *world, const Actor *actor) {
 static void start_actors(World *world) {
     for (int number = 0; number < world->actor_count; number++) {
         Actor *actor = world->actors + number;
-        bool starts = !actor->waits || is_opened(world, actor) || is_near(world, actor);
-        if (actor->state.begun == never && starts) {
+        // Whether a gate is open is looked for only while its actor waits: that can go through all bodies.
+        if (actor->state.begun == never && (!actor->waits || is_opened(world, actor) || is_near(world, actor))) {
             actor->state.begun = world->step + actor->delay;
         }
     }

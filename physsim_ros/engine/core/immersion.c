@@ -26,7 +26,7 @@ typedef struct Vertex {
 
 typedef struct Outline {
     Vertex *vertices;
-    int count;
+    int count, most;
 } Outline;
 
 // An edge of a basin as seen from the centre of mass of a body: a corner, and the normal outwards.
@@ -43,10 +43,11 @@ typedef struct Around {
 } Around;
 
 static Outline outline_of(int most, Arena *arena) {
-    return (Outline){TAKE(arena, Vertex, most), 0};
+    return (Outline){TAKE(arena, Vertex, most), 0, most};
 }
 
 static inline void add_vertex(Outline *outline, Vec place, bool own) {
+    assert(outline->count < outline->most);
     outline->vertices[outline->count++] = (Vertex){place, own};
 }
 
@@ -112,7 +113,8 @@ Containment containment_of(const Basin *basin, Vec center, double reach) {
 
 // What of a convex polygon lies behind a line.
 static Outline clipped(Outline from, Line line, Arena *arena) {
-    Outline kept = outline_of(from.count + 1, arena);
+    // As many again: rounding can put corners that are nearly on one line before and behind it in turn.
+    Outline kept = outline_of(2 * from.count, arena);
     Vertex a = from.vertices[0];
     double out_a = dot(line.normal, sub(a.place, line.corner));
     for (int number = 1; number <= from.count; number++) {
@@ -328,11 +330,11 @@ Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outline
     Around around = basin == NULL ? (Around){0} : around_of(basin, pose.p, body->reach, arena);
     const Around *edges = basin == NULL ? NULL : &around;
     for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
-        // A polygon has a side an edge. Each edge of the basin, and that which halves the disc at an end of a segment,
-        // makes two arcs at most.
+        // A polygon has a side an edge. Each edge of a basin makes two arcs at most; for each end of a segment the
+        // basin is clipped, to twice its edges at most.
         int edge_count = basin == NULL ? 0 : basin->count;
         wet.sides = TAKE(arena, Side, corner_count(shape));
-        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 4 * (edge_count + 2));
+        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 8 * edge_count + 2);
         wet.side_count = wet.bow_count = 0;
         if (basin != NULL || body->hull_count == 0) {
             add_piece(&wet, shape, by, edges, arena);

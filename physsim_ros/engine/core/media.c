@@ -12,16 +12,15 @@
 //   the width across the flow. Turning counts by its part along n, at the centre of a round piece: friction alone would
 //   slow down the spin of a disc, and quadratic drag has none.
 // Both drags are -D (q - f) of the twists q of body and f of medium, with a matrix D that is symmetric and not
-// negative. Buoyancy and D are found once a step, for its middle; drag in each sub-step, of the velocity in the middle
-// of that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the middle,
-// by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J. Numer.
-// Anal. 1970). D in free flight is that of the mean of a guess of the twist and of the twist to which the drag of the
-// guess leads (Newton's method for v² = a, which is Heron's).
-// Scope: no mass of medium that moves along (added mass), no lift, no waves; a medium is not pushed.
-// Laws: drag takes energy from what moves in a medium at rest; no drag is too strong for the steps, nor a bubble too
-// light; what is dry, what is wet and their sum are the same outline.
-// Cost: a hundred bodies that float apart take 1.7 to 1.9 times as long as a hundred that fall in no air.
-// Without it laws 70 and 71 fail: nothing floats.
+// negative. Buoyancy and D are found once a step, for its middle, or for the rest of it as a body wakes; drag in each
+// sub-step, of the velocity in the middle of that (implicit midpoint rule). Where drag stops a body within a sub-step,
+// the velocity is later than the middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration
+// Methods for Stiff Systems", SIAM J. Numer. Anal. 1970). D in free flight is that of the mean of a guess of the twist
+// and of the twist to which the drag of the guess leads (Newton's method for v² = a, which is Heron's). Scope: no mass
+// of medium that moves along (added mass), no lift, no waves; a medium is not pushed. Laws: drag takes energy from what
+// moves in a medium at rest; no drag is too strong for the steps, nor a bubble too light; what is dry, what is wet and
+// their sum are the same outline. Cost: a hundred bodies that float apart take 1.7 to 1.9 times as long as a hundred
+// that fall in no air. Without it laws 70 and 71 fail: nothing floats.
 
 #include "media.h"
 #include "stages.h"
@@ -256,7 +255,7 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, cons
     if (air != NULL) {
         shares[count++] = (Share){immersed(body, pose, NULL, resists(air), arena), air, media->wind, 1.0};
     }
-    Pull pull = {0};
+    Pull pull = {.found = true};
     for (int number = 0; number < count; number++) {
         pull.steady = twist_sum(pull.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
     }
