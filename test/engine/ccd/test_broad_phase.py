@@ -107,7 +107,7 @@ def test_the_tree_of_what_is_anchored_is_built_anew_only_where_that_is_moved(
 ):
     world, noted = heap(), []
     spawn(world, 'wall/0', Disc(radius=1.0), (50.0, 0.0, 0.0), anchored=True)
-    monkeypatch.setattr(CoreWorld, 'note_moved_static', noted.append)
+    monkeypatch.setattr(CoreWorld, 'note_moved_static', lambda core: noted.append(core))
 
     world.apply(Command(names=(moved,), poses=np.array([[0.0, 9.0, 0.0]])))
 
