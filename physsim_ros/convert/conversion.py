@@ -14,10 +14,11 @@ import re
 from typing import Any
 
 from physsim_ros.files import yaml_line
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import Point, Pose
 
-# Greatest number of bodies, the default of parameter `max_bodies`.
-MOST_BODIES = 20_000
+# Greatest number of bodies: that of a world where nothing else is asked for.
+MOST_BODIES = WorldSettings().max_bodies
 # Thickness of outlines that are lines [m], and corners of a disc that becomes a polygon.
 THICKNESS = 0.05
 _CORNERS = 24

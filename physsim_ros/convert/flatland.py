@@ -103,11 +103,7 @@ def _add_body(
     shape, origin = shape_of([_piece_of(each) for each in prints], conversion)
     properties: dict[str, object] = {}
     first = prints[0]
-    for ours, theirs in (
-        ('density', 'density'),
-        ('friction', 'friction'),
-        ('elasticity', 'restitution'),
-    ):
+    for ours, theirs in _MATERIAL.items():
         if theirs in first:
             # Box2D has no greatest friction.
             properties[ours] = min(float(first[theirs]), _MOST[ours])

@@ -36,7 +36,7 @@ from physsim_ros.model.states import (
     WAITING,
 )
 from physsim_ros.model.transform import local_to_world, NO_WRENCH, ORIGIN, Point, Pose, REST
-from physsim_ros.simulation.world import steps_in
+from physsim_ros.simulation.world import steps_covering
 from physsim_ros.simulation.world.body_requests import check_command
 
 # Greatest number of a robot's state, as of a motion [m, rad, m/s, rad/s].
@@ -203,7 +203,7 @@ def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: f
         # ends at the step at which it was saved acts no more.
         steps = wrench.steps
         if wrench.seconds is not None:
-            steps = steps_in(wrench.seconds, physics_rate) if wrench.seconds > 0.0 else 0
+            steps = steps_covering(wrench.seconds, physics_rate) if wrench.seconds > 0.0 else 0
         if (fx, fy, torque) != NO_WRENCH:
             state = replace(state, wrench=(fx, fy, torque), wrench_steps=steps)
     if 'driven' in entry:

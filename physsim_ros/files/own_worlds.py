@@ -100,12 +100,17 @@ class OwnWorlds:
         """
         Put back the file that was deleted or written over last, and return a message about it.
 
+        A world that has the name now is kept in place of it.
+
         :raises BadWorldFile: none is kept
         """
         kept, path = self._kept(name), self._path(name)
         if not kept.is_file():
             raise BadWorldFile(f'nothing of {name} is kept', field='name')
-        kept.replace(path)
+        put_back = kept.with_suffix('.put_back')
+        kept.replace(put_back)
+        self.keep(name)
+        put_back.replace(path)
         return f'put back the world {name}'
 
     def picture(self, name: str) -> Path:

@@ -6,13 +6,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from threading import Thread
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from physsim_ros.model.slices import wrap_future
 
 _Result = TypeVar('_Result')
+# The work under way for whose end the process waits.
+_awaited: set[Future[Any]] = set()
 
 
 async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _Result:
@@ -29,5 +31,13 @@ async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _
         except BaseException as error:  # noqa: BLE001 - the world's thread raises it
             future.set_exception(error)
 
+    if finishes:
+        _awaited.add(future)
+        future.add_done_callback(_awaited.discard)
     Thread(target=call, name='file', daemon=not finishes).start()
     return await wrap_future(future)
+
+
+def finish_files() -> None:
+    """Wait until all work is done that finishes before the end of the process."""
+    wait(_awaited)

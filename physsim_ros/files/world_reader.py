@@ -40,7 +40,7 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.model.settings import OF_WORLD, WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import Pose
-from physsim_ros.simulation.world import steps_in
+from physsim_ros.simulation.world import steps_covering
 from physsim_ros.simulation.world.assembly import parts_of
 from physsim_ros.simulation.world.body_description import new_body
 from physsim_ros.simulation.world.capacity import check_limit
@@ -194,7 +194,7 @@ def _body_state(
     # Saved poses and velocities may exceed the ranges of requests.
     at_rest = {key: entry[key] for key in entry if key not in _MOTION_KEYS}
     spawn = spawn_from(at_rest if saved else entry)
-    expires = steps_in(spawn.lifetime, physics_rate) if spawn.lifetime > 0 else None
+    expires = steps_covering(spawn.lifetime, physics_rate) if spawn.lifetime > 0 else None
     body, twist = new_body(spawn, settings, expires)
     state = BodyState(body=body, pose=spawn.pose, twist=twist)
     state = with_saved_state(state, entry, physics_rate)

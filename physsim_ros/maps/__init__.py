@@ -9,7 +9,20 @@ The anchored bodies of a world become a grid; a grid becomes a few anchored boxe
 `occupancy_grid`.
 """
 
-from physsim_ros.maps.occupancy_grid import anchored_grid, MOST_CELLS, OccupancyGrid, walls_of
+from physsim_ros.maps.occupancy_grid import (
+    anchored_grid,
+    is_on_map,
+    MOST_CELLS,
+    OccupancyGrid,
+    walls_of,
+)
 from physsim_ros.maps.rectangle_partition import rectangles_of
 
-__all__ = ['MOST_CELLS', 'OccupancyGrid', 'anchored_grid', 'rectangles_of', 'walls_of']
+__all__ = [
+    'MOST_CELLS',
+    'OccupancyGrid',
+    'anchored_grid',
+    'is_on_map',
+    'rectangles_of',
+    'walls_of',
+]

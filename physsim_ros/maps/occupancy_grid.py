@@ -24,6 +24,7 @@ from physsim_ros.model.checks import check_pose
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import BadSize, Malformed, WorldFull
 from physsim_ros.model.requests import Spawn
+from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Box, contains, LARGEST, piece_box, SMALLEST
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Pose, rotated_each
@@ -86,6 +87,11 @@ def check_cells(resolution: float, rows: int, columns: int) -> None:
 _MOST_AT_ONCE = 2**20
 
 
+def is_on_map(body: Body) -> bool:
+    """Return whether a map shows a body."""
+    return body.anchored and not body.sensor
+
+
 def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
     """
     Return the map of a world: of `bounds` and a ring of cells around, or of anchored bodies.
@@ -102,7 +108,7 @@ def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
         for body, pose in zip(
             snapshot.scene.bodies, map(tuple, snapshot.poses.tolist()), strict=True
         )
-        if body.anchored and not body.sensor
+        if is_on_map(body)
         for piece in body.shape.form.pieces
     ]
     bounds = snapshot.scene.settings.bounds

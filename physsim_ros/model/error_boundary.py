@@ -5,8 +5,9 @@
 The error boundary: an error that nobody expected ends one message or one output, not the world.
 
 It stands where something enters the node or leaves it: topics, services, parameters, pages, files,
-outputs. Laws: a refusal passes it. Any other exception is logged with its traceback and a number,
-once for each place where it arises, and counted; a message is answered `failed` with that number.
+outputs. Laws: a refusal passes it where something enters. Any other exception is logged with its
+traceback and a number, once for each place where it arises, and counted; a message is answered
+`failed` with that number.
 An error inside of a step is no `Exception` (`StepFailed`): it passes, and ends the world.
 """
 

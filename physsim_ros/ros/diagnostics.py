@@ -10,6 +10,7 @@ events, whether `/diagnostics` has subscribers or not.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -67,8 +68,8 @@ class Diagnostics:
         self._boundary = boundary
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._due = 0
-        # Counts since the start, as the last report had them.
-        self._reported: dict[str, int] = {}
+        # Counts since the start, as they were a second ago.
+        self._counted: Counter[str] = Counter()
         # The message that took the longest since the last report, and its CPU time [s].
         self._longest = ('', 0.0)
 
@@ -86,20 +87,37 @@ class Diagnostics:
             self._longest = boundary.take_longest()
             events = *outputs.viewer.poll(), *self._new_namesakes(), *boundary.take_events()
             outputs.report_answers(events)
+            new = self._count_second()
             if outputs.frame is not None and self._publisher.get_subscription_count():
-                self._publisher.publish(self._report(self._snapshot(outputs.frame)))
+                self._publisher.publish(self._report(self._snapshot(outputs.frame), new))
+            outputs.statistics.begin_second()
 
     def _snapshot(self, frame: Frame) -> Snapshot:
         """Return the snapshot of now, or of the last frame where the world is not there."""
         simulation = self._simulation
         return simulation.world.snapshot() if simulation.playback.is_there else frame.snapshot
 
-    def _report(self, snapshot: Snapshot) -> DiagnosticArray:
-        """Return the message of the last second, and begin the next."""
+    def _count_second(self) -> Counter[str]:
+        """Return the counts of the last second, by name."""
+        counts = Counter(
+            {
+                'late frames': self._simulation.playback.clock.late_frames,
+                'undecodable messages': self._topics.undecodable,
+                'unexpected errors': self._boundary.failures,
+            }
+        )
+        before, self._counted = self._counted, counts
+        return counts - before
+
+    def _report(self, snapshot: Snapshot, new: Counter[str]) -> DiagnosticArray:
+        """
+        Return the message of the last second.
+
+        :param new: counts of that second, by name
+        """
         outputs, simulation = self._outputs, self._simulation
         statistics, events = outputs.statistics, outputs.topics.events
-        late_frames = simulation.playback.clock.late_frames
-        late = self._new('late frames', late_frames)
+        late = new['late frames']
         name, took = self._longest
         used, budget = simulation.past.budget.in_megabytes
         px, py = snapshot.momentum
@@ -110,15 +128,15 @@ class Diagnostics:
             'speed': f'{simulation.speed:zg}',
             'real-time factor': f'{factor:z.3f}',
             'frames': frames,
-            'late frames': late_frames,
+            'late frames': self._counted['late frames'],
             'late frames in this second': late,
             'step cost [ms]': f'{statistics.step_cost * 1e3:.3f}',
             'frame cost [ms]': f'{statistics.frame_cost * 1e3:.3f}',
             'wait of requests [s]': f'{self.message_delay:.3f}',
             'requests that wait': len(simulation.requests),
             'longest message [ms]': f'{took * 1e3:.1f} {name}'.rstrip(),
-            'undecodable messages': self._topics.undecodable,
-            'unexpected errors': self._boundary.failures,
+            'undecodable messages': self._counted['undecodable messages'],
+            'unexpected errors': self._counted['unexpected errors'],
             'answers that wait': events.waiting,
             'memory of the past [MB]': f'{used:.1f} of {budget:g}',
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
@@ -127,8 +145,7 @@ class Diagnostics:
             'momentum [kg m/s]': f'{px:.6g}, {py:.6g}',
             'viewer': outputs.viewer.state,
         }
-        statistics.begin_second()
-        concerns, speed = list(self._concerns(late, factor)), simulation.speed
+        concerns, speed = list(self._concerns(new, factor)), simulation.speed
         is_far_behind = late > 0 and abs(factor) < FAR_BEHIND * abs(speed)
         level = DiagnosticStatus.WARN if concerns else DiagnosticStatus.OK
         status = DiagnosticStatus(
@@ -143,16 +160,16 @@ class Diagnostics:
         array.header.stamp = Time(nanoseconds=snapshot.stamp).to_msg()
         return array
 
-    def _concerns(self, late: int, factor: float) -> Iterator[str]:
+    def _concerns(self, new: Counter[str], factor: float) -> Iterator[str]:
         """
         Yield what is amiss in the last second, and what to do.
 
-        :param late: number of frames that were late
+        :param new: counts of that second, by name
         :param factor: real-time factor [1]
         """
-        if late > 0:
+        if new['late frames']:
             yield (
-                f'{late} frames late, real-time factor {factor:z.2f}: '
+                f'{new["late frames"]} frames late, real-time factor {factor:z.2f}: '
                 'fewer bodies, joints or viewers, or a lower speed'
             )
         if self.message_delay > LONG_DELAY:
@@ -160,19 +177,14 @@ class Diagnostics:
         name, took = self._longest
         if took > LONG_MESSAGE:
             yield f'{name} took {took:.1f} s, in which time stood: send less at once'
-        if lost := self._new('undecodable messages', self._topics.undecodable):
+        if lost := new['undecodable messages']:
             yield f'{lost} messages cannot be decoded: check their publishers'
-        if failed := self._new('unexpected errors', self._boundary.failures):
+        if failed := new['unexpected errors']:
             yield f'{failed} unexpected errors: report them with the log of the node'
         if self._outputs.topics.events.stopped:
             yield 'a subscriber of ~/events has stopped and loses answers: end it'
         if failure := self._outputs.viewer.failure:
             yield f'{failure}: set parameter viewer to open it again'
-
-    def _new(self, what: str, count: int) -> int:
-        """Return how much a count since the start has grown since the last report."""
-        before, self._reported[what] = self._reported.get(what, 0), count
-        return count - before
 
     def _new_namesakes(self) -> list[Answer]:
         """Return an event if there are more nodes of this name than at the last count."""

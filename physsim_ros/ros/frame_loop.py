@@ -80,7 +80,7 @@ class FrameLoop:
         step = self._simulation.step
         request_time = _RequestTime(self._rest_ns)
         # In a rewind commands are ignored, and no controller is awaited.
-        if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
+        if self._simulation.speed < 0.0 or not self._fleet.waits():
             # A short seek is finished first: its slices are no frames for controllers to answer.
             self.finish_short_seek()
             frames = self._simulation.advance(
@@ -110,7 +110,7 @@ class FrameLoop:
         statistics.add(
             now_ns=now_ns,
             stamp=self._simulation.stamp,
-            step_ns=stepped - began,
+            step_ns=stepped - request_time.ended,
             frame_ns=time.perf_counter_ns() - began,
         )
 
@@ -189,7 +189,7 @@ class FrameLoop:
         self._simulation.finish_work(lambda: _is_overdue(began))
 
     def _take_commands(self) -> None:
-        """Handle the messages of pages, and submit the commands of robots; none in the past."""
+        """Handle messages of pages, and submit commands of robots, which the past refuses."""
         if self._outputs.sketchpad is not None:
             self._outputs.sketchpad.handle_messages()
         self._fleet.submit_commands(

@@ -100,7 +100,9 @@ class LiveParameters:
         """
         for parameter in changed:
             parameters.check(parameter)
-        replace(self._simulation.settings, **parameters.world_changes(changed))
+        settings = replace(self._simulation.settings, **parameters.world_changes(changed))
+        if settings != self._simulation.settings:
+            self._simulation.world.capacity.check_settings(settings)
         values = {parameter.name: parameter.value for parameter in changed}
         parameters.drawing_settings(self.values | values)
         for name, prepare in self.prepare.items():

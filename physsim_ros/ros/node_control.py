@@ -201,8 +201,7 @@ class NodeControl:
 
         def seek(message: Clock) -> None:
             stamp = message.clock.sec * 10**9 + message.clock.nanosec
-            self._outputs.statistics.reset_pace()
-            requests.submit_seek(stamp, Origin('~/seek'))
+            self.submit_seek(stamp, Origin('~/seek'))
 
         topics.subscribe(Float64, '~/speed', set_speed)
         topics.subscribe(Clock, '~/seek', seek)
@@ -231,10 +230,18 @@ class NodeControl:
 
         :raises Running: time is running
         """
+        if self.simulation.speed == 0 and not self._loop.apply_in_time():
+            return f'at {self.simulation.playback.queue_frame() * 1e-9:.6f} s'
+        return self.advance_frame()
+
+    def advance_frame(self) -> str:
+        """
+        Advance a paused world by one frame, after a seek that is under way.
+
+        :raises Running: time is running
+        """
         if self.simulation.speed != 0:
             raise Running('time is running; pause first')
-        if not self._loop.apply_in_time():
-            return f'at {self.simulation.playback.queue_frame() * 1e-9:.6f} s'
         self._loop.advance_frame()
         return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
 

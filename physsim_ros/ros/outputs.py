@@ -223,7 +223,7 @@ class FrameStatistics:
 
     @property
     def frame_cost(self) -> float:
-        """Return the mean cost of a frame in this second, steps and publishing [s]."""
+        """Return the mean cost of the tick of a frame in this second [s]."""
         return self._frame_ns / max(1, self.frames) * 1e-9
 
     def add(self, *, now_ns: int, stamp: int, step_ns: int, frame_ns: int) -> None:
@@ -233,7 +233,7 @@ class FrameStatistics:
         :param now_ns: steady time of the frame [ns]
         :param stamp: simulation time of the frame [ns]
         :param step_ns: cost of its steps [ns]
-        :param frame_ns: cost of its steps and of publishing [ns]
+        :param frame_ns: cost of its tick: messages, requests, steps and publishing [ns]
         """
         self.frames += 1
         self._step_ns += step_ns

@@ -21,7 +21,14 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import DriveRobot, HandRequest, KeepHand, MoveHand, Request
+from physsim_ros.model.requests import (
+    CommandMotors,
+    DriveRobot,
+    HandRequest,
+    KeepHand,
+    MoveHand,
+    Request,
+)
 from physsim_ros.model.slices import at_once, in_slices, Sliced, Slices
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import (
@@ -188,7 +195,7 @@ class RequestQueue:
         Commands of robots join a gesture for an undo alone.
         """
         following = next((each for each in self._waiting if each.is_for_world), None)
-        if following is None or isinstance(following.request, DriveRobot):
+        if following is None or isinstance(following.request, DriveRobot | CommandMotors):
             return False
         return following.gesture == self._applied
 

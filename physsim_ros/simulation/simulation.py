@@ -31,7 +31,7 @@ from physsim_ros.simulation.world import Beginning, forces_now, load_message
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
-# Check of the rates: the range that the node's parameters have.
+# Check of the rates; a node asks for 60 Hz and more.
 _RATE = Within(1.0, 1e4, 'Hz')
 
 

@@ -18,8 +18,16 @@ Not here: ROS (`ros` has the node's `WorldControl`), the reading of strokes (`dr
 from physsim_ros.sketchpad.results import results_file
 from physsim_ros.sketchpad.rights import locks_of, Role
 from physsim_ros.sketchpad.server.class_server import ClassServer
-from physsim_ros.sketchpad.server.seats import World
+from physsim_ros.sketchpad.server.seats import WorldAddresses
 from physsim_ros.sketchpad.sketchpad import Sketchpad
 from physsim_ros.sketchpad.world_control import WorldControl
 
-__all__ = ['ClassServer', 'Role', 'Sketchpad', 'World', 'WorldControl', 'locks_of', 'results_file']
+__all__ = [
+    'ClassServer',
+    'Role',
+    'Sketchpad',
+    'WorldAddresses',
+    'WorldControl',
+    'locks_of',
+    'results_file',
+]

@@ -16,7 +16,7 @@ import time
 from typing import Any, NamedTuple
 
 from physsim_ros.drawing import DrawingSession
-from physsim_ros.files import OwnWorlds
+from physsim_ros.files import on_thread, OwnWorlds
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.error_boundary import ErrorBoundary
@@ -226,6 +226,25 @@ class PageSession:
         """
         answer = Answer(topic='page', message=message, **details)
         self.send(answer_content(answer, request_of(origin)))
+
+    def answer_from_thread(self, origin: Origin, work: Callable[[], str]) -> None:
+        """
+        Have a thread do what a slow disk delays, and answer this page alone.
+
+        :param work: returns the message of the answer; raises a Refusal
+        """
+
+        async def answer() -> list[Answer]:
+            writing = on_thread(work, finishes=True)
+            try:
+                message = await self.world.boundary.slices_of_message(origin.topic, writing)
+            except Refusal as refusal:
+                self.refuse(origin, refusal)
+            else:
+                self.answer_page(origin, message)
+            return []
+
+        self.call(origin, answer, Wait.NONE)
 
     def perform(self, origin: Origin, action: Sliced[str], wait: Wait = Wait.NONE) -> None:
         """

@@ -54,7 +54,7 @@ class Run:
     :param case: the case
     :param failure: reason of the failure; '' if the run succeeded
     :param seconds: simulation time until the failure, or until the end [s]
-    :param path: (k, 2) float64: positions of the robot at the controller's periods, world [m]
+    :param way: (k, 2) float64: positions of the robot at the controller's periods, world [m]
     :param score: score of the robot at the end; NaN if the experiment has no score
     :param before: state of the world shortly before the failure; None if the run succeeded
     :param physics_rate: steps of the world per second of simulation time [Hz]
@@ -63,15 +63,15 @@ class Run:
     case: Case
     failure: str
     seconds: float
-    path: Floats
+    way: Floats
     score: float
     before: WorldState | None
     physics_rate: float
 
     @property
     def length(self) -> float:
-        """Return the length of the robot's path [m]."""
-        steps = np.diff(self.path, axis=0)
+        """Return the length of the robot's way [m]."""
+        steps = np.diff(self.way, axis=0)
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
@@ -201,21 +201,21 @@ class Experiment(Checked):
         settings = replace(self.world.settings, seed=case.seed)
         simulation.begin(replace(self.world, settings=settings))
         robot = Robot(simulation, self.robot)
-        path, failure, score = [robot.truth().pose[:2]], '', float('nan')
+        way, failure, score = [robot.truth().pose[:2]], '', float('nan')
         last = round(self.seconds / self.period)
         try:
             note_call(0)
             _end_at(0, end)
             if self.begin is not None:
                 self.begin(robot, np.random.default_rng(case.seed))
-            path = [robot.truth().pose[:2]]
+            way = [robot.truth().pose[:2]]
             control = self.controller(**case.parameters)
             for call in range(1, last + 1):
                 note_call(call)
                 _end_at(call, end)
                 control(robot)
                 simulation.run(self.period)
-                path.append(robot.truth().pose[:2])
+                way.append(robot.truth().pose[:2])
                 failure = self.failure(robot)
                 if failure:
                     break
@@ -230,7 +230,7 @@ class Experiment(Checked):
             case=case,
             failure=failure,
             seconds=seconds,
-            path=np.array(path),
+            way=np.array(way),
             score=score,
             before=_world_at(simulation, seconds - self.before) if failure else None,
             physics_rate=self.physics_rate,

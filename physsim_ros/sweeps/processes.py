@@ -6,7 +6,7 @@ Runs, each in a process of its own: an exit, a kill and a hang are failures of t
 
 A process is forked for a case, and ends with its run, which it sends through a pipe. Of one that
 ends otherwise, the count of the controller's calls is known, which it keeps in shared memory: the
-case is run again up to the last of them, to the bit, for its path and the world before its end.
+case is run again up to the last of them, to the bit, for its way and the world before its end.
 """
 
 from __future__ import annotations
@@ -15,17 +15,18 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
+import gc
 import math
 import mmap
 import os
 import pickle
 import resource
-import select
+import selectors
 import signal
 import struct
 import sys
 import time
-from typing import Any, NoReturn
+from typing import NoReturn
 import warnings
 
 import numpy as np
@@ -95,6 +96,9 @@ class _Process:
     def _work(self, out: int) -> NoReturn:
         """Run the case, send what came of it, and end; in the process itself."""
         status = 1
+        # Garbage of the parent is not this process's own either: a node of ROS that is freed
+        # without its threads ends it.
+        gc.freeze()
         try:
             seconds = math.ceil(self._experiment.cpu_limit * self._attempts)
             _, most = resource.getrlimit(resource.RLIMIT_CPU)
@@ -170,7 +174,7 @@ class _Process:
             case=case,
             failure=self.job.end.failure,
             seconds=max(0, self.job.end.calls - 1) * experiment.period,
-            path=np.empty((0, 2)),
+            way=np.empty((0, 2)),
             score=math.nan,
             before=None,
             physics_rate=experiment.physics_rate,
@@ -190,22 +194,26 @@ def run_apart(
     """
     waiting = deque(_Job(number, case) for number, case in cases)
     running: dict[int, _Process] = {}
+    selector = selectors.DefaultSelector()
     try:
         while waiting or running:
             while waiting and len(running) < processes:
                 process = _Process(experiment, waiting.popleft())
                 running[process.pipe] = process
+                selector.register(process.pipe, selectors.EVENT_READ)
             due = min(each.deadline for each in running.values()) - time.monotonic()
-            ready: list[Any] = select.select([*running], [], [], max(0.0, due))[0]
+            ready = {key.fd for key, _ in selector.select(max(0.0, due))}
             for process in [*running.values()]:
                 is_over = process.pipe in ready and process.receive()
                 if is_over or time.monotonic() >= process.deadline:
                     del running[process.pipe]
+                    selector.unregister(process.pipe)
                     result = process.result()
                     if isinstance(result, Run):
                         yield process.job.number, result
                     else:
                         waiting.appendleft(result)
     finally:
+        selector.close()
         for process in running.values():
             process.close()

@@ -29,7 +29,7 @@ def table_of_runs(runs: Iterable[Run]) -> str:
     Return a table with a row for each combination of parameters.
 
     Its columns are the parameters, the number of runs and of failures, the mean time [s] and mean
-    path [m] until failure or end, the mean score if the experiment has a score, and the reasons of
+    way [m] until failure or end, the mean score if the experiment has a score, and the reasons of
     failures with the seeds of the runs, the most frequent reason first.
     """
     groups: dict[str, list[Run]] = {}
@@ -37,7 +37,7 @@ def table_of_runs(runs: Iterable[Run]) -> str:
         groups.setdefault(_text_of(run), []).append(run)
     scored = any(not np.isnan(run.score) for group in groups.values() for run in group)
     score = ['score'] if scored else []
-    rows = [['parameters', 'runs', 'failed', 'time [s]', 'path [m]', *score, 'failures: seeds']]
+    rows = [['parameters', 'runs', 'failed', 'time [s]', 'way [m]', *score, 'failures: seeds']]
     for text, group in groups.items():
         failed = [run for run in group if run.failure]
         row = [text, f'{len(group)}', f'{len(failed)}']
@@ -77,7 +77,7 @@ def picture_of_runs(
     experiment: Experiment, runs: Iterable[Run], width: int = 960
 ) -> NDArray[np.uint8]:
     """
-    Return a picture of the world with the paths of all runs; failed runs are red.
+    Return a picture of the world with the ways of all runs; failed runs are red.
 
     :param experiment: experiment of the runs
     :param width: width of the picture [pixels]
@@ -87,8 +87,9 @@ def picture_of_runs(
     simulation.begin(experiment.world)
     # The failed ones on top.
     ordered = sorted(runs, key=lambda run: bool(run.failure))
-    lines = [(run.path, _FAILED if run.failure else _WELL) for run in ordered]
-    ends = [(run.path[-1], _FAILED) for run in ordered if run.failure]
+    lines = [(run.way, _FAILED if run.failure else _WELL) for run in ordered]
+    # A run whose process has ended may have no way.
+    ends = [(run.way[-1], _FAILED) for run in ordered if run.failure and len(run.way)]
     return picture_of(simulation.frame.snapshot, width, lines=lines, crosses=ends)
 
 

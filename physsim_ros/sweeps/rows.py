@@ -77,7 +77,7 @@ class Rows:
             case=case,
             failure=row['failure'],
             seconds=row['seconds'],
-            path=np.array(row['path'], float).reshape(-1, 2),
+            way=np.array(row['way'], float).reshape(-1, 2),
             score=math.nan if row['score'] is None else row['score'],
             before=before and load_world(self._folder / before, physics_rate=rate),
             physics_rate=rate,
@@ -98,7 +98,7 @@ class Rows:
             'score': None if math.isnan(run.score) else run.score,
             'length': run.length,
             'before': path and path.name,
-            'path': run.path.tolist(),
+            'way': run.way.tolist(),
         }
         with self._path.open('a', encoding='utf-8') as file:
             file.write(_line(row))

@@ -4,7 +4,7 @@
 """
 The executor of a test, which spins until all messages have arrived; the client of its requests.
 
-The client is the node that publishes the requests of a test and receives the answers.
+The client publishes the requests of a test and receives the answers.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PointStamped
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
+from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.testing.values import Refused
 from rclpy.context import Context
 from rclpy.experimental import EventsExecutor
@@ -119,31 +119,32 @@ class SettlingExecutor:
 
 class RequestClient:
     """
-    A node that publishes requests to a world, and waits for the answers.
+    Publishes requests to a world, and waits for the answers.
 
-    :param context: of the world
+    :param node: that publishes them
     :param world: the node of the world
     :param executor: spins both nodes
     """
 
-    def __init__(self, context: Context, world: PhysSimNode, executor: SettlingExecutor) -> None:
-        self.node = NodeWithoutQosEvents('physsim_test', context=context)
+    def __init__(self, node: Node, world: PhysSimNode, executor: SettlingExecutor) -> None:
         self._world = world
         self._executor = executor
         self._publishers = {
-            topic: self.node.create_publisher(kind, f'/physsim/{topic}', 10)
+            topic: node.create_publisher(kind, f'/physsim/{topic}', 10)
             for topic, kind in _MESSAGES.items()
         }
-        self.node.create_subscription(DiagnosticStatus, '/physsim/events', self._receive, LOSSLESS)
+        self._events = node.create_subscription(
+            DiagnosticStatus, '/physsim/events', self._receive, LOSSLESS
+        )
         self._topic = ''
         self._received: list[DiagnosticStatus] = []
-        executor.add_node(self.node)
+        executor.add_node(node)
         executor.spin_until(self._is_matched, 'the world was not discovered')
 
     def _is_matched(self) -> bool:
         """Return whether publishers and subscriptions are matched with those of the world."""
         outward = all(each.get_subscription_count() for each in self._publishers.values())
-        return outward and self.node.count_publishers('/physsim/events') > 0
+        return outward and self._events.get_publisher_count() > 0
 
     def request(self, topic: str, message: Any, answers: int = 1) -> str:
         """

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, ExitStack, suppress
 import math
 from pathlib import Path
 from typing import Any, Self, Unpack
@@ -14,6 +14,7 @@ from typing import Any, Self, Unpack
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.slices import at_once
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.testing.changed_world import ChangedWorld
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
 from physsim_ros.testing.context import own_context
@@ -45,13 +46,20 @@ class PhysSim(ChangedWorld):
     ) -> None:
         values: dict[str, Any] = {'viewer': 'none', **parameters}
         overrides = [Parameter(name, value=value) for name, value in values.items()]
-        node = PhysSimNode(context=context, parameter_overrides=overrides)
-        # `contacts` reads them from the frame, where no message is needed.
-        node.outputs.records_contacts = True
-        self._executor = SettlingExecutor(context)
-        self._executor.add_node(node)
-        node.boundary.on_error = self._executor.errors.append
-        super().__init__(node, RequestClient(context, node, self._executor))
+        with ExitStack() as closing:
+            node = PhysSimNode(context=context, parameter_overrides=overrides)
+            closing.callback(node.destroy_node)
+            own = NodeWithoutQosEvents('physsim_test', context=context)
+            closing.callback(own.destroy_node)
+            self._executor = SettlingExecutor(context)
+            # The executor goes before its nodes, whose waitables it has.
+            closing.callback(self._executor.shutdown)
+            # `contacts` reads them from the frame, where no message is needed.
+            node.outputs.records_contacts = True
+            self._executor.add_node(node)
+            node.boundary.on_error = self._executor.errors.append
+            super().__init__(node, RequestClient(own, node, self._executor))
+            self._closing = closing.pop_all()
         self.context = context
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]
@@ -111,9 +119,9 @@ class PhysSim(ChangedWorld):
             frames -= made
             self._frames_to_look -= made
             self.settle()
-            if self.node.fleet.is_waiting:
+            if self.node.fleet.waits():
                 self._executor.spin_until(
-                    lambda: not self.node.fleet.is_waiting, 'no answer to a scan', math.inf
+                    lambda: not self.node.fleet.waits(), 'no answer to a scan', math.inf
                 )
 
     def run(
@@ -270,10 +278,7 @@ class PhysSim(ChangedWorld):
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        # The executor goes before its nodes, whose waitables it has.
-        self._executor.shutdown()
-        self._client.node.destroy_node()
-        self.node.destroy_node()
+        self._closing.close()
         if kind is None:
             self._executor.raise_error()
 

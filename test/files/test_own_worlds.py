@@ -39,6 +39,17 @@ def test_a_world_that_was_written_over_comes_back(directory: Path) -> None:
     assert (directory / 'mine.yaml').read_text() == 'first'
 
 
+def test_a_world_that_has_the_name_of_a_deleted_one_is_kept_when_that_comes_back(
+    directory: Path,
+) -> None:
+    own = OwnWorlds(directory)
+    own.delete('mine')
+    (directory / 'mine.yaml').write_text('second')
+    for text in ('first', 'second', 'first'):
+        own.put_back('mine')
+        assert (directory / 'mine.yaml').read_text() == text
+
+
 def test_a_taken_name_is_refused(directory: Path) -> None:
     own = OwnWorlds(directory)
     (directory / 'yours.yaml').write_text('second')

@@ -9,7 +9,9 @@ from hashlib import blake2b
 import random
 import struct
 
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.testing import box, command, delete, disc, PhysSim, point, polygon
+import pytest
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
@@ -141,3 +143,10 @@ class Journey:
         known = [frame for frame in frames if frame[0] in self.first]
         assert len(known) >= at_least
         assert [frame for frame in known if self.first[frame[0]] != frame[1]] == []
+
+
+def begin_seek(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Begin a seek as with ticks, which bring the world to the cached frame that is shown."""
+    physsim.run(1.0)
+    monkeypatch.setattr(physsim.node.loop, 'started', True)
+    physsim.node.simulation.requests.submit_seek(500_000_000, Origin('~/seek'))

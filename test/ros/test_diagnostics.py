@@ -173,3 +173,22 @@ def test_a_viewer_that_has_failed_is_told(
     (well,) = tell().status
     assert (failed.level, well.level) == (DiagnosticStatus.WARN, DiagnosticStatus.OK)
     assert 'no space' in failed.message
+
+
+def test_a_late_subscriber_is_told_of_the_last_second_and_not_of_all_before(
+    client: Client,
+) -> None:
+    node = client.physsim.node
+    client.physsim.step()
+    clock, statistics = node.simulation.playback.clock, node.outputs.statistics
+    clock.late_frames = 900
+    run(statistics, 600)
+    node.diagnostics.publish_due(1_000_000_000)
+    received = client.listen(DiagnosticArray, '/diagnostics')
+    clock.late_frames = 903
+    run(statistics, 60)
+    node.diagnostics.publish_due(2_000_000_000)
+    client.spin_until(lambda: bool(received))
+    values = values_of(received[-1])
+    told = [values[key] for key in ('frames', 'late frames', 'late frames in this second')]
+    assert told == ['60', '903', '3']

@@ -12,7 +12,10 @@ import re
 import socket
 from typing import Any
 
+from physsim_ros.model.attraction import MOST_ATTRACTING
 from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Disc
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.requests.parameter_services import MOST_PARAMETERS
@@ -194,6 +197,16 @@ def test_a_bad_value_is_refused_with_its_code(physsim: PhysSim) -> None:
     ):
         code = refuse(physsim, name, value).partition(':')[0]
         assert code in ('malformed', 'bad_property'), (name, value)
+
+
+def test_attraction_among_too_many_bodies_is_refused(physsim: PhysSim) -> None:
+    for number in range(MOST_ATTRACTING + 1):
+        row, column = divmod(number, 30)
+        spawn = Spawn(name=f'a/{number}', shape=Disc(radius=0.1), pose=(column, row, 0.0))
+        physsim.node.simulation.requests.submit(spawn)
+    physsim.node.apply_requests()
+    assert refuse(physsim, 'gravitation', 0.04).startswith('world_full: ')
+    assert physsim.node.boundary.failures == 0
 
 
 def test_many_are_taken_together_or_not_at_all(physsim: PhysSim, client: Client) -> None:

@@ -8,14 +8,13 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rcl_interfaces.srv import SetParameters
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from .journey import Journey
+from .journey import begin_seek, Journey
 from ..client import (
     Client,
     Event,
@@ -128,13 +127,6 @@ def test_a_peer_is_not_told_what_a_refused_file_holds(
         assert message.startswith('bad_world_file: w.yaml')
         assert place in message
         assert 'hunter2' not in message
-
-
-def begin_seek(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Begin a seek as with ticks, which bring the world to the cached frame that is shown."""
-    physsim.run(1.0)
-    monkeypatch.setattr(physsim.node.loop, 'started', True)
-    physsim.node.simulation.requests.submit_seek(500_000_000, Origin('~/seek'))
 
 
 @pytest.mark.parametrize('waits', [False, True])

@@ -8,11 +8,12 @@ from concurrent.futures import Future
 from threading import Thread
 
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.requests import CommandMotors, DriveRobot
 from physsim_ros.model.slices import wrap_future
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
+import pytest
 
 from ..building import BOX, NOWHERE, spawning
 
@@ -80,13 +81,21 @@ def test_each_request_of_a_slice_is_answered_once_and_in_order():
     assert [answer.subject for answer in answers] == [f'a/{each}' for each in range(COUNT)]
 
 
-def test_commands_of_robots_do_not_stop_time():
+@pytest.mark.parametrize(
+    'command',
+    [
+        DriveRobot(name='r/0', velocity=(1.0, 0.0, 0.0)),
+        CommandMotors(
+            commands=({'joint': 'j/0', 'mode': 'velocity', 'points': [(0.0, 1.0, 0.0)]},)
+        ),
+    ],
+)
+def test_commands_of_robots_do_not_stop_time(command):
     """They join the gesture before them, so that an undo takes them back with it."""
     simulation = Simulation(settings=NOWHERE)
     tick(simulation, 0)
     for _ in range(COUNT):
-        drive = DriveRobot(name='r/0', velocity=(1.0, 0.0, 0.0))
-        simulation.requests.submit(drive, topic='cmd_vel', joined=True)
+        simulation.requests.submit(command, topic='cmd_vel', joined=True)
     assert tick(simulation, 1) == 1
 
 

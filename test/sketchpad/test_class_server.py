@@ -22,7 +22,7 @@ from physsim_ros.ros.programs.physsim_class import shares
 from physsim_ros.sketchpad import ClassServer, Role
 from physsim_ros.sketchpad.server import seats as seats_module
 from physsim_ros.sketchpad.server import website
-from physsim_ros.sketchpad.server.seats import machine_of, Seats, World
+from physsim_ros.sketchpad.server.seats import machine_of, Seats, WorldAddresses
 import pytest
 
 from .chromium import circle, Sheet
@@ -37,7 +37,9 @@ COLORS = """selector => {
     return [...seen].map((each) => each.split(',').map(Number));
 }"""
 RESULT = ('answer', 'right', 'tries')
-WORLDS = [World(pupil=f'http://p/{each}', teacher=f'http://t/{each}') for each in range(2)]
+WORLDS = [
+    WorldAddresses(pupil=f'http://p/{each}', teacher=f'http://t/{each}') for each in range(2)
+]
 
 
 def test_a_browser_comes_back_to_its_world_and_gets_no_other_one() -> None:
@@ -295,7 +297,7 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     )
     with sheet.context.expect_page() as opened:
         links.first.click()
-    opened.value.locator('.whose').get_by_text('World of Anna').wait_for()
+    opened.value.locator('.whose').get_by_text('WorldAddresses of Anna').wait_for()
     opened.value.get_by_role('button', name='People').click()
     opened.value.get_by_role('listitem').get_by_text('Anna').wait_for()
     # That code would lead to this world, and not to the class.

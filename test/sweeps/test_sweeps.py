@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+import gc
 import multiprocessing
 import os
 from pathlib import Path
@@ -43,7 +44,7 @@ def told(runs: list[Run]) -> list[object]:
             run.case.parameters,
             run.failure,
             run.seconds,
-            run.path.tolist(),
+            run.way.tolist(),
             run.before,
         )
         for run in runs
@@ -63,7 +64,7 @@ def test_a_controller_without_gain_crashes_and_one_with_it_does_not(runs: list[R
     # 0.2 m/s; it turns on the spot at the corner.
     assert all(3.0 < run.length < 4.0 for run in runs[4:])
     # Each seed begins elsewhere.
-    assert len({tuple(run.path[0]) for run in runs}) == 4
+    assert len({tuple(run.way[0]) for run in runs}) == 4
 
 
 def test_processes_have_the_same_runs_to_the_bit(runs: list[Run]) -> None:
@@ -104,7 +105,7 @@ def test_a_cluster_has_the_same_runs_to_the_bit(
 def test_a_table_tells_who_crashed_and_why(runs: list[Run]) -> None:
     table = table_of_runs(runs).splitlines()
     assert table[0].split() == [
-        'parameters', 'runs', 'failed', 'time', '[s]', 'path', '[m]', 'score', 'failures:', 'seeds'
+        'parameters', 'runs', 'failed', 'time', '[s]', 'way', '[m]', 'score', 'failures:', 'seeds'
     ]  # fmt: skip
     assert table[1].split()[:3] == ['gain=0.0', '4', '4']
     assert table[1].endswith('  crashed: 0 1 2 3')
@@ -133,6 +134,8 @@ def test_a_picture_has_the_ways_red_where_they_failed(runs: list[Run]) -> None:
     assert reds(runs[4:]) == 0
     # Half a metre at 63 pixels a metre, and a cross, each.
     assert reds(runs[:4]) > 4 * 30
+    # A process that ended twice has left no way.
+    assert reds([replace(runs[0], way=np.empty((0, 2))), *runs[4:]]) == 0
 
 
 def test_a_failed_run_opens_at_the_moment_before_and_fails_again(
@@ -146,7 +149,7 @@ def test_a_failed_run_opens_at_the_moment_before_and_fails_again(
         robot = Robot(simulation, 'robot/0')
         assert not robot.bumped
         x, y = robot.truth().pose[:2]
-        assert np.hypot(x - run.path[-5, 0], y - run.path[-5, 1]) < 1e-9
+        assert np.hypot(x - run.way[-5, 0], y - run.way[-5, 1]) < 1e-9
         simulation.run(0.2)
         assert not robot.bumped
         simulation.run(0.2)
@@ -183,12 +186,12 @@ def test_the_end_of_a_process_is_the_failure_of_its_run_with_the_world_before(fa
         return
     # The tenth call does not return; the world is that of 0.4 s before.
     assert ended.seconds == pytest.approx(0.9)
-    assert np.array_equal(ended.path, well.path[:10])
+    assert np.array_equal(ended.way, well.way[:10])
     assert ended.before is not None
     simulation = Simulation(publish_rate=10.0)
     simulation.begin(ended.before)
     pose = Robot(simulation, 'robot/0').truth().pose
-    assert pose[:2] == pytest.approx(well.path[5], abs=1e-12)
+    assert pose[:2] == pytest.approx(well.way[5], abs=1e-12)
 
 
 def test_a_run_that_waits_for_ever_is_ended_at_its_wall_limit() -> None:
@@ -197,9 +200,9 @@ def test_a_run_that_waits_for_ever_is_ended_at_its_wall_limit() -> None:
     (ended,) = sweep(sleeping, cases_of(range(1), fate=('sleep',)))
     assert ended.failure == 'took more than 0.5 s'
     # On a busy machine the limit comes before the tenth call, which does not return.
-    count = len(ended.path)
+    count = len(ended.way)
     assert count <= 10
-    assert np.array_equal(ended.path, well.path[:count])
+    assert np.array_equal(ended.way, well.way[:count])
 
 
 def test_a_controller_that_ends_its_process_as_it_is_made_leaves_the_world_of_the_beginning() -> (
@@ -210,6 +213,36 @@ def test_a_controller_that_ends_its_process_as_it_is_made_leaves_the_world_of_th
     assert run.failure == 'killed by SIGKILL'
     assert run.seconds == 0.0
     assert run.before is not None
+
+
+def test_no_run_frees_the_garbage_of_the_process_that_began_it() -> None:
+    class Garbage:
+        """A cycle of references, as a node of ROS that was destroyed; its end tells where."""
+
+        def __init__(self) -> None:
+            self.itself = self
+
+        def __del__(self) -> None:
+            if os.getpid() != parent:
+                os._exit(5)
+
+    class Collects(Fated):
+        """Has its garbage collected."""
+
+        def __call__(self, robot: Robot) -> None:
+            gc.collect()
+            super().__call__(robot)
+
+    parent = os.getpid()
+    gc.disable()
+    try:
+        Garbage()
+        (run,) = sweep(
+            experiment(controller=Collects, seconds=0.3), cases_of(range(1), fate=('',))
+        )
+    finally:
+        gc.enable()
+    assert run.failure == ''
 
 
 def test_what_a_controller_starts_ends_with_its_run() -> None:
@@ -262,7 +295,7 @@ def test_a_second_call_continues_a_folder_with_the_same_runs(tmp_path: Path) -> 
     assert started == [0, 1, 4, 5, 6, 7]
     assert told(again[:2]) == told(runs[:2])
     assert [run.score for run in again] == [run.score for run in runs]
-    assert [run.path.tolist() for run in again] == [run.path.tolist() for run in runs]
+    assert [run.way.tolist() for run in again] == [run.way.tolist() for run in runs]
     assert [run.failure for run in again] == [run.failure for run in runs]
     for kept, run in zip(again, runs, strict=True):
         assert (kept.before is None) == (run.before is None)

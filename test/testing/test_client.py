@@ -7,7 +7,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.testing import box, command, delete, disc, PhysSim, point, Refused
+from physsim_ros.testing import (
+    box,
+    command,
+    delete,
+    disc,
+    own_context,
+    PhysSim,
+    point,
+    Refused,
+)
+from physsim_ros.testing.client import RequestClient
 import pytest
 from rclpy.node import Node
 from sensor_msgs.msg import MultiDOFJointState
@@ -94,3 +104,21 @@ def test_answers_and_refusals_are_the_tests_own_whatever_other_nodes_ask(physsim
         physsim.step()
         with pytest.raises(Refused, match='nobody/1'):
             physsim.command(command('nobody/1', twists=[(0.0, 0.0, 0.0)]))
+
+
+def test_a_world_that_is_not_discovered_leaves_no_nodes(monkeypatch: pytest.MonkeyPatch) -> None:
+    destroyed: list[str] = []
+    destroy = Node.destroy_node
+
+    def note(node: Node) -> None:
+        destroyed.append(node.get_name())
+        destroy(node)
+
+    def fail(_: RequestClient) -> bool:
+        raise TimeoutError('the world was not discovered')
+
+    monkeypatch.setattr(Node, 'destroy_node', note)
+    monkeypatch.setattr(RequestClient, '_is_matched', fail)
+    with own_context(monkeypatch) as context, pytest.raises(TimeoutError):
+        PhysSim(context)
+    assert destroyed == ['physsim_test', 'physsim']

@@ -17,12 +17,13 @@ from functools import lru_cache
 
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 import numpy as np
-from physsim_ros.maps import anchored_grid
+from physsim_ros.maps import anchored_grid, is_on_map
 from physsim_ros.maps import OccupancyGrid as Grid
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.shapes import Shape
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.ros.encoders.cdr import (
     CdrWriter,
@@ -201,7 +202,7 @@ _OCCUPIED = 100
 
 class MapEncoder:
     """
-    Encodes the map of the world; nothing while it is the one before.
+    Encodes the map of the world; nothing while what it shows is as before.
 
     :param frame_id: name of the world frame
     :param resolution: returns the side of a cell [m]
@@ -211,21 +212,25 @@ class MapEncoder:
         self._frame_id = frame_id
         self._resolution = resolution
         self._scene: Scene | None = None
-        # Poses of the anchored bodies, (a, 3), and the resolution, of the last map.
+        # Of the bodies that the scene's map shows: their rows and shapes.
+        self._rows: list[int] = []
+        self._shapes: tuple[Shape, ...] = ()
+        # Of the last map: side of a cell, bounds, and shapes; poses (a, 3).
+        self._shown: tuple[object, ...] = ()
         self._poses: Floats = np.empty((0, 3))
-        self._cell = 0.0
 
     def encode(self, frame: Frame) -> OccupancyGrid | None:
         """Return the message of a frame; None where the map has not changed."""
         snapshot, cell = frame.snapshot, self._resolution()
         if snapshot.scene is not self._scene:
-            anchored = [body.anchored for body in snapshot.scene.bodies]
-            self._rows = np.flatnonzero(anchored)
+            self._scene, bodies = snapshot.scene, snapshot.scene.bodies
+            self._rows = [row for row, body in enumerate(bodies) if is_on_map(body)]
+            self._shapes = tuple(bodies[row].shape for row in self._rows)
+        shown = cell, snapshot.scene.settings.bounds, self._shapes
         poses = snapshot.poses[self._rows]
-        same = snapshot.scene is self._scene and cell == self._cell
-        if same and np.array_equal(poses, self._poses):
+        if shown == self._shown and np.array_equal(poses, self._poses):
             return None
-        self._scene, self._poses, self._cell = snapshot.scene, poses, cell
+        self._shown, self._poses = shown, poses
         return _map_message(_grid_of(snapshot, cell), self._frame_id, snapshot.stamp)
 
 

@@ -16,12 +16,14 @@ from itertools import pairwise
 import json
 import os
 from pathlib import Path
+from shutil import copyfileobj
 import subprocess
 import sys
+from threading import Thread
 
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.ros.programs.process import open_closed_streams, TerminationWatch
-from physsim_ros.sketchpad import ClassServer, Role, World
+from physsim_ros.sketchpad import ClassServer, Role, WorldAddresses
 
 # Most worlds of a class.
 MOST_PUPILS = 60
@@ -116,9 +118,9 @@ def _start(part: range, address: str, port: int, arguments: list[str]) -> subpro
     )
 
 
-def _worlds(process: subprocess.Popen[str], count: int) -> list[World]:
+def _worlds(process: subprocess.Popen[str], count: int) -> list[WorldAddresses]:
     """Wait for the worlds of a process, and return their addresses; fewer where it has ended."""
-    worlds: list[World] = []
+    worlds: list[WorldAddresses] = []
     while process.stdout is not None and len(worlds) < count:
         line = process.stdout.readline()
         if not line:
@@ -127,7 +129,9 @@ def _worlds(process: subprocess.Popen[str], count: int) -> list[World]:
         if line.startswith('{'):
             content = json.loads(line)
             results = Path(content['results'])
-            worlds.append(World(content['pupil'], content['teacher'], results))
+            worlds.append(WorldAddresses(content['pupil'], content['teacher'], results))
+    # A world that prints to a pipe that nobody reads would stand.
+    Thread(target=copyfileobj, args=(process.stdout, sys.stderr), daemon=True).start()
     return worlds
 
 

@@ -117,11 +117,15 @@ def open_closed_streams() -> None:
 
 def end_process() -> NoReturn:
     """
-    End the process with exit code 0, whoever reads what it prints.
+    End the process with exit code 0 when its files are written, whoever reads what it prints.
 
     The interpreter would free each space of the engine piece by piece, as Pymunk 7.3 does it, for
     seconds in a crowded world, when it has no threads any more that could end it.
     """
+    # Not above: what `begin_process` prepares is imported before ROS and the engine.
+    from physsim_ros.files import finish_files  # noqa: PLC0415
+
+    finish_files()
     with suppress(OSError):
         sys.stdout.flush()
     os._exit(0)

@@ -4,8 +4,8 @@
 """
 ROS messages to requests.
 
-Law: only the message is validated here; the world validates a request when it applies it. z and
-stamps are ignored.
+Law: only the message is validated here; the world validates a request when it applies it. z is
+ignored, and so are stamps, except those of the poses of a stroke.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.model.settings import MOST_SAMPLES, WorldSettings
 from physsim_ros.model.texts import property_meant
 from physsim_ros.ros.marker_shapes import points_from, shape_from
 from physsim_ros.ros.planar import named_frame, planar_pose, point_in_frame, yaw_of
@@ -62,8 +62,8 @@ _FIELDS = ('at', 'circle', 'box', 'color', 'lifetime')
 # The greatest length of `text` [characters]: ten times all properties with all digits.
 LONGEST_TEXT = 10_000
 
-# Namespace of the walls of a map, and their greatest number: the default of `max_bodies`.
-WALLS, MOST_WALLS = 'walls', 20_000
+# Namespace of the walls of a map, and their greatest number.
+_WALLS, _MOST_WALLS = 'walls', WorldSettings().max_bodies
 # Occupancy from which on a cell is a wall [percent], as map_server's `occupied_thresh` is.
 OCCUPIED = 65
 
@@ -272,7 +272,7 @@ def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll 
         resolution=float(info.resolution),
         origin=(position.x, position.y, yaw),
     )
-    return DeleteAll(namespace=WALLS), *walls_of(grid, WALLS, MOST_WALLS)
+    return DeleteAll(namespace=_WALLS), *walls_of(grid, _WALLS, _MOST_WALLS)
 
 
 def mapping_of(text: str, field: str) -> dict[Any, Any]:

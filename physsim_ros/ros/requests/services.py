@@ -101,6 +101,10 @@ class ServiceCalls:
         send = service.send_response
 
         def send_when_done(reply: Any, header: Any) -> None:
+            if not isinstance(reply, Future):  # An empty response, after an error.
+                send(reply, header)
+                return
+
             def send_now(_: Future) -> None:
                 with self._boundary.output(service.srv_name):
                     send(reply.result(), header)

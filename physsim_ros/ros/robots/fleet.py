@@ -122,7 +122,7 @@ class Fleet:
     def _submit_command(self, body: str, commands: CommandTopic, *, in_past: bool) -> None:
         topic = commands.topic
         try:
-            with self._boundary.message('cmd_vel'):
+            with self._boundary.message(topic):
                 request = commands.take()
             if request is None:
                 return
@@ -169,10 +169,9 @@ class Fleet:
         """Whether time goes on by single publish periods, each of which robots may answer."""
         return bool(self._values['lockstep'] and self.robots)
 
-    @property
-    def is_waiting(self) -> bool:
+    def waits(self) -> bool:
         """
-        Whether the world waits for the commands that answer the last scans (`lockstep`).
+        Return whether the world waits for commands that answer the last scans (`lockstep`).
 
         Only robots whose commands are stamped are waited for, and no longer than `lockstep` by
         the wall from the first time it is asked; then no answer to these scans is expected.

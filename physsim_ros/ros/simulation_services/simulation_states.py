@@ -162,7 +162,7 @@ class SimulationStates:
 
     def step_once(self) -> str:
         """Advance a paused world by a frame."""
-        return self._perform('step')
+        return self._control.advance_frame()
 
     async def reset(self, request: Any, _: Any) -> str:
         """Go to the beginning, or restore some of it at the time that is shown."""

@@ -317,7 +317,7 @@ class Past:
         :param moment: that is shown
         """
         tree, (_, serial) = self.tree, moment
-        redo = tree.undone[-1].words if tree.has_undone else ''
+        redo = tree.undone[-1].words if tree.has_undone() else ''
         if gesture := tree.last_gesture(serial):
             first, count = gesture
             return first.phrase(count), redo
@@ -353,7 +353,7 @@ class Past:
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
         tree, resets = self.tree, self.tree.reset_count
-        if not tree.has_undone:
+        if not tree.has_undone():
             raise OutOfHistory('there is nothing to redo', field='history')
         words = tree.undone[-1].words
         left, _ = self.go_to(tree.undone[-1])

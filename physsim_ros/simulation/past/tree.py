@@ -287,9 +287,8 @@ class Tree(LineInForce):
         for line in [*self.undone, *undone]:
             self.drop(line)
 
-    @property
     def has_undone(self) -> bool:
-        """Return whether there is anything to redo."""
+        """Drop what is lost, and return whether there is anything to redo."""
         self.drop_lost()
         return bool(self.undone)
 

@@ -10,7 +10,7 @@ folders import the names below.
 """
 
 from physsim_ros.simulation.world.forces_now import forces_now
-from physsim_ros.simulation.world.live_space import Beginning, beginning_of, steps_in
+from physsim_ros.simulation.world.live_space import Beginning, beginning_of, steps_covering
 from physsim_ros.simulation.world.world import load_message, World
 
-__all__ = ['Beginning', 'World', 'beginning_of', 'forces_now', 'load_message', 'steps_in']
+__all__ = ['Beginning', 'World', 'beginning_of', 'forces_now', 'load_message', 'steps_covering']

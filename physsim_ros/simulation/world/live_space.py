@@ -84,7 +84,7 @@ class LiveSpace:
         begun, rate = self.step_count, self.physics_rate
         seconds = delay(latency, self.space.settings.seed, f'command of {name}', begun)
         if seconds > 0.0:
-            begun += steps_in(seconds, rate)
+            begun += steps_covering(seconds, rate)
         if command_rate > 0.0:
             # The first look at or after that step.
             look = math.ceil(begun * command_rate / rate - 1e-9)
@@ -95,7 +95,7 @@ class LiveSpace:
         """Return the step at which a time from now on has passed [s]; None for 0: never."""
         if seconds <= 0.0:
             return None
-        return self.step_count + steps_in(seconds, self.physics_rate)
+        return self.step_count + steps_covering(seconds, self.physics_rate)
 
     def saver(self) -> Callable[[], WorldState]:
         """Return a function that returns, on any thread, the saved state of this moment."""
@@ -243,7 +243,7 @@ def _slices_of_beginning(
     return Beginning(state, checkpoint, space, space.changes)
 
 
-def steps_in(seconds: float, physics_rate: float) -> int:
+def steps_covering(seconds: float, physics_rate: float) -> int:
     """
     Return the number of steps that cover a time [s], at least one.
 

@@ -178,7 +178,7 @@ class World(LiveSpace):
         self.space.clear_contacts()
 
     def digest(self) -> str:
-        """Return a hash of time, scene, poses, velocities, wrenches, commands, grips and roles."""
+        """Return the digest, by which worlds are compared; it leaves out cached impulses."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         state, free, _ = self.space.core.read_state()

@@ -48,19 +48,28 @@ def note_answer(
     page: PageSession, origin: Origin, lesson: str, answer: str, *, right: bool
 ) -> None:
     """Note an answer to a lesson, which a teacher sees."""
-    with reaching('the results'):
-        page.answered = page.shared.results.note(
-            page.person, lesson, answer[:LONGEST_ANSWER], right=right
-        )
-    page.answer_page(origin, 'the answer is noted')
+    person = page.person
+
+    def note() -> str:
+        with reaching('the results'):
+            page.answered = page.shared.results.note(
+                person, lesson, answer[:LONGEST_ANSWER], right=right
+            )
+        return 'the answer is noted'
+
+    page.answer_from_thread(origin, note)
 
 
 @message('forget_results', 'page', Right.TEACH)
 def forget_results(page: PageSession, origin: Origin) -> None:
     """Forget the results of lessons in this world."""
-    with reaching('the results'):
-        page.shared.results.forget()
-    page.answer_page(origin, 'the results are forgotten')
+
+    def forget() -> str:
+        with reaching('the results'):
+            page.shared.results.forget()
+        return 'the results are forgotten'
+
+    page.answer_from_thread(origin, forget)
 
 
 @message('raise_hand', 'page', Right.DRAW, raised=flag)

@@ -28,7 +28,7 @@ from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
 from physsim_ros.sketchpad.server.page_handlers import ResultList
-from physsim_ros.sketchpad.server.seats import MOST_OF_MACHINE, SEAT_AGE, Seats, World
+from physsim_ros.sketchpad.server.seats import MOST_OF_MACHINE, SEAT_AGE, Seats, WorldAddresses
 from physsim_ros.sketchpad.server.website import BoundedServer, Site
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
@@ -54,7 +54,7 @@ class ClassServer:
 
     def __init__(
         self,
-        worlds: Sequence[World],
+        worlds: Sequence[WorldAddresses],
         *,
         address: str,
         port: int,

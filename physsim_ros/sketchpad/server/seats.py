@@ -32,7 +32,7 @@ SEAT_AGE = 86_400
 _MOST_BYTES = 2**20
 
 
-class World(NamedTuple):
+class WorldAddresses(NamedTuple):
     """
     The addresses of a world, with their tokens.
 
@@ -74,7 +74,7 @@ class Seats:
 
     def __init__(
         self,
-        worlds: Sequence[World],
+        worlds: Sequence[WorldAddresses],
         path: Path | None = None,
         most_of_machine: int = MOST_OF_MACHINE,
     ) -> None:

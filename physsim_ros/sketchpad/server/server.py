@@ -32,6 +32,7 @@ from physsim_ros.sketchpad.server.scene_codec import compact
 from physsim_ros.sketchpad.server.website import BoundedServer, Site
 from physsim_ros.sketchpad.server.world_handlers import (
     Download,
+    MOST_UPLOADS,
     Picture,
     Unsaved,
     UploadWorld,
@@ -76,6 +77,7 @@ class Server:
         self._site = Site(address, port)
         self._loop = asyncio.new_event_loop()
         self._feed = FrameFeed(self._loop)
+        turns = asyncio.Semaphore(MOST_UPLOADS)
         self._application = self._site.application(
             'index.html',
             [
@@ -85,7 +87,7 @@ class Server:
                     {'feed': self._feed, 'inbox': inbox, 'gallery': self._gallery},
                 ),
                 (r'/gallery/([^/]+)\.svg', WorldPicture, {'own_worlds': own_worlds}),
-                ('/world', UploadWorld, {'inbox': inbox}),
+                ('/world', UploadWorld, {'inbox': inbox, 'turns': turns}),
                 (r'/world/([^/]+)\.yaml', Download, {'own_worlds': own_worlds}),
                 ('/results', ResultList, {'files': [results]}),
                 ('/unsaved', Unsaved, {'autosave': autosave}),

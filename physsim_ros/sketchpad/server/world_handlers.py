@@ -154,25 +154,21 @@ class Unsaved(Guarded):
 class UploadWorld(Guarded):
     """Replace the world by that of an uploaded file."""
 
-    uploads = 0
-
-    def initialize(self, inbox: Inbox) -> None:
-        """Set the inbox of the world's thread."""
-        self._inbox = inbox
+    def initialize(self, inbox: Inbox, turns: asyncio.Semaphore) -> None:
+        """Set the inbox of the world's thread, and the turns of its uploads."""
+        self._inbox, self._turns = inbox, turns
 
     async def post(self) -> None:
         """Answer with the world's own answer."""
         self.require_origin()
         self.require_drawing()
-        if UploadWorld.uploads >= MOST_UPLOADS:
+        if self._turns.locked():
             self.refuse(503, 'too many uploads at once')
-        UploadWorld.uploads += 1
-        try:
-            answer = await self._replace_world()
-        except Refusal as refusal:
-            answer = Answer.refused(refusal, topic='~/load_world')
-        finally:
-            UploadWorld.uploads -= 1
+        async with self._turns:
+            try:
+                answer = await self._replace_world()
+            except Refusal as refusal:
+                answer = Answer.refused(refusal, topic='~/load_world')
         self.finish({'ok': not answer.code, 'message': answer.message, 'code': answer.code})
 
     async def _replace_world(self) -> Answer:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from nav_msgs.msg import OccupancyGrid
 import numpy as np
-from physsim_ros.testing import box, PhysSim
+from physsim_ros.testing import box, disc, PhysSim
 import pytest
 
 from ..messages import grid
@@ -40,6 +40,8 @@ def test_the_map_of_walls_is_the_grid_that_they_were_made_of(
     assert (maps[-1].info.width, maps[-1].info.height) == (5, 5)
     # Another one comes when it changes, and only then.
     count = len(maps)
+    physsim.spawn(disc('ball/0', at=(1.25, 3.0), diameter=0.3))
+    physsim.spawn(box('zone/0', at=(1.25, 0.75), size=(0.5, 0.5), anchored=True, sensor=True))
     physsim.run(0.5)
     assert len(maps) == count
     physsim.spawn(box('crate/0', at=(1.25, 0.75), size=(0.5, 0.5), anchored=True))

@@ -8,6 +8,8 @@ from __future__ import annotations
 from importlib.util import find_spec
 from typing import Any
 
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Disc
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rclpy.action import ActionClient
@@ -19,6 +21,7 @@ from .caller import (
     OPERATION_FAILED,
     UNSUPPORTED,
 )
+from ..journey import begin_seek
 from ...client import set_parameter
 from ...doors import fail
 
@@ -119,6 +122,34 @@ def test_an_action_goes_on_by_steps_and_tells_each(caller: Caller) -> None:
     set_parameter(caller.physsim, 'speed', 1.0)
     result, told = simulate_steps(caller, 3)
     assert (result.result, told) == (OPERATION_FAILED, [])
+
+
+def test_steps_are_made_when_they_are_told_though_a_seek_was_under_way(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    world = caller.physsim.node.simulation
+    begin_seek(caller.physsim, monkeypatch)
+    result, told = simulate_steps(caller, 2)
+    assert (result.result, told) == (OK, [(1, 1), (2, 0)])
+    assert world.step == 32 * world.frame_steps
+
+
+def test_a_step_is_made_when_it_is_told_though_a_request_waits_behind_it(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from simulation_interfaces.srv import StepSimulation  # noqa: PLC0415
+
+    world = caller.physsim.node.simulation
+    begin_seek(caller.physsim, monkeypatch)
+    service = caller.client.service(StepSimulation, '~/simulation/step_simulation')
+    stepped = service.call_async(StepSimulation.Request(steps=1))
+    caller.physsim.settle()
+    assert not stepped.done()
+    world.requests.submit(Spawn(name='a/0', shape=Disc(radius=0.5), pose=(0.0, 3.0, 0.0)))
+    caller.physsim.node.apply_requests()
+    caller.client.spin_until(stepped.done)
+    assert stepped.result().result.result == OK
+    assert world.step == 31 * world.frame_steps
 
 
 def test_the_program_ends_after_its_reply(caller: Caller) -> None:
