@@ -27,7 +27,6 @@
 // Time in which a robot makes up for its distance from the path, and in which a pedestrian comes to rest at its last
 // point [s]. The drives of the shipped robots reach their speed in a tenth of a second or two.
 static const double settling_time = 0.5;
-static const double two_pi = 6.283185307179586;
 static const int64_t never = INT64_C(1) << 62;
 
 static Vec shortened(Vec a, double most) {
@@ -110,7 +109,7 @@ static Pose place_on_path(const Actor *actor, double time) {
 
 // The velocity of the centre of mass that brings a kinematic body in a step to where its path is at the end.
 static Twist keep_to_path(const Actor *actor, const Body *body, Pose end, double dt) {
-    double turn = actor->path.turns != 0.0 ? remainder(end.yaw - body->engine->a, two_pi) : 0.0;
+    double turn = actor->path.turns != 0.0 ? remainder(end.yaw - body->engine->a, full_turn) : 0.0;
     Rotation by = rotation(body->engine->a + turn);
     Vec displacement = sub(add(end.p, rotated(body->offset, by)), body->engine->p);
     double most_turn = 2.0 * actor->path.turn_rate;
@@ -127,7 +126,7 @@ static Twist chase_path(const World *world, const Actor *actor, Pose now, Pose e
     Vec error = sub(now.p, add(body->engine->p, led)), along = scaled(sub(end.p, now.p), 1.0 / dt);
     double turn = 0.0;
     if (actor->path.turns != 0.0) {
-        turn = (end.yaw - now.yaw) / dt + remainder(now.yaw - body->engine->a, two_pi) / settling_time;
+        turn = (end.yaw - now.yaw) / dt + remainder(now.yaw - body->engine->a, full_turn) / settling_time;
     }
     Twist velocity = {add(along, scaled(error, 1.0 / settling_time)), turn};
     velocity.v = actor->robot >= 0 ? velocity.v : velocity_at(velocity, offset);

@@ -12,7 +12,7 @@
 // `b2ContactSolver::SolveVelocityConstraints` in Box2D 2.4, "block solver"). Chipmunk's own solver begins with these
 // impulses. Friction and what it changes of the normal impulses are found by rounds of sequential impulses over the
 // same points, as Chipmunk makes them.
-// Scope: two bodies that hit each other in two points or more, or one that so hits what forces do not move, with all
+// Scope: two bodies that hit each other, or one that hits what forces do not move, in any number of points, with all
 // contacts of these bodies and of those that they touch in turn: the ground that carries a body which is hit, a short
 // stack below it. Of two bodies the outermost points of each face count: the others can add nothing to them, whatever
 // pieces the bodies consist of. Impacts in piles of more than `CLUSTER_POINTS` are left to Chipmunk: impulses from a
@@ -21,14 +21,13 @@
 // pinched between a heavy one and the ground, with one where friction turns the slip round (T. R. Kane and D. A.
 // Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest share of its restitution
 // with which it gains none.
-// Cost: 1 µs for each pair of bodies that hit each other so.
+// Cost: 1 µs for each pair of bodies that hit each other.
 // Without it laws 8 (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of
 // energy laws 6 (oblique impacts) and 34 (random crowds).
 
 #include "impact_propagation.h"
 #include "lcp.h"
 #include "stages.h"
-#include "touch.h"
 
 // Points that are solved together, at most: of four boxes on each other and the ground, eight are.
 enum { CLUSTER_POINTS = LCP_ROWS };

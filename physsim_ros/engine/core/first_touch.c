@@ -11,7 +11,7 @@
 // pair in ten thousand of polygons that face each other exactly is said to have entered each other from the far sides,
 // though they are apart.
 //
-// Method: between Chipmunk's narrow phase and its solver, for all contacts that begin,
+// Method: between Chipmunk's narrow phase and its solver, for all contacts; parts 2 and 4 for those that begin:
 //
 // 1. False contacts: polygons whose normal points from the second to the first, and which a face separates (separating
 //    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1). Chipmunk ignores the contact in this step, and in

@@ -187,7 +187,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
         as_moved = (Twist){scaled(sum.v, 0.5), sum.w / 2.0};
     }
     body->scratch.under = mean;
-    body->scratch.without = twist_sum(after, change, 1.0);
+    body->scratch.without_contacts = twist_sum(after, change, 1.0);
     if (!sleeps(body)) {
         set_twist(engine, as_moved);
         Vec added = add(scaled(sub(before.v, as_moved.v), kept), change.v);
@@ -219,11 +219,7 @@ static Driving driving_of(const World *world, int place, const Robot **robot, co
 }
 
 void apply_floor(World *world) {
-    if (!has_stage(world, STAGE_FLOOR)) {
-        return;
-    }
-    roll_wheels(world);
-    if (!world->own->has_floor) {
+    if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
         return;
     }
     Conveyors conveyors = conveyors_of(world);
@@ -242,20 +238,19 @@ void apply_floor(World *world) {
 }
 
 void find_pushes(World *world) {
-    if (!has_stage(world, STAGE_FLOOR)) {
+    if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
         return;
     }
-    for (int place = 0; world->own->has_floor && place < world->body_count; place++) {
+    for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         if (body->braking == 0.0) {
             continue;
         }
         // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in
         // turns.
-        Twist push = twist_sum(twist_sum(twist_of(body->engine), body->scratch.without, -1.0), body->state.push, 1.0);
+        Twist push = twist_sum(twist_sum(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
         push = (Twist){scaled(push.v, 0.5), push.w / 2.0};
         double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
         body->state.push = sleeps(body) || size < least_push ? (Twist){0} : push;
     }
-    reckon_odometry(world);
 }

@@ -359,6 +359,9 @@ static void lay_out(World *world, Island *island, int *numbers) {
 }
 
 Islands joint_islands(World *world) {
+    if (world->own->jointed_count == 0) {
+        return (Islands){0};
+    }
     Islands found = split(world, touches_of_jointed(world));
     int *numbers = TAKE(&world->own->arena, int, world->body_count);
     for (int number = 0; number < found.count; number++) {

@@ -11,7 +11,6 @@
 
 #include "joint_rows.h"
 
-static const double full_turn = 6.283185307179586;
 
 Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation of_b) {
     Anchors anchors = {.of_b = of_b};

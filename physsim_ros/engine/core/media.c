@@ -124,10 +124,9 @@ static void add_quadratic_side(Resistance *sum, double weight, Side side, Twist 
 
 // The integral of the positive part of the cosine from 0 to an angle.
 static double facing_up_to(double angle) {
-    const double half_turn = 3.14159265358979323846;
-    double since = angle + half_turn / 2.0, turns = floor(since / (2.0 * half_turn));
-    double rest = since - 2.0 * half_turn * turns;
-    return 2.0 * turns + (rest < half_turn ? 1.0 - cos(rest) : 2.0);
+    double since = angle + pi / 2.0, turns = floor(since / full_turn);
+    double rest = since - full_turn * turns;
+    return 2.0 * turns + (rest < pi ? 1.0 - cos(rest) : 2.0);
 }
 
 static void add_quadratic_bow(Resistance *sum, double weight, Bow bow, Twist flow) {

@@ -97,6 +97,7 @@ static void step(World *world) {
     apply_forces(world);
     pull_grips(world);
     apply_fields(world);
+    roll_wheels(world);
     apply_floor(world);
     find_loaded(world);
     clamp_moves(world);
@@ -116,6 +117,8 @@ static void step(World *world) {
     correct_joint_positions(world);
     add_closings(world);
     find_pushes(world);
+    reckon_odometry(world);
+    use_batteries(world);
     if (world->reports_contacts) {
         report_contacts(world);
     } else {

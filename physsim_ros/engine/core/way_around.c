@@ -17,7 +17,6 @@
 #include "way_around.h"
 #include "outline.h"
 
-static const double straight_angle = 3.141592653589793;
 // Both paths are equal within this share [1], more than rounding.
 static const double equal_share = 1e-9;
 
@@ -34,7 +33,7 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
     for (int number = 0; number < corner_count(wall); number++) {
         Vec corner = corner_in_world(wall, number).place, offset = sub(corner, from);
         double angle = atan2(cross(ahead, offset), dot(ahead, offset)), distance = length(offset);
-        double half = distance > grown ? asin(grown / distance) : straight_angle / 2.0;
+        double half = distance > grown ? asin(grown / distance) : pi / 2.0;
         span->left = greatest(span->left, angle + half);
         span->right = least(span->right, angle - half);
         if (angle > greatest_angle) {
@@ -45,7 +44,7 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
         }
     }
     // More than half a turn is spanned by a wall behind the point or around it.
-    return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < straight_angle;
+    return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < pi;
 }
 
 static bool avoids(const World *world, const Disc *self, const cpShape *wall, Nearest *nearest) {
