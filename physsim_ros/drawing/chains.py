@@ -100,4 +100,4 @@ def _link(name: str, start: Point, end: Point, settings: DrawingSettings) -> Spa
     (x, y), (dx, dy) = start, (end[0] - start[0], end[1] - start[1])
     pose = x + dx / 2, y + dy / 2, math.atan2(dy, dx)
     width, height = math.hypot(dx, dy), settings.wall_thickness
-    return body_requests.rectangle(name, pose, width, height, settings)
+    return replace(body_requests.rectangle(name, pose, width, height, settings), whole='chain')

@@ -463,8 +463,10 @@ def test_a_rope_is_a_chain_instead_which_is_undone_at_once() -> None:
     assert [joint.kind for joint in desk.scene.joints] == [JointKind.AXLE] * (len(links) + 1)
     # m: of 5.52 m as drawn, what lies outside of the discs.
     assert 0.3 * len(links) == pytest.approx(4.7, abs=0.3)
+    assert desk.simulation.status.undo == 'undo spawn chain'
     desk.simulation.undo()
     assert (len(desk.simulation.world), desk.simulation.world.scene.joints) == (2, ())
+    assert desk.simulation.status.redo == 'redo spawn chain'
 
 
 def test_without_another_guess_nothing_is_read_instead() -> None:

@@ -38,9 +38,8 @@ LABELS = """async () => {
         ({label, name: label, shape: {radius: 0.1}, centroid: [0, 0],
             at: [row === 2 ? 5 : 0.2 * row, 0]}));
     let measured = 0;
-    const ctx = {strokeText() {}, fillText: (text) => drawn.push(text),
-        measureText: (text) => (measured += 1, {width: 50 * text.length})};
-    const view = {ctx, camera, palette: {},
+    const ctx = {measureText: (text) => (measured += 1, {width: 50 * text.length})};
+    const view = {ctx, camera, palette: {}, write: (text) => drawn.push(text),
         bodies: {appearance: () => ({inner: 0.1}), isOnPage: () => true},
         world: {count: 3, scene: {bodies, joints: []}, place: (row) => bodies[row].at,
             boundsOfAll: () => [0, 0, 0, 0]}};

@@ -288,6 +288,12 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     anna.page.locator('#lesson').get_by_text('4. Down a slope').wait_for()
     card = sheet.page.locator('#seats li').first
     card.get_by_text('4. Down a slope').wait_for()
+    sheet.press('Play all')
+    for pupil in (anna, ben):
+        pupil.wait('physsim.speed === 1')
+    sheet.press('Pause all')
+    for pupil in (anna, ben):
+        pupil.wait('physsim.speed === 0')
     sheet.page.get_by_label('Message to all').fill('Five minutes left')
     sheet.press('Send')
     ben.page.get_by_text('Teacher: Five minutes left').wait_for()

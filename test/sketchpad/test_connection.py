@@ -94,6 +94,42 @@ def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_o
     sheet.close()
 
 
+def test_a_dead_socket_is_told_within_three_seconds_and_then_what_may_be_lost(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    # The looks whether something has come, each half a second.
+    sheet.page.add_init_script(
+        """const waits = setInterval;
+        window.looks = [];
+        window.setInterval = (call, pause) =>
+            pause === 500 ? looks.push(call) : waits(call, pause);"""
+    )
+    is_dead, sockets = False, []
+
+    def pass_on(socket: Any) -> None:
+        number, server = len(sockets), socket.connect_to_server()
+        sockets.append(socket)
+        socket.on_message(lambda text: (is_dead and number == 0) or server.send(text))
+        server.on_message(lambda text: (is_dead and number == 0) or socket.send(text))
+
+    sheet.page.route_web_socket('**/ws*', pass_on)
+    sheet.page.goto(address)
+    sheet.begin()
+    is_dead = True
+    sheet.press('Play')
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    alert = sheet.page.get_by_role('alert')
+    assert alert.is_hidden()
+    sheet.page.evaluate('() => { for (let i = 0; i < 6; i++) looks[0](); }')
+    alert.get_by_text('does not answer').wait_for()
+    sheet.page.evaluate('() => { for (let i = 0; i < 9; i++) looks[0](); }')
+    note = sheet.page.locator('#dock .note')
+    note.get_by_text('Of what you did meanwhile, 1 may be lost').wait_for()
+    sheet.wait('Object.keys(physsim.bodies).length === 4')
+    sheet.close()
+
+
 def test_a_server_that_closes_each_socket_is_asked_ever_less_often(
     chromium: Any, address: str
 ) -> None:

@@ -75,6 +75,29 @@ def test_a_copy_of_a_part_is_a_whole_robot(sheet: Sheet) -> None:
     sheet.wait('count => Object.keys(physsim.bodies).length === count', BODIES)
 
 
+def test_a_rail_ends_where_the_world_does(sheet: Sheet) -> None:
+    # Of the gripper, whose hand could go 1.5 m down; it stands 1 m above the floor.
+    sheet.page.evaluate(
+        """() => new Promise((resolve) => {
+            const socket = new WebSocket(`ws://${location.host}/ws`);
+            socket.binaryType = 'arraybuffer';
+            socket.onopen = () => {
+                const body = {name: 'gripper/1', robot: 'gripper', at: [3, 1]};
+                socket.send(JSON.stringify({id: '1', type: 'spawn', body}));
+            };
+            socket.onmessage = ({data}) => String(data).includes('gripper/1') && resolve();
+        })"""
+    )
+    sheet.wait('"gripper/1" in physsim.bodies')
+
+    def column(low: float, high: float) -> set[tuple[int, ...]]:
+        places = [(3.0, low + step / 50 * (high - low)) for step in range(51)]
+        return {tuple(sheet.color_at(x, y)) for x, y in places}
+
+    assert (35, 38, 45) in column(0.2, 0.5)
+    assert (35, 38, 45) not in column(-0.5, -0.1)
+
+
 @pytest.mark.parametrize('at', [(0.0, 1.25), (-2.5, 4.0)], ids=['side', 'above'])
 def test_the_treads_of_a_belt_run_with_time(sheet: Sheet, at: tuple[float, float]) -> None:
     def treads() -> list[int]:

@@ -527,8 +527,12 @@ def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
 
 def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, chromium: Any, address: str) -> None:
     sheet.press('Save')
+    sheet.wait('document.activeElement.getAttribute("aria-label") === "Name of the world"')
     sheet.press('Copy link')
     link = sheet.page.get_by_role('textbox', name='Link').input_value()
+    # Marked and under the keys, to be copied.
+    sheet.wait('document.activeElement.getAttribute("aria-label") === "Link"')
+    assert sheet.page.evaluate('String(getSelection())') == link
     sheet.page.keyboard.press('Escape')
     sheet.press('Delete')
     sheet.page.mouse.click(*sheet.place(4.0, 0.5))

@@ -289,11 +289,21 @@ def test_the_view_stays_where_something_closes_by_itself(chromium: Any, outside:
     sheet.wait('Object.keys(physsim.bodies).length === 1')
     card.wait_for(state='hidden')
     assert sheet.place(8.0, 0.0) == before
-    # Likewise the panel of a body that is deleted.
+    # A panel that covers no body leaves the view as it is, too.
     sheet.page.keyboard.press('n')
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.wait_for()
+    sheet.page.evaluate('new Promise((done) => setTimeout(done, 300))')
+    assert sheet.place(8.0, 0.0) == before
+    sheet.page.keyboard.press('Escape')
+    # One that would makes the world smaller; where its body is deleted, the view stays.
+    sheet.page.mouse.click(*sheet.place(6.5, 4.5))
+    sheet.page.mouse.click(*sheet.place(6.8, 4.5))
+    sheet.wait('Object.keys(physsim.bodies).length === 2')
+    sheet.page.keyboard.press('N')
+    panel.wait_for()
     sheet.wait('before => physsim.toPage(8, 0)[0] < before', before[0])
+    assert panel.bounding_box()['x'] > sheet.place(6.8, 4.5)[0]
     smaller = sheet.place(8.0, 0.0)
     sheet.page.keyboard.press('Delete')
     panel.wait_for(state='hidden')

@@ -23,6 +23,7 @@ from physsim_ros.files import (
     worlds_in,
 )
 from physsim_ros.model import errors
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world.capacity import check_limit
@@ -434,6 +435,64 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, addr
         messages.append(str(caught.value))
     sheet = Sheet(chromium, address, locale='de-DE')
     assert sheet.page.evaluate(SAID, messages) == [*refused]
+    sheet.close()
+
+
+# The body of a wrong world file, and what a German page says of it.
+WRONG_BODIES = [
+    ('circle: {radius: 1}, att: 1', "den Schlüssel 'att' gibt es nicht, aber 'at'"),
+    ('circle: {radius: 1}, zebra: 1', "den Schlüssel 'zebra' gibt es nicht"),
+    ('circle: {radius: -1}', 'radius: -1 liegt nicht zwischen 0.001 und 100000'),
+    ('box: {width: 1}', 'height fehlt'),
+    ('friction: 1', 'ihm fehlt eines von circle, box, polygon, chain, triangles, compound'),
+    ('circle: {radius: 1}, mass: heavy', "mass ist keine Zahl: 'heavy'"),
+    ('circle: {radius: 1}, anchored: 2', 'anchored ist weder true noch false: 2'),
+    ('circle: {radius: 1}}, {name: a/0, circle: {radius: 1}', 'der Name kommt zweimal vor'),
+]
+# Other wrong files.
+AXLE = 'joints: [{name: j/0, kind: axle, a: b/0, points: [[0, 0]]}]'
+WRONG_FILES = [
+    ('format: 1\nbodies: [', 'Zeile 2 ist kein YAML'),
+    ('hello', 'sie hat keine Schlüssel mit Werten'),
+    ('format: 9', '„format: 1“ fehlt'),
+    (f'format: 1\n{AXLE}', "Verbindung 'j/0': den Körper 'b/0' gibt es nicht"),
+    (
+        f'format: 1\n{AXLE}'.replace('axle', 'glue'),
+        "Verbindung 'j/0': die Art 'glue' gibt es nicht; es gibt "
+        + ', '.join(kind for kind in JointKind),
+    ),
+    ('format: 1\ngravity: 5', 'gravity ist keine Liste von 2 Zahlen'),
+    *(
+        (f'format: 1\nbodies: [{{name: a/0, {body}}}]', f"Körper 'a/0': {wrong}")
+        for body, wrong in WRONG_BODIES
+    ),
+]
+# The sentences of a page for the refusals of files.
+OF_FILES = """async (files) => {
+    const {fileSentence} = await import('/page/ui/file_sentences.js'), told = [];
+    for (const body of files) {
+        const response = await fetch('/world', {method: 'POST', body});
+        told.push(fileSentence((await response.json()).message));
+    }
+    return told;
+}"""
+
+
+def test_what_is_wrong_with_a_world_file_is_told_in_german(
+    chromium: Any, address: str, tmp_path: Path
+) -> None:
+    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
+    files, wrong = zip(*WRONG_FILES, strict=True)
+    assert sheet.page.evaluate(OF_FILES, files) == list(wrong)
+    path = tmp_path / 'wrong.yaml'
+    path.write_text('format: 1\nbodies: [{name: a/0, circle: {radius: -1}}]')
+    sheet.press('Welten')
+    sheet.page.get_by_label('Datei öffnen').set_input_files(path)
+    told = "Diese Weltdatei ist fehlerhaft: Körper 'a/0': radius: -1 liegt nicht zwischen 0,001"
+    sheet.page.get_by_role('status').get_by_text(told).wait_for()
+    # A browser notes each refused request.
+    sheet.errors.clear()
     sheet.close()
 
 

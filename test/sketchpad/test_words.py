@@ -67,6 +67,9 @@ def test_a_chain_is_told_as_one_thing_not_as_its_last_axle(sheet: Sheet) -> None
     sheet.press('Circle')
     sheet.drag((2.0, 5.0), (2.7, 5.0))
     said(sheet, 'Circle added')
+    sheet.press('Undo')
+    sheet.press('Undo')
+    said(sheet, 'Undone: add chain')
 
 
 def test_what_somebody_has_named_is_called_by_its_name(sheet: Sheet) -> None:

@@ -103,6 +103,18 @@ class Spawn(Request):
         default_factory=Properties
     )
     unset: Annotated[tuple[str, ...], _unset, UNSET] = ()
+    whole: Annotated[
+        str, text, "what its gesture adds, where the body is a part of that: 'chain'"
+    ] = ''
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with what it is a part of."""
+        return Request.phrase(self, self.whole or subject)
+
+    @property
+    def is_whole_gesture(self) -> bool:
+        """Return whether it is a part of what its gesture adds."""
+        return self.whole != ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -26,6 +26,11 @@ class HandRequest(Request):
         str, as_field('client_id', check_hand_name), 'name of the hand, unique in its world'
     ]
 
+    @property
+    def is_whole_gesture(self) -> bool:
+        """Return True: all moves of a hand are one drag."""
+        return True
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grab(HandRequest):

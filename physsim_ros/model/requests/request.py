@@ -45,6 +45,11 @@ class Request(Checked):
         verb = self.VERB or type(self).__name__.lower()
         return f'{verb} {subject or self.OBJECT}'.rstrip()
 
+    @property
+    def is_whole_gesture(self) -> bool:
+        """Return whether its phrase names all requests of a gesture that begins with it."""
+        return False
+
 
 def as_field(field: str, check: Callable[[Any, str], Any]) -> Callable[[object, str], Any]:
     """Return a check that names another field in its refusal: that of the message."""

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Axle, Cut, HandRequest, Join, Pin, Request, Restore, Spawn
+from physsim_ros.model.requests import Axle, Cut, Join, Pin, Request, Restore, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.sizes import request_size
@@ -141,8 +141,7 @@ class Node:
         :param count: number of requests of the gesture
         """
         phrase = self.request.phrase(self.subject)
-        # All moves of a hand are one drag.
-        more = count > 1 and not isinstance(self.request, HandRequest)
+        more = count > 1 and not self.request.is_whole_gesture
         return f'{phrase} and {count - 1} more' if more else phrase
 
     def __post_init__(self) -> None:

@@ -128,7 +128,8 @@ function listen() {
     gone.textContent = t('The server does not answer. What you draw is sent when it does.');
   });
   connection.on('again', ({sent, lost}) => {
-    if (lost) notes.showMessage(t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost}), {ok: false});
+    // Beside the answers to what is sent again.
+    if (lost) notes.dock([t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost})]);
     else if (sent) notes.showMessage(t('Connected again. What you did meanwhile is sent now.'));
   });
   connection.on('closed', ({status, opened}) => {

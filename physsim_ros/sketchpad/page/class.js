@@ -96,7 +96,7 @@ class Card {
     const {world, world: {scene: {lesson}, frame: {time}}} = this;
     if (!lesson?.view || !time) this.left = false;
     else if (!this.left) {
-      const first = world.extent(), reached = unionOf([first, world.bodiesExtent()]);
+      const first = world.extent(), reached = unionOf([first, ...world.boxes]);
       this.left = reached.some((edge, i) => edge !== first[i]);
     }
   }
@@ -261,6 +261,7 @@ function begin(count, pupils) {
     createElement('p', {id: 'pupils'}, pupils));
   elementOf('all').append(textButton(t('Pupils come here'), showCode), lessons,
     textButton(t('Open the lesson for all'), () => cards.forEach(({connection}) => connection.openLesson(lessons.value))),
+    textButton(t('Play all'), () => toAll('service', {name: 'play'})),
     textButton(t('Pause all'), () => toAll('service', {name: 'pause'})),
     textButton(t('Freeze all'), () => toAll('freeze', {frozen: true})),
     textButton(t('Let them draw again'), () => toAll('freeze', {frozen: false})),

@@ -18,7 +18,7 @@ const ENDS = ['~/load_world', '~/clear'];
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
 const TICK = 500; // ms between two looks whether something has come; a browser has fewer of a hidden page
 /** Ticks of silence after which the server is asked, the page tells it, and it connects anew. */
-const ASKS = 1, TELLS = 7, LEAVES = 15;
+const ASKS = 1, TELLS = 6, LEAVES = 15;
 const REACHED = 3000; // ms within which a server that is there answers a request
 /** Messages that mean the same in a while: they are sent again where they were not received. */
 const AGAIN = ['stroke', 'spawn', 'change', 'change_joint', 'delete', 'unjoin', 'copy', 'copy_machine', 'move_bodies', 'place', 'answered', 'say'];

@@ -127,7 +127,7 @@ export class WorldState {
   }
 
   /** @returns {Bounds[]} of the bodies that are kept in sight: all; of a lesson that has a view, those that move */
-  get #keptInSight() {
+  get boxes() {
     const {bodies, lesson} = this.scene;
     return bodies.slice(0, this.count).flatMap(({anchored}, row) => lesson?.view && anchored ? [] : [this.#boundsOf(row)]);
   }
@@ -137,7 +137,7 @@ export class WorldState {
    * @returns {Bounds} of the bodies kept in sight that lie in it whole; infinite where there are none
    */
   boundsWithin([xmin, ymin, xmax, ymax]) {
-    return unionOf(this.#keptInSight.filter(([left, low, right, high]) => left >= xmin && low >= ymin && right <= xmax && high <= ymax));
+    return unionOf(this.boxes.filter(([left, low, right, high]) => left >= xmin && low >= ymin && right <= xmax && high <= ymax));
   }
 
   /**
@@ -221,11 +221,6 @@ export class WorldState {
     return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
-  /** @returns {Bounds} of all bodies that are kept in sight; infinite where there are none */
-  bodiesExtent() {
-    return unionOf(this.#keptInSight);
-  }
-
   /** @returns {?Bounds} a square about the heaviest body that attracts the others, as they go around it; null where none does */
   #orbits() {
     const {scene: {bodies, gravitation}, frame: {x, y}} = this;
@@ -249,7 +244,7 @@ export class WorldState {
 
   /** @returns {Bounds} of what a lesson shows first; of the world, or of its bodies, with the hinges in it */
   extent() {
-    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.#orbits() ?? this.bodiesExtent());
+    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.#orbits() ?? unionOf(this.boxes));
     return box.every(Number.isFinite) ? unionOf([box, ...this.#hingesIn(box)]) : [-6, -1, 6, 6];
   }
 }

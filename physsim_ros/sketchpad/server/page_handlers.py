@@ -20,11 +20,15 @@ from tornado.web import HTTPError, StaticFileHandler
 _SCALE, _QUIET = 8, 4
 # The files that a browser runs.
 PAGE = Path(__file__).parents[1] / 'page'
-# Parts of scripts that browsers do not need: descriptions, types of editors, lines that are
-# comments, but for the licence; and indentation, since no text of a script has several lines.
-_FOR_READERS = re.compile(
-    rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*|^[ \t]+', re.DOTALL | re.MULTILINE
-)
+# Parts of files that browsers do not need, by their suffix: descriptions, types of editors, lines
+# that are comments, but for the licence; and indentation, since no text has several lines.
+_FOR_READERS = {
+    suffix: re.compile(pattern, re.DOTALL | re.MULTILINE)
+    for suffix, pattern in {
+        '.js': rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*|^[ \t]+',
+        '.css': rb'/\*(?! SPDX).*?\*/|^[ \t]+',
+    }.items()
+}
 
 
 class _CookieSetting(Guarded):
@@ -133,7 +137,7 @@ class Missing(Guarded):
 
 
 class PageFiles(Guarded, StaticFileHandler):
-    """The files of the page; scripts without comments and indentation, in the same lines."""
+    """The files of the page; scripts and styles without comments and indentation, line by line."""
 
     def validate_absolute_path(self, root: str, absolute_path: str) -> str | None:
         """Return the path of a file; a path that names no file is missing."""
@@ -153,8 +157,9 @@ class PageFiles(Guarded, StaticFileHandler):
     ) -> Generator[bytes, None, None]:
         """Yield a part of a file."""
         content = Path(abspath).read_bytes()
-        if abspath.endswith('.js'):
-            content = _FOR_READERS.sub(lambda found: b'\n' * found[0].count(b'\n'), content)
+        pattern = _FOR_READERS.get(Path(abspath).suffix)
+        if pattern is not None:
+            content = pattern.sub(lambda found: b'\n' * found[0].count(b'\n'), content)
         yield content[start:end]
 
     def get_content_size(self) -> int:

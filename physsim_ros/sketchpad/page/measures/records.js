@@ -57,11 +57,6 @@ export class Records {
     this.parts.frames.want(this, {velocities: all.size > 0, contacts: all.size > 0});
   }
 
-  /** @returns {boolean} whether there is anything to record */
-  get records() {
-    return this.bodies.size > 0;
-  }
-
   /** @param {string} name */
   samples(name) {
     return this.bodies.get(name)?.samples ?? [];
@@ -105,7 +100,7 @@ export class Records {
     if (this.opened) this.began = time;
     this.opened = false;
     if (!velocities) return;
-    const forces = this.records && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
+    const forces = this.bodies.size && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
     const held = Boolean(world.frame.hands?.x.length);
     for (const [name, {samples}] of this.bodies) {
       const row = world.row(name), known = samples.findLast((sample) => sample.time <= time);

@@ -23,10 +23,8 @@ export function mediumFields({world}, {name, medium, charge = 0}, change) {
       checkField(t('Water: bodies float in it'), false, () => change({anchored: true, sensor: true, medium: WATER}))];
   }
   // The panel is not rendered again while somebody works in it.
-  const set = (/** @type {Partial<Medium>} */ said) => {
-    change({medium: {...world.scene.bodies[world.row(name)]?.medium ?? medium, ...said}});
-  };
-  const flow = () => world.scene.bodies[world.row(name)]?.medium?.flow ?? medium.flow;
+  const now = () => world.body(name)?.medium ?? medium;
+  const set = (/** @type {Partial<Medium>} */ said) => change({medium: {...now(), ...said}});
   return [
     checkField(t('Water: bodies float in it'), true, () => {
       const [left, low, right, high] = world.boundsOfAll([name]);
@@ -36,8 +34,8 @@ export function mediumFields({world}, {name, medium, charge = 0}, change) {
     createElement('fieldset', {className: 'force'}, createElement('legend', {}, t('Water or air')),
       range(t('Density of the medium [kg/m²]'), 0, 20, 0.1, medium.density, (density) => set({density})),
       range(t('Viscosity [N s/m²]'), 0, 10, 0.1, medium.viscosity, (viscosity) => set({viscosity})),
-      range(t('Current to the right [m/s]'), -10, 10, 0.1, medium.flow[0], (x) => set({flow: [x, flow()[1]]})),
-      range(t('Current upward [m/s]'), -10, 10, 0.1, medium.flow[1], (y) => set({flow: [flow()[0], y]})),
+      range(t('Current to the right [m/s]'), -10, 10, 0.1, medium.flow[0], (x) => set({flow: [x, now().flow[1]]})),
+      range(t('Current upward [m/s]'), -10, 10, 0.1, medium.flow[1], (y) => set({flow: [now().flow[0], y]})),
       range(t('Gusts [m/s]'), 0, 5, 0.1, medium.gusts, (gusts) => set({gusts})))];
 }
 

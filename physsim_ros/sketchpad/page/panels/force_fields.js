@@ -18,7 +18,7 @@ const FIRST = 10; // N: of a force that is added, to the right
  */
 export function forceFields({world}, {name, forces = []}, change) {
   // The panel is not rendered again while somebody works in it.
-  const now = () => world.scene.bodies[world.row(name)]?.forces ?? [];
+  const now = () => world.body(name)?.forces ?? [];
   const send = (/** @type {AppliedForce[]} */ changed) => change({forces: changed});
   const rows = forces.map(({force: [x, y], axes}, i) => {
     const replaced = (/** @type {Partial<AppliedForce>} */ fields) => send(now().map((each, j) => j === i ? {...each, ...fields} : each));

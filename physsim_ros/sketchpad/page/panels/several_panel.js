@@ -3,6 +3,7 @@
 
 import {createElement, inRow, showText, textButton} from '../dom.js';
 import {totalsOf} from '../measures/quantities.js';
+import {unionOf} from '../view/body_path.js';
 import {t} from '../strings.js';
 
 /** @import {Bounds, Parts} from '../types.js' */
@@ -33,7 +34,7 @@ export function severalContent(parts, names) {
  */
 function arrangeButtons(parts, names) {
   const align = ALIGNMENTS.map(([label, axis, share]) => textButton(label, () => place(parts, names, (boxes) => {
-    const [least, most] = spanOf(boxes, axis), at = least + share * (most - least);
+    const at = edge(unionOf(boxes), axis, share);
     return boxes.map((box) => along(axis, at - edge(box, axis, share)));
   })));
   const distribute = DISTRIBUTIONS.map(([label, axis]) => textButton(label, () => place(parts, names, (boxes) => distances(boxes, axis))));
@@ -83,14 +84,6 @@ function distances(boxes, axis) {
  */
 function edge(box, axis, share) {
   return box[axis] + share * (box[axis + 2] - box[axis]);
-}
-
-/**
- * @param {Bounds[]} boxes
- * @param {number} axis
- */
-function spanOf(boxes, axis) {
-  return [Math.min(...boxes.map((box) => box[axis])), Math.max(...boxes.map((box) => box[axis + 2]))];
 }
 
 /**

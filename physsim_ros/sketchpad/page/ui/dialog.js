@@ -18,7 +18,7 @@ export class Dialog {
 
   /**
    * @param {string} title
-   * @param {Node[]} content
+   * @param {Node[]} content whose field with `autofocus` can be typed over, or copied, at once
    */
   show(title, ...content) {
     const {element} = this, top = this.#shows(title) ? element.scrollTop : 0;
@@ -28,6 +28,10 @@ export class Dialog {
     ...content);
     if (!element.open) element.showModal();
     element.scrollTop = top;
+    const field = element.querySelector('input[autofocus]');
+    if (!(field instanceof HTMLInputElement)) return;
+    field.focus();
+    field.select();
   }
 
   /**

@@ -54,12 +54,13 @@ export class Files {
     const {ok, message, code} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
       .then((response) => response.json().catch(() => ({ok: false, code: '', message: t('The server refused this file')})),
         () => ({ok: false, code: '', message: t('Not done: the server is not reachable')}));
+    const {notes, room, words} = this.parts;
     if (ok) {
       this.name = '';
       this.dismiss();
-      this.parts.room.frameNext();
-    }
-    this.parts.notes.showMessage(this.parts.words.tell({message, code, ok}), {ok});
+      room.frameNext();
+      notes.showMessage(words.tell({message}));
+    } else await notes.load(import('./file_sentences.js'), ({fileSentence}) => notes.showMessage(words.tell({message: fileSentence(message), code, ok}), {ok}));
     return ok;
   }
 

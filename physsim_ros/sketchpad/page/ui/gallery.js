@@ -80,9 +80,8 @@ export class Gallery {
    * @returns {HTMLFormElement} that asks for the name of a world
    */
   #nameForm(title, value, label, done) {
-    const name = createElement('input', {value, required: true, maxLength: 64, autocomplete: 'off', 'aria-label': title,
+    const name = createElement('input', {value, required: true, autofocus: true, maxLength: 64, autocomplete: 'off', 'aria-label': title,
       pattern: NAME, title: t('Letters, digits, spaces, - and _; without / and .')});
-    queueMicrotask(() => name.select());
     return fieldForm(name, label, (text) => {
       this.parts.dialog.close();
       done(text);

@@ -53,9 +53,8 @@ export class Links {
    * @param {string} link
    */
   async #show(title, link) {
-    const {dialog, notes} = this.parts, text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
+    const {dialog, notes} = this.parts, text = createElement('input', {value: link, readOnly: true, autofocus: true, 'aria-label': t('Link')});
     dialog.show(title, text);
-    text.select();
     notes.showMessage(title);
     await navigator.clipboard?.writeText(link).catch(() => {});
   }

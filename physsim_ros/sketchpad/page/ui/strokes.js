@@ -29,7 +29,7 @@ const STROKES = [
 ];
 const SEEN = 'physsim-strokes';
 
-/** The card beside a canvas on which nothing can move yet, until something can or it is closed. It is faint in a gesture, which may pass under it. */
+/** The card beside a canvas on which nothing can move yet, until somebody has drawn or closes it. It is faint in a gesture, which may pass under it. */
 export class EmptyCard {
   /** @param {Parts<'connection' | 'gestures' | 'people' | 'selection' | 'view' | 'world'>} parts */
   constructor(parts) {
@@ -37,8 +37,14 @@ export class EmptyCard {
     this.closed = false;
     this.element = elementOf('card');
     parts.connection.on('scene', () => this.#update());
+    parts.connection.on('reading', ({built}) => built && this.#close());
     parts.selection.on('change', () => this.#update());
     parts.view.overlays.push(() => this.element.classList.toggle('faint', parts.gestures.isBusy));
+  }
+
+  #close() {
+    this.closed = true;
+    this.#update();
   }
 
   #update() {
@@ -50,10 +56,7 @@ export class EmptyCard {
     element.hidden = hidden;
     if (hidden) return;
     element.replaceChildren(createElement('header', {}, createElement('h2', {}, t('Draw with the pen')),
-      iconButton(t('Close'), 'close', () => {
-        this.closed = true;
-        this.#update();
-      })), strokeCard());
+      iconButton(t('Close'), 'close', () => this.#close())), strokeCard());
     noteSeen();
   }
 }

@@ -100,7 +100,7 @@ export class Together {
   #frame() {
     const {view, camera, runs: [{world}]} = this;
     const points = [...this.ways.values()].flat().map(([x, y]) => /** @type {Bounds} */ ([x, y, x, y]));
-    const [left, low, right, high] = unionOf([...points, world.bodiesExtent()]), [l, b, r, t] = world.extent();
+    const [left, low, right, high] = unionOf([...points, ...world.boxes]), [l, b, r, t] = world.extent();
     const box = /** @type {Bounds} */ ([Math.max(left, 2 * l - r), Math.max(low, 2 * b - t), Math.min(right, 2 * r - l), Math.min(high, 2 * t - b)]);
     const framed = box.map((each) => each.toFixed(2)).join(' ') + ` ${camera.width} ${camera.height}`;
     if (!world.count || framed === this.framed || !box.every(Number.isFinite)) return;

@@ -140,14 +140,12 @@ export class Arrows {
       part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint, this.more);
   }
 
-  /**
-   * Put the legend into a corner of the room in which no body lies that moves.
-   * @param {SceneView} view
-   */
-  #placeLegend({insets: {left, top, right, bottom}}) {
+  /** Put the legend into a corner of the room in which no body lies that moves. */
+  #placeLegend() {
     const {legend, parts: {world, camera}} = this, {offsetWidth: width, offsetHeight: height} = legend;
+    const {left, top, right, bottom} = elementOf('room').getBoundingClientRect();
     const isFree = (/** @type {string} */ corner) => {
-      const x = corner.includes('left') ? left : camera.width - right - width, y = corner.includes('top') ? top : camera.height - bottom - height;
+      const x = corner.includes('left') ? left : right - width, y = corner.includes('top') ? top : bottom - height;
       const [xmin, ymax] = camera.toWorld(x, y), [xmax, ymin] = camera.toWorld(x + width, y + height);
       return world.isFree([xmin, ymin, xmax, ymax]);
     };
@@ -163,9 +161,11 @@ export class Arrows {
     this.drawn = [];
     this.#fitSpeeds(room);
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
-    if (!this.legend.hidden && world.paused) this.#placeLegend(view);
-    const {left, top, right, bottom} = this.legend.getBoundingClientRect();
-    view.covered = [left, top, right, bottom];
+    if (!this.legend.hidden && world.paused) this.#placeLegend();
+    view.covered = [this.legend, elementOf('panel')].map((each) => {
+      const {left, top, right, bottom} = each.getBoundingClientRect();
+      return [left, top, right, bottom];
+    });
     this.hint.textContent = '';
     if (!this.forces) drawApplied(this.parts, view);
     else if (world.count) this.#drawForces(view, room);

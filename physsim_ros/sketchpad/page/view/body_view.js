@@ -207,10 +207,7 @@ export class BodyView {
       [x + (dx * ahead - dy * aside) * half, y + (dy * ahead + dx * aside) * half]);
     ctx.strokeStyle = line;
     ctx.lineWidth = 2 * pixel;
-    ctx.beginPath();
-    ctx.moveTo(...at(-1, 0));
-    for (const [ahead, aside] of [[1, 0], [0.3, 0.5], [1, 0], [0.3, -0.5]]) ctx.lineTo(...at(ahead, aside));
-    ctx.stroke();
+    this.view.polyline([at(-1, 0), at(1, 0), at(0.3, 0.5), at(1, 0), at(0.3, -0.5)]);
   }
 
   /**

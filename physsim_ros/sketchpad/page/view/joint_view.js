@@ -49,8 +49,8 @@ export class JointView {
     const ground = joint.b < 0;
     switch (joint.kind) {
       case 'pin':
-        this.#line([[p[0] - size, p[1] - size], [p[0] + size, p[1] + size]]);
-        this.#line([[p[0] - size, p[1] + size], [p[0] + size, p[1] - size]]);
+        this.view.polyline([[p[0] - size, p[1] - size], [p[0] + size, p[1] + size]]);
+        this.view.polyline([[p[0] - size, p[1] + size], [p[0] + size, p[1] - size]]);
         break;
       case 'motor':
         this.#arc(p, 1.9 * size, joint.rate ?? 1);
@@ -63,12 +63,12 @@ export class JointView {
         if (joint.stiffness) this.#spiral(p, world.frame.yaw[joint.a]);
         break;
       case 'spring':
-        this.#line(coil(p, q, size));
+        this.view.polyline(coil(p, q, size));
         this.#ends(p, q, ground);
         break;
       case 'rod':
         this.ctx.lineWidth = size * 0.7;
-        this.#line([p, q]);
+        this.view.polyline([p, q]);
         this.ctx.lineWidth = 2;
         this.#ends(p, q, ground);
         break;
@@ -90,7 +90,7 @@ export class JointView {
         this.#teeth(joint, q);
         break;
       default:
-        this.#line([p, q]);
+        this.view.polyline([p, q]);
         this.#ends(p, q, ground);
     }
   }
@@ -109,13 +109,6 @@ export class JointView {
   /** @param {Point} point [m] */
   #page(point) {
     return this.camera.toPage(...point);
-  }
-
-  /** @param {Point[]} points */
-  #line(points) {
-    this.ctx.beginPath();
-    for (const [x, y] of points) this.ctx.lineTo(x, y);
-    this.ctx.stroke();
   }
 
   /**
@@ -148,7 +141,7 @@ export class JointView {
       const reach = this.size * (1 + angle / (4 * Math.PI));
       points.push([x + reach * Math.cos(angle + yaw), y - reach * Math.sin(angle + yaw)]);
     }
-    this.#line(points);
+    this.view.polyline(points);
   }
 
   /**
@@ -169,9 +162,9 @@ export class JointView {
    */
   #support([x, y], fromY = y - 1) {
     const s = this.size, up = fromY > y ? -s : s, base = y + 2.2 * up;
-    this.#line([[x, y], [x - 1.3 * s, base], [x + 1.3 * s, base], [x, y]]);
+    this.view.polyline([[x, y], [x - 1.3 * s, base], [x + 1.3 * s, base], [x, y]]);
     for (const dx of [-1.2, -0.3, 0.6, 1.5]) {
-      this.#line([[x + dx * s, base], [x + (dx - 0.6) * s, base + 0.7 * up]]);
+      this.view.polyline([[x + dx * s, base], [x + (dx - 0.6) * s, base + 0.7 * up]]);
     }
   }
 
@@ -186,7 +179,7 @@ export class JointView {
     this.ctx.arc(x, y, radius, 0, end, turn < 0);
     this.ctx.stroke();
     const [tx, ty] = [x, y + radius * Math.sin(end)];
-    this.#line([[tx - s, ty - s], [tx, ty], [tx - s, ty + s]]);
+    this.view.polyline([[tx - s, ty - s], [tx, ty], [tx - s, ty + s]]);
   }
 
   /**
@@ -230,9 +223,13 @@ export class JointView {
     const at = (along, across, from = q) => [from[0] + along * dx - across * dy,
       from[1] + along * dy + across * dx];
     const least = (lower ?? -RAIL) * scale, most = (upper ?? RAIL) * scale;
-    this.#line([at(least, 0), at(most, 0)]);
-    if (lower !== undefined) this.#line([at(least, -s), at(least, s)]);
-    if (upper !== undefined) this.#line([at(most, -s), at(most, s)]);
+    this.ctx.save();
+    // Nothing slides beyond the bounds of the world.
+    this.ctx.clip(this.view.boundsPath());
+    this.view.polyline([at(least, 0), at(most, 0)]);
+    if (lower !== undefined) this.view.polyline([at(least, -s), at(least, s)]);
+    if (upper !== undefined) this.view.polyline([at(most, -s), at(most, s)]);
+    this.ctx.restore();
     this.ctx.beginPath();
     for (const [u, v] of [[1.5, 0.8], [-1.5, 0.8], [-1.5, -0.8], [1.5, -0.8]]) {
       this.ctx.lineTo(...at(u * s, v * s, p));
@@ -257,7 +254,7 @@ export class JointView {
       const along = i * pitch / 4 * scale, down = (i & 2 ? -0.15 : 0.15) * pitch * scale;
       points.push([x + along * dx + down * dy, y - along * dy + down * dx]);
     }
-    this.#line(points);
+    this.view.polyline(points);
   }
 
   /** @param {number} row a body with teeth, which turn with it */
@@ -272,7 +269,7 @@ export class JointView {
       const reach = radius * (i & 2 ? 1.1 : 0.9), angle = i * tooth - yaw;
       points.push([x + reach * Math.cos(angle), y + reach * Math.sin(angle)]);
     }
-    this.#line(points);
+    this.view.polyline(points);
   }
 }
 

@@ -43,18 +43,8 @@ export function drawLabels(view) {
     // Larger than its body, it may lie on others, but not on their labels.
     if (room * camera.scale < SMALLEST && drawn.some((other) => overlap(box, other))) continue;
     drawn.push(box);
-    ctx.font = `${size}px system-ui, sans-serif`;
-    ctx.textAlign = 'center';
     ctx.textBaseline = 'middle';
-    ctx.lineJoin = 'round';
-    ctx.lineWidth = size / 4;
-    ctx.strokeStyle = palette.paper;
-    ctx.fillStyle = palette.ink;
-    texts.forEach((line, i) => {
-      const at = y + (i - (texts.length - 1) / 2) * LINE * size;
-      ctx.strokeText(line, x, at);
-      ctx.fillText(line, x, at);
-    });
+    texts.forEach((line, i) => view.write(line, [x, y + (i - (texts.length - 1) / 2) * LINE * size], palette.ink, 'center', size));
     ctx.textBaseline = 'alphabetic';
   }
 }
@@ -112,7 +102,7 @@ const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; 
 export function drawNumbers(view) {
   const {ctx, insets, camera, numbers} = view, sides = [insets.left + 4, insets.top + 4, camera.width - insets.right - 4, camera.height - insets.bottom - RULER];
   /** @type {Box[]} */
-  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [view.covered];
+  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [...view.covered];
   ctx.font = FONT;
   if (!numbers.length) return;
   const lines = [...numbers.flatMap(({from, tip}) => from ? [/** @type {const} */ ([from, tip])] : []), ...linesOf(view)];
@@ -203,27 +193,19 @@ export function drawGrid({ctx, camera, palette}) {
 }
 
 /** @param {SceneView} view at whose insets the rulers lie, on top of bodies; a bar covers no number */
-export function drawRulers({ctx, camera, palette, insets}) {
-  const step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
+export function drawRulers(view) {
+  const {camera, palette, insets} = view, step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
   const [left, top] = camera.toWorld(insets.left, insets.top), [right, bottom] = camera.toWorld(camera.width - insets.right, camera.height - insets.bottom);
-  const write = (/** @type {number} */ value, /** @type {number} */ x, /** @type {number} */ y) => {
-    for (const method of /** @type {const} */ (['strokeText', 'fillText'])) ctx[method](`${fixed(value, digits)} m`, x, y);
-  };
-  ctx.fillStyle = palette.faint;
-  ctx.strokeStyle = palette.paper;
-  ctx.lineWidth = 3;
-  ctx.lineJoin = 'round';
-  ctx.font = '11px system-ui, sans-serif';
+  const write = (/** @type {number} */ value, /** @type {Point} */ at, /** @type {CanvasTextAlign} */ align) =>
+    view.write(`${fixed(value, digits)} m`, at, palette.faint, align, SMALLEST);
   const low = camera.height - insets.bottom;
-  ctx.textAlign = 'center';
   for (const value of multiplesOf(step, left, right)) {
     const [x] = camera.toPage(value, 0);
-    if (x > insets.left + 40 && x < camera.width - insets.right - 20) write(value, x, low - 6);
+    if (x > insets.left + 40 && x < camera.width - insets.right - 20) write(value, [x, low - 6], 'center');
   }
-  ctx.textAlign = 'left';
   for (const value of multiplesOf(step, bottom, top)) {
     const [, y] = camera.toPage(0, value);
-    if (y > insets.top + 14 && y < low - 24) write(value, insets.left + 6, y - 4);
+    if (y > insets.top + 14 && y < low - 24) write(value, [insets.left + 6, y - 4], 'left');
   }
 }
 

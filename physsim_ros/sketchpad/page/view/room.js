@@ -2,9 +2,9 @@
 /**
  * Where the world lies on the page: in the room that bars and panels leave (the cell `#room` of the grid of style.css).
  *
- * The world is framed there when somebody opens or closes a panel, unless the view was moved; not in the midst of a
- * gesture, but at its end. Where something closes by itself, the view stays: a drawing goes on at the same scale. What
- * was drawn meanwhile, and is in sight, stays in sight.
+ * The world is framed there when a panel would cover what is to be seen, and when somebody closes one, unless the view
+ * was moved; not in the midst of a gesture, but at its end. Where something closes by itself, the view stays: a drawing
+ * goes on at the same scale. What was drawn meanwhile, and is in sight, stays in sight.
  */
 
 import {elementOf} from '../dom.js';
@@ -12,6 +12,7 @@ import {unionOf} from './body_path.js';
 
 /** @import {Bounds, Parts} from '../types.js' */
 
+const BARS = '#tools, #top > .bar, #bar, #lesson, #panel, #plot'; // what may cover the world
 const FLAT = 1.6; // width of what is framed to its height, from which on the plot lies below it
 
 /** @returns {boolean} whether a panel in full leaves room for the world, as style.css has it */
@@ -54,7 +55,7 @@ export class Room {
   /** Frame the bounds of the world, and every body: it may have been dragged beyond them. */
   frameAll() {
     const {world} = this.parts;
-    this.frame(unionOf([world.extent(), world.bodiesExtent()]));
+    this.frame(unionOf([world.extent(), ...world.boxes]));
   }
 
   /**
@@ -86,11 +87,20 @@ export class Room {
     this.#arrange();
   }
 
-  /** Fit the world into a room that has become smaller; one that has become larger shows more of the world. */
+  /** Fit the world into a room that has become too small for it; one that has become larger shows more of the world. */
   #follow() {
     const {view} = this.parts, before = view.insets, now = this.#insets;
-    if (now.left > before.left || now.top > before.top || now.right > before.right || now.bottom > before.bottom) this.fit();
-    else view.insets = now;
+    if (now.left <= before.left && now.top <= before.top && now.right <= before.right && now.bottom <= before.bottom) view.insets = now;
+    else if (this.#isCovered()) this.fit();
+  }
+
+  /** @returns {boolean} whether a bar or a panel lies on what is to be seen: what a lesson shows first, else the bodies */
+  #isCovered() {
+    const {camera, world} = this.parts, {lesson} = world.scene, bars = [...document.querySelectorAll(BARS)].map((bar) => bar.getBoundingClientRect());
+    return (lesson?.view ? [lesson.view] : world.boxes).some(([xmin, ymin, xmax, ymax]) => {
+      const [left, top] = camera.toPage(xmin, ymax), [right, low] = camera.toPage(xmax, ymin);
+      return bars.some((bar) => bar.width && bar.left < right && left < bar.right && bar.top < low && top < bar.bottom);
+    });
   }
 
   #arrange() {

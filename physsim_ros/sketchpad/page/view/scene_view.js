@@ -6,7 +6,7 @@ import {JointView} from './joint_view.js';
 import {drawGrid, drawLabels, drawNumbers, drawRulers, drawScan} from './label_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
-/** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
+/** @import {Body, Bounds, Camera, Frame, Point, WorldState} from '../types.js' */
 /** @import {Numbered} from './label_view.js' */
 
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
@@ -31,8 +31,8 @@ export class SceneView {
     this.overlays = [];
     /** @type {Numbered[]} of the arrows that were drawn */
     this.numbers = [];
-    /** Of the legend; no number is put there. @type {[left: number, top: number, right: number, bottom: number]} [px] */
-    this.covered = [0, 0, 0, 0];
+    /** Boxes of the legend and the panel; no number is put there. @type {Bounds[]} left, top, right, bottom [px] */
+    this.covered = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
     this.ratio = 1; // pixels of the screen to one of the page
     this.dirty = true;
@@ -95,13 +95,20 @@ export class SceneView {
     this.ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
   }
 
+  /** @returns {Path2D} around the world, or around the page where the world has no bounds */
+  boundsPath() {
+    const {camera, world: {scene: {bounds}}} = this, path = new Path2D();
+    if (bounds.length) path.rect(...camera.toPage(bounds[0], bounds[3]), (bounds[2] - bounds[0]) * camera.scale, (bounds[3] - bounds[1]) * camera.scale);
+    else path.rect(0, 0, camera.width, camera.height);
+    return path;
+  }
+
   #drawBounds() {
-    const {ctx, camera, palette} = this, {bounds} = this.world.scene;
-    if (!bounds.length) return;
-    const [x, y] = camera.toPage(bounds[0], bounds[3]);
+    const {ctx, palette} = this;
+    if (!this.world.scene.bounds.length) return;
     ctx.strokeStyle = palette.ink;
     ctx.lineWidth = 2;
-    ctx.strokeRect(x, y, (bounds[2] - bounds[0]) * camera.scale, (bounds[3] - bounds[1]) * camera.scale);
+    ctx.stroke(this.boundsPath());
   }
 
   /**
@@ -151,10 +158,15 @@ export class SceneView {
     ctx.lineWidth = 2.5;
     ctx.lineCap = ctx.lineJoin = 'round';
     ctx.setLineDash(dash);
-    ctx.beginPath();
-    for (const point of points) ctx.lineTo(...this.camera.toPage(...point));
-    ctx.stroke();
+    this.polyline(points.map((point) => this.camera.toPage(...point)));
     ctx.setLineDash([]);
+  }
+
+  /** @param {Point[]} points of the canvas */
+  polyline(points) {
+    this.ctx.beginPath();
+    for (const [x, y] of points) this.ctx.lineTo(x, y);
+    this.ctx.stroke();
   }
 
   /**
@@ -185,10 +197,7 @@ export class SceneView {
       /** @type {Point} */ ([px + ux * along - uy * across, py + uy * along + ux * across]);
     ctx.lineCap = 'butt';
     this.onRim(color, width, (rim) => {
-      ctx.beginPath();
-      ctx.moveTo(px, py);
-      ctx.lineTo(...at(length - head / 2, 0));
-      ctx.stroke();
+      this.polyline([[px, py], at(length - head / 2, 0)]);
       ctx.beginPath();
       for (const side of [1, -1]) ctx.lineTo(...at(length - head - rim, side * (head * 0.45 + rim)));
       ctx.lineTo(...at(length + rim, 0));
@@ -197,12 +206,7 @@ export class SceneView {
     if (!cut) return;
     ctx.strokeStyle = this.palette.paper;
     ctx.lineWidth = 3;
-    for (const along of [0.45, 0.52]) {
-      ctx.beginPath();
-      ctx.moveTo(...at(along * length - 3, -6));
-      ctx.lineTo(...at(along * length + 3, 6));
-      ctx.stroke();
-    }
+    for (const along of [0.45, 0.52]) this.polyline([at(along * length - 3, -6), at(along * length + 3, 6)]);
   }
 
   /**
@@ -248,14 +252,15 @@ export class SceneView {
    * @param {Point} at its begin, or its middle [px]; what begins on the page ends there, too
    * @param {string} color
    * @param {CanvasTextAlign} align
+   * @param {number} size of letters [px]
    */
-  write(text, [x, y], color, align = 'left') {
+  write(text, [x, y], color, align = 'left', size = 13) {
     const {ctx, camera} = this;
-    ctx.font = '13px system-ui, sans-serif';
+    ctx.font = `${size}px system-ui, sans-serif`;
     ctx.textAlign = align;
     if (align === 'left' && x < camera.width) x = Math.min(x, camera.width - ctx.measureText(text).width - 4);
     ctx.lineJoin = 'round';
-    ctx.lineWidth = 4;
+    ctx.lineWidth = 0.3 * size;
     ctx.strokeStyle = this.palette.paper;
     ctx.strokeText(text, x, y);
     ctx.fillStyle = color;
