@@ -85,7 +85,7 @@ static void start_actors(World *world) {
 // Paths
 
 // Where a path is at a time since it started.
-static Pose place_on_path(const Actor *actor, double time) {
+static Pose pose_on_path(const Actor *actor, double time) {
     const Waypoint *first = actor->points, *last = first + actor->point_count - 1;
     double whole = last->time;
     if (actor->repeat == ONCE || whole == 0.0) {
@@ -136,7 +136,7 @@ static Twist chase_path(const World *world, const Actor *actor, Pose now, Pose e
 static Twist follow_path(const World *world, const Actor *actor, double dt) {
     const Body *body = world->bodies + actor->body;
     double time = (double)(world->step - actor->state.begun) * dt;
-    Pose now = place_on_path(actor, time), end = place_on_path(actor, time + dt);
+    Pose now = pose_on_path(actor, time), end = pose_on_path(actor, time + dt);
     return body->dynamic ? chase_path(world, actor, now, end, dt) : keep_to_path(actor, body, end, dt);
 }
 
@@ -158,17 +158,17 @@ static int next_point(const Actor *actor) {
 
 // The velocity that a pedestrian would have alone.
 static Vec desired_velocity(const World *world, const Surroundings *around, Actor *actor, const Disc *self) {
-    Vec offset = sub(actor->points[next_point(actor)].pose.p, self->place);
+    Vec offset = sub(actor->points[next_point(actor)].pose.p, self->point);
     bool ends = actor->repeat == ONCE;
     if (length(offset) <= actor->pace.goal_radius && !(ends && actor->state.reached >= actor->point_count)) {
         actor->state.reached++;
-        offset = sub(actor->points[next_point(actor)].pose.p, self->place);
+        offset = sub(actor->points[next_point(actor)].pose.p, self->point);
     }
     double speed = actor->pace.speed;
     if (ends && actor->state.reached >= actor->point_count - 1) {
         speed = least(speed, length(offset) / settling_time);
     }
-    return scaled(heading_to(world, around, self, add(self->place, offset)), speed);
+    return scaled(heading_to(world, around, self, add(self->point, offset)), speed);
 }
 
 static Vec walk(World *world, const Surroundings *around, Actor *actor, double dt) {

@@ -104,7 +104,7 @@ static bool share_face(const cpArbiter *one, const cpArbiter *other) {
 }
 
 // Where a point lies along the face of a contact [m].
-static double place_along(const cpArbiter *face, ContactPoint point) {
+static double position_along(const cpArbiter *face, ContactPoint point) {
     const cpBody *body = is_movable(face->body_a) ? face->body_a : face->body_b;
     Vec arm = body == point.arbiter->body_a ? point.contact->r1 : point.contact->r2;
     return cross(face->n, arm);
@@ -126,11 +126,11 @@ static void add_point(Cluster *cluster, ContactPoint point) {
         }
         return;
     }
-    double place = place_along(point.arbiter, point), first = place_along(point.arbiter, *ends[0]),
-           second = place_along(point.arbiter, *ends[1]);
-    if (place < least(first, second)) {
+    double position = position_along(point.arbiter, point), first = position_along(point.arbiter, *ends[0]),
+           second = position_along(point.arbiter, *ends[1]);
+    if (position < least(first, second)) {
         *ends[first < second ? 0 : 1] = point;
-    } else if (place > greatest(first, second)) {
+    } else if (position > greatest(first, second)) {
         *ends[first > second ? 0 : 1] = point;
     }
 }
@@ -368,7 +368,7 @@ static void find_impulses(const World *world, Point *points, int count) {
 // Velocities of a body just before and just after an impact: those of the end of the step, less what its acceleration
 // adds from the impact on, and less the half-step lead while it flies.
 static Twist at_impact(const World *world, const Body *body, Twist end, bool flies) {
-    double share = 2.0 * (body->scratch.since + body->scratch.left) / world->dt + (flies ? 1.0 : 0.0);
+    double share = 2.0 * (body->scratch.since + body->scratch.remaining) / world->dt + (flies ? 1.0 : 0.0);
     return body->dynamic ? twist_sum(end, body->state.lead, -share) : end;
 }
 

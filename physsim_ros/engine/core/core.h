@@ -43,23 +43,23 @@ typedef struct BodyState {
 
 // What stages tell each other of a body; that of a sleeping body stays until it wakes. No checkpoint has it.
 typedef struct BodyScratch {
-    uint8_t slides;  // on a floor that does not carry it along
-    Pose begin;      // as the step begins
-    Twist twist;     // with which Chipmunk begins
-    Twist under;     // mean velocity of the floor under it
-    Twist without_contacts;   // velocity after the sub-step without contacts, on a floor
-    double left;     // of the step after continuous collision has stopped it [s]
-    Twist carried;   // displacement with what has stopped it, in that time [m, rad]
-    double since;    // time from its first impact to the end of its motion [s]
-    Twist rest;      // displacement that remains after its impact [m, rad]
-    uint8_t rests;   // that displacement has been found
-    uint8_t bounces; // its impact throws it off, so gravity acts on the new velocity
-    uint8_t thrown;  // its velocity was set before this sub-step
-    double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
-    Twist field;     // half of what fields change its velocity by in this step
-    uint8_t afloat;  // the surface of a medium crosses it
-    uint8_t stirred; // fields act on it that change while it rests
-    uint8_t lost;    // it has left the range of numbers
+    uint8_t slides;             // on a floor that does not carry it along
+    Pose begin;                 // as the step begins
+    Twist twist;                // with which Chipmunk begins
+    Twist under;                // mean velocity of the floor under it
+    Twist without_contacts;     // velocity after the sub-step without contacts, on a floor
+    double remaining;           // of the step after continuous collision has stopped it [s]
+    Twist carried;              // displacement with what has stopped it, in that time [m, rad]
+    double since;               // time from its first impact to the end of its motion [s]
+    Twist remaining_move;       // displacement that remains after its impact [m, rad]
+    uint8_t has_remaining_move; // that displacement has been found
+    uint8_t bounces;            // its impact throws it off, so gravity acts on the new velocity
+    uint8_t thrown;             // its velocity was set before this sub-step
+    double idle;                // for which it has been at rest as the step begins; < 0 while it sleeps [s]
+    Twist field;                // half of what fields change its velocity by in this step
+    uint8_t afloat;             // the surface of a medium crosses it
+    uint8_t stirred;            // fields act on it that change while it rests
+    uint8_t lost;               // it has left the range of numbers
 } BodyScratch;
 
 // A body as requests define it, with its state; the last one of the table is the background, which has the walls.
@@ -298,7 +298,7 @@ typedef struct Motor {
     int32_t joint, row; // numbers of them
     double effort;      // greatest force [N] or torque [N m]
     double speed;       // greatest rate [m/s, rad/s]
-    double gain;        // rate by the distance that is left [1/s]
+    double gain;        // rate by the distance that remains [1/s]
     double zero;        // x of the row where the joint is at 0 [m, rad]
     int32_t mode;       // of its command, as the two below; without points it holds
     int32_t point_count;
@@ -427,8 +427,8 @@ typedef struct World {
     double dt; // length of a sub-step [s]
     uint32_t stages;
     uint8_t reports_contacts;
-    uint8_t statics_moved; // an anchored body or a wall has been moved since the last step
-    uint8_t has_fields;    // fields act, or velocities lead by them
+    uint8_t statics_moved;    // an anchored body or a wall has been moved since the last step
+    uint8_t has_fields;       // fields act, or velocities lead by them
     double drag_acceleration; // greatest force of a hand, by the mass of its body [m/s²]
     // Of attraction (`attraction.c`): G [N m^p/kg²], k [N m^p/C²], p and ε [m].
     double gravitation, coulomb, attraction_power, softening;

@@ -73,8 +73,8 @@ Media media_of(World *world, double ahead) {
 
 // Drag
 
-// Add to D a weight of B'B, where B has the columns x, y and `turn`: how a place moves with the body.
-static void add_place(Resistance *sum, double weight, Vec turn, double square) {
+// Add to D a weight of B'B, where B has the columns x, y and `turn`: how a point moves with the body.
+static void add_moving_point(Resistance *sum, double weight, Vec turn, double square) {
     sum->xx += weight;
     sum->yy += weight;
     sum->xw += weight * turn.x;
@@ -85,7 +85,7 @@ static void add_place(Resistance *sum, double weight, Vec turn, double square) {
 static void add_linear_side(Resistance *sum, double weight, Side side) {
     Vec edge = sub(side.end, side.begin), middle = scaled(add(side.begin, side.end), 0.5);
     double square = dot(middle, middle) + dot(edge, edge) / 12.0;
-    add_place(sum, weight * length(edge), perpendicular(middle), square);
+    add_moving_point(sum, weight * length(edge), perpendicular(middle), square);
 }
 
 static void add_linear_bow(Resistance *sum, double weight, Bow bow) {
@@ -118,7 +118,7 @@ static void add_quadratic_side(Resistance *sum, double weight, Side side, Twist 
         double share = from + (to - from) * (0.5 + (point == 0 ? -1.0 : 1.0) * 0.28867513459481288);
         double turn = turn_begin - size * share;
         double facing = weight * size * (to - from) / 2.0 * (first + (last - first) * share);
-        add_place(sum, facing, scaled(normal, turn), turn * turn);
+        add_moving_point(sum, facing, scaled(normal, turn), turn * turn);
     }
 }
 
@@ -133,7 +133,7 @@ static void add_quadratic_bow(Resistance *sum, double weight, Bow bow, Twist flo
     Vec velocity = velocity_at(flow, bow.center);
     double speed = length(velocity), along = atan2(velocity.y, velocity.x);
     double width = bow.radius * (facing_up_to(bow.to - along) - facing_up_to(bow.from - along));
-    add_place(sum, weight * width * speed, perpendicular(bow.center), dot(bow.center, bow.center));
+    add_moving_point(sum, weight * width * speed, perpendicular(bow.center), dot(bow.center, bow.center));
 }
 
 // The matrix D of a part of a body that moves through a medium with a twist.

@@ -18,7 +18,7 @@
 
 #include "social_force.h"
 
-// Least half axis [m], so that the force of two at one place is finite.
+// Least half axis [m], so that the force of two at one point is finite.
 static const double least_axis = 0.01;
 // Gap of walls that touch, at most [m]: far above rounding.
 static const double seam = 1e-6;
@@ -48,14 +48,14 @@ static Vec wall_repulsion(const SocialForce *model, const Disc *self, Nearest ne
 }
 
 // Whether a wall touches a point.
-static bool touches(const World *world, const cpShape *wall, Vec place) {
+static bool touches(const World *world, const cpShape *wall, Vec point) {
     const double *bounds = wall->bb;
-    if (place.x < bounds[0] - seam || place.x > bounds[2] + seam || place.y < bounds[1] - seam ||
-        place.y > bounds[3] + seam) {
+    if (point.x < bounds[0] - seam || point.x > bounds[2] + seam || point.y < bounds[1] - seam ||
+        point.y > bounds[3] + seam) {
         return false;
     }
     cpPointQueryInfo found;
-    return world->chipmunk.point_query(wall, place, &found) <= seam;
+    return world->chipmunk.point_query(wall, point, &found) <= seam;
 }
 
 // Find the walls within sight, and for each the nearest one of those with which it pushes; return their number.
@@ -65,17 +65,17 @@ static int find_fronts(const World *world, const Surroundings *around, const Dis
     for (int number = 0; number < around->wall_count; number++) {
         const cpShape *wall = around->walls[number];
         Nearest nearest;
-        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
-            seen[count] = (Seen){wall, nearest, distance_beside(wall, self->place, ahead), count};
+        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->point, &nearest)) {
+            seen[count] = (Seen){wall, nearest, distance_beside(wall, self->point, ahead), count};
             count++;
         }
     }
     for (int number = 0; number < count; number++) {
         Nearest own = seen[number].nearest;
-        Vec place = sub(self->place, scaled(own.outwards, own.distance));
+        Vec point = sub(self->point, scaled(own.outwards, own.distance));
         for (int other = 0; other < count && seen[number].front == number; other++) {
             double nearer = own.distance - seen[other].nearest.distance;
-            if ((nearer > 0.0 || (nearer == 0.0 && other < number)) && touches(world, seen[other].wall, place)) {
+            if ((nearer > 0.0 || (nearer == 0.0 && other < number)) && touches(world, seen[other].wall, point)) {
                 seen[number].front = other;
             }
         }
@@ -98,7 +98,7 @@ static Vec swerved(Vec force, Vec desired) {
 }
 
 static Vec of_disc(const SocialForce *model, const Disc *self, const Disc *other, Vec desired, Vec ahead) {
-    Vec apart = sub(self->place, other->place);
+    Vec apart = sub(self->point, other->point);
     double distance = length(apart);
     if (distance > farthest_seen + other->radius || distance == 0.0) {
         return (Vec){0};

@@ -76,9 +76,9 @@ void solve_impacts(World *world);
 void time_impacts(World *world);
 // The rest of the step after impacts (`rest_of_step.c`): how long it is for two bodies that met in this step [s]; by
 // how much further a body is for a velocity after its impact than for that before it, and what it has still to go then.
-double time_left(const Body *a, const Body *b);
-Twist displacement_gained(const Body *body, Twist after, double left, double dt);
-void add_rest(Body *body, Twist gained);
+double remaining_time(const Body *a, const Body *b);
+Twist displacement_gained(const Body *body, Twist after, double remaining, double dt);
+void set_remaining_move(Body *body, Twist gained);
 
 // Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
 void find_joint_islands(World *world);

@@ -10,9 +10,9 @@ static void begin_body(Body *body) {
     assert(body_of(body->engine) == body);
     body->scratch.begin = pose_of(body->engine);
     body->scratch.twist = twist_of(body->engine);
-    body->scratch.carried = body->scratch.rest = (Twist){0};
-    body->scratch.left = body->scratch.since = 0.0;
-    body->scratch.bounces = body->scratch.rests = false;
+    body->scratch.carried = body->scratch.remaining_move = (Twist){0};
+    body->scratch.remaining = body->scratch.since = 0.0;
+    body->scratch.bounces = body->scratch.has_remaining_move = false;
     body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
 }
 

@@ -33,14 +33,14 @@ static Moments moments_of(const World *world, const Touch *touch, int side) {
     Vec offset = is_disc ? ((const cpCircleShape *)shape)->c : vec(0.0, 0.0);
     Pose poses[3] = {body->scratch.begin, moved(body->scratch.begin, body->scratch.twist, world->dt),
                      pose_of(touch->engines[side])};
-    Vec places[3];
+    Vec points[3];
     for (int number = 0; number < 3; number++) {
-        places[number] = add(poses[number].p, rotated(offset, rotation(poses[number].yaw)));
+        points[number] = add(poses[number].p, rotated(offset, rotation(poses[number].yaw)));
     }
     // That a disc turns does not matter.
     double counts = is_disc ? 0.0 : 1.0;
     return (Moments){
-        places[0], places[1], places[2], poses[0].yaw * counts, poses[1].yaw * counts, poses[2].yaw * counts};
+        points[0], points[1], points[2], poses[0].yaw * counts, poses[1].yaw * counts, poses[2].yaw * counts};
 }
 
 static void keep_first(DiscHit *hit, DiscHit other) {
@@ -56,8 +56,8 @@ static DiscHit first_hit(Vec start, Vec displacement, const cpShape *shape, doub
     // Faces, moved outwards by the radius: t of n . (ahead + displacement t) = r, between their corners.
     for (int number = 0; number < count && count > 1; number++) {
         Corner corner = corner_in_world(shape, number);
-        Vec edge = sub(corner_in_world(shape, (number + count - 1) % count).place, corner.place);
-        Vec ahead = sub(start, corner.place);
+        Vec edge = sub(corner_in_world(shape, (number + count - 1) % count).point, corner.point);
+        Vec ahead = sub(start, corner.point);
         double height = dot(corner.normal, ahead) - radius, share = height / -dot(corner.normal, displacement);
         double beside = cross(corner.normal, add(ahead, scaled(displacement, share)));
         if (height >= 0.0 && beside <= 0.0 && beside >= cross(corner.normal, edge)) {
@@ -66,7 +66,7 @@ static DiscHit first_hit(Vec start, Vec displacement, const cpShape *shape, doub
     }
     // Corners: t of |ahead + displacement t| = r.
     for (int number = 0; number < count; number++) {
-        Vec ahead = sub(start, corner_in_world(shape, number).place);
+        Vec ahead = sub(start, corner_in_world(shape, number).point);
         double a = dot(displacement, displacement), b = dot(ahead, displacement);
         double share = (-b - sqrt(b * b - a * (dot(ahead, ahead) - radius * radius))) / a;
         keep_first(&hit, (DiscHit){share, scaled(add(ahead, scaled(displacement, share)), 1.0 / radius), false});
@@ -78,7 +78,7 @@ static DiscHit first_hit(Vec start, Vec displacement, const cpShape *shape, doub
 static double approach_in_step(const World *world, const Touch *touch) {
     double distance = 0.0;
     for (int side = 0; side < 2; side++) {
-        Vec arm = sub(touch->places[0][side], touch->engines[side]->p);
+        Vec arm = sub(touch->points[0][side], touch->engines[side]->p);
         distance += length(touch->engines[side]->v) + fabs(touch->engines[side]->w) * length(arm);
     }
     return distance * world->dt;
@@ -112,7 +112,7 @@ void move_to_impact(const World *world, Touch *touch) {
     Vec outwards = rotated(hit.normal, turn);
     touch->normal = negated(outwards);
     for (int point = 0; point < 2; point++) {
-        touch->places[point][0] = sub(disc.now, scaled(outwards, radius));
-        touch->places[point][1] = add(other.now, rotated(sub(on_other, other.now), turn));
+        touch->points[point][0] = sub(disc.now, scaled(outwards, radius));
+        touch->points[point][1] = add(other.now, rotated(sub(on_other, other.now), turn));
     }
 }

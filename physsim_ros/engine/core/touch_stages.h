@@ -8,7 +8,7 @@
 
 #include "touch.h"
 
-// Replace normal and places of the contact of a disc by those of its impact.
+// Replace normal and points of the contact of a disc by those of its impact.
 void move_to_impact(const World *world, Touch *touch);
 
 // Whether the contact of a disc is at a corner in or behind the plane of a face that it has met before, of the contacts

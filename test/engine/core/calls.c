@@ -124,7 +124,7 @@ double call_immersed(const Case *given, const Case *region) {
     outer.polygon.shape.body = &outer.engine;
     inner.engine.shapeList = &inner.polygon.shape;
     for (int number = 0; number < given->count; number++) {
-        Vec corner = corner_on_body(&inner.polygon.shape, number).place;
+        Vec corner = corner_on_body(&inner.polygon.shape, number).point;
         inner.body.reach = greatest(inner.body.reach, length(corner));
     }
     Basin basin = basin_of(NULL, &outer.polygon.shape, outer.mover.pose, &arena);
