@@ -84,8 +84,7 @@ class CoreWorld:
 
     def use_bodies(self, bodies: Table, former: Sequence[int]) -> None:
         """
-        Have the core step these bodies; `forces`, `regions`, `attractors`, `robots`, `actors` are
-        next.
+        Have the core step these bodies; the tables that `use` takes are next, but for motors.
 
         :param bodies: (n + 1,) `Body`; the last one is the background
         :param former: place of each in the table before; -1 for those that are new

@@ -7,12 +7,12 @@ Overlaps: pairs of convex pieces that would overlap at once, counted before the 
 Law: an overlap costs the engine a contact in every step, and n pieces in one place n² / 2 of them
 in a step that no signal ends; so they are counted before any is added or moved.
 
-A piece is counted by its *inner box*: the bounding box along its longest edge, about the mean of its
-corners, reduced so that pieces that touch or rest on each other do not count (of a disc the square in it).
-Two pieces overlap if their inner boxes do, by the separating axis theorem (Ericson, Real-Time Collision
-Detection, 4.4.1); candidates are found by the broad phase, in parts, so that the count ends soon
-after its limit. Shallower overlaps than that are not counted, and are no more than some for each
-piece, since their centres are apart.
+A piece is counted by its *inner box*: the bounding box along its longest edge, about the mean of
+its corners, reduced so that pieces that touch or rest on each other do not count (of a disc the
+square in it). Two pieces overlap if their inner boxes do, by the separating axis theorem (Ericson,
+Real-Time Collision Detection, 4.4.1); candidates are found by the broad phase, in parts, so that
+the count ends soon after its limit. Shallower overlaps than that are not counted, and are no more
+than some for each piece, since their centres are apart.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ from physsim_ros.model.weak_cache import cached_weakly
 
 # Candidates compared at once: some 30 MB.
 _PART = 200_000
-# Share of an inner box in the bounding box of a piece: a disc's is the square in it; rounding and the
-# turning of pieces that lie on each other leave 95 %; of a triangle's box half is inside.
+# Share of an inner box in the bounding box of a piece: a disc's is the square in it; rounding and
+# the turning of pieces that lie on each other leave 95 %; of a triangle's box half is inside.
 _OF_DISC, _OF_BAR, _OF_CONVEX = math.sqrt(0.5), 0.95, 0.5
 # Gap between a rectangle's corner and that of its box, as a share of the width of the box [1].
 _SQUARE = 0.005

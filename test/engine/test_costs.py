@@ -4,6 +4,7 @@
 """What happens to many bodies in one step costs what their count says."""
 
 from collections.abc import Callable
+import math
 
 from physsim_ros.model.requests import Delete
 from physsim_ros.model.settings import WorldSettings
@@ -27,6 +28,24 @@ def landing(count: int) -> Callable[[], object]:
 
 def test_many_that_land_at_once_cost_what_their_count_says():
     assert growth(landing, 1500) < MOST
+
+
+def cornered(count: int) -> Callable[[], object]:
+    """Return the step in which discs meet the corners of boxes at once."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    for number in range(count):
+        x, y = divmod(number, 100)
+        post = Box(width=0.1, height=0.1)
+        spawn(world, f'post/{number}', post, (float(x), float(y), math.pi / 4), anchored=True)
+        pose = (float(x), y + 0.05 * math.sqrt(2.0) + 0.0525, 0.0)
+        spawn(world, f'disc/{number}', Disc(radius=0.05), pose, velocity=(0.0, -1.0))
+    # Makes the table.
+    world.snapshot()
+    return lambda: world.step(1)
+
+
+def test_many_discs_that_meet_corners_at_once_cost_what_their_count_says():
+    assert growth(cornered, 1500) < MOST
 
 
 def under_way(count: int) -> Callable[[], object]:

@@ -43,21 +43,44 @@ static bool is_at_corner(const Touch *touch, int side) {
     return false;
 }
 
-// Whether the contact of a disc is at a face that it has met before a corner, which lies in its plane or behind it.
-static bool hides(const Touch *face, const Touch *corner) {
-    if (face->shapes[0] != corner->shapes[0] || !face->on_face || face->met > corner->met) {
-        return false;
-    }
-    Vec offset = sub(corner->points[0][1], face->points[0][1]);
-    return -dot(face->normal, offset) <= slop_of(corner->arbiter);
+static int by_disc(const void *one, const void *other) {
+    uintptr_t a = (*(const Touch *const *)one)->shapes[0]->hashid,
+              b = (*(const Touch *const *)other)->shapes[0]->hashid;
+    return (a > b) - (a < b);
 }
 
-bool is_hidden(const Touch *touch, const Touch *touches, int count) {
+int list_met_faces(const Touch *touches, int count, const Touch **faces) {
+    int found = 0;
+    for (int number = 0; number < count; number++) {
+        if (touches[number].on_face) {
+            faces[found++] = touches + number;
+        }
+    }
+    sort(faces, found, sizeof(const Touch *), by_disc);
+    return found;
+}
+
+// Whether the contact of a disc is at a face that it has met before a corner, which lies in its plane or behind it.
+static bool hides(const Touch *face, const Touch *corner) {
+    Vec offset = sub(corner->points[0][1], face->points[0][1]);
+    return face->met <= corner->met && -dot(face->normal, offset) <= slop_of(corner->arbiter);
+}
+
+bool is_hidden(const Touch *touch, const Touch *const *faces, int count) {
     if (touch->on_face || !is_at_corner(touch, 1)) {
         return false;
     }
-    for (int number = 0; number < count; number++) {
-        if (hides(touches + number, touch)) {
+    int low = 0, high = count;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (by_disc(faces + middle, &touch) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    for (int number = low; number < count && faces[number]->shapes[0] == touch->shapes[0]; number++) {
+        if (hides(faces[number], touch)) {
             return true;
         }
     }

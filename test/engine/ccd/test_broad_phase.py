@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine import broad_phase
-from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.model.requests import Command
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
@@ -107,7 +106,7 @@ def test_the_tree_of_what_is_anchored_is_built_anew_only_where_that_is_moved(
 ):
     world, noted = heap(), []
     spawn(world, 'wall/0', Disc(radius=1.0), (50.0, 0.0, 0.0), anchored=True)
-    monkeypatch.setattr(CoreWorld, 'note_moved_static', lambda core: noted.append(core))
+    monkeypatch.setattr(world.space.core, 'note_moved_static', lambda: noted.append(moved))
 
     world.apply(Command(names=(moved,), poses=np.array([[0.0, 9.0, 0.0]])))
 
