@@ -54,7 +54,7 @@ _TOUCHING = 0.02
 MOST_PIECES = 200
 # Greatest number of corners of the parts of a solid that is cut, which are compared in pairs: 500
 # boxes, or twice the triangles that a shape can have.
-_MOST_CORNERS = 2000
+MOST_CORNERS = 2000
 # Pairs of parts that are compared at once.
 _AT_ONCE = 1000
 # The greatest share of a piece in triangles that are too thin to be simulated, which are omitted.
@@ -92,10 +92,10 @@ def _cut_solid(
     shape: Disc | Box | Polygon | Triangles | Compound, start: Floats, end: Floats
 ) -> list[Shape]:
     parts = _outlines(shape)
-    if len(parts) > 1 and (corners := sum(map(len, parts))) > _MOST_CORNERS:
+    if len(parts) > 1 and (corners := sum(map(len, parts))) > MOST_CORNERS:
         raise WorldFull(
             f'the parts of the body have {corners} corners, a disc {_CORNERS}; the knife cuts at '
-            f'most {_MOST_CORNERS}'
+            f'most {MOST_CORNERS}'
         )
     least = _ROUNDING * shape.form.area
     pieces: list[Floats] = []

@@ -238,6 +238,15 @@ def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motio
     return Motion(x, y, pose[2], vx, vy, spin, free=True)
 
 
+def set_surface(shape: pymunk.Shape, friction: float, elasticity: float) -> None:
+    """
+    Set the surface of a shape, so that a pair has the geometric mean of both values.
+
+    Pymunk multiplies what it is told of two shapes.
+    """
+    shape.friction, shape.elasticity = math.sqrt(friction), math.sqrt(elasticity)
+
+
 def build_body(body: Body) -> RigidBody:
     """Make the engine objects of a body, outside any space, at the origin and at rest."""
     if body.anchored:
@@ -251,10 +260,7 @@ def build_body(body: Body) -> RigidBody:
     rigid = RigidBody(body, pm_body, handles_of(pm_body, *shapes))
     _set_neighbors([shape for shape in shapes if isinstance(shape, pymunk.Segment)])
     for shape in shapes:
-        # The engine multiplies the values of two bodies. By their square roots a pair has the
-        # geometric mean.
-        shape.friction = math.sqrt(body.friction)
-        shape.elasticity = math.sqrt(body.elasticity)
+        set_surface(shape, body.friction, body.elasticity)
         shape.sensor = body.sensor
         # Groups of the engine are unsigned.
         shape.filter = pymunk.ShapeFilter(group=body.group % 2**32)

@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-import math
-
+from physsim_ros.engine.bodies import set_surface
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.settings import WorldSettings
 import pymunk
@@ -55,7 +54,6 @@ class Boundary:
             pymunk.BB(left - THICKNESS, top, right + THICKNESS, top + THICKNESS),
         ):
             wall = pymunk.Poly.create_box_bb(self._pm_space.static_body, box)
-            wall.friction = math.sqrt(settings.friction)
-            wall.elasticity = math.sqrt(settings.elasticity)
+            set_surface(wall, settings.friction, settings.elasticity)
             self._walls.append(wall)
         self.first_shape = self._shapes.add(self._walls)

@@ -142,10 +142,7 @@ def _restore_bodies(
     for some in _in_slices(rigids):
         space.bodies.add_without_shapes(some)
         yield
-    for row, wrench, until in checkpoint.wrenches:
-        space.put_wrench(rigids[row], wrench, until)
-    for row, coming in checkpoint.coming:
-        space.commands.coming.put(rigids[row].body.name, coming)
+    put_commands(space, rigids, checkpoint)
     space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
@@ -154,6 +151,14 @@ def _restore_bodies(
     for some in _in_slices([rigids[row] for row in sorted(range(len(rigids)), key=_scattered)]):
         space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in some)
         yield
+
+
+def put_commands(space: Space, rigids: Sequence[RigidBody], checkpoint: Checkpoint) -> None:
+    """Put the wrenches that act, and the commands of drives that are on their way."""
+    for row, wrench, until in checkpoint.wrenches:
+        space.put_wrench(rigids[row], wrench, until)
+    for row, coming in checkpoint.coming:
+        space.commands.coming.put(rigids[row].body.name, coming)
 
 
 def _restore_joints(space: Space, checkpoint: Checkpoint) -> Iterator[None]:

@@ -13,7 +13,7 @@ import numpy as np
 from physsim_ros.engine.bodies import engine_motion
 from physsim_ros.engine.body_table import columns_of
 from physsim_ros.engine.boundary import wall_count
-from physsim_ros.engine.checkpoint import restore_checkpoint, take_checkpoint
+from physsim_ros.engine.checkpoint import put_commands, restore_checkpoint, take_checkpoint
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import (
     BodyState,
@@ -126,10 +126,7 @@ def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int)
             rigid.body = body
         space.lay_out(scene)
     checkpoint = replace(checkpoint, scene=scene, **_timed(state, step))
-    for row, wrench, until in checkpoint.wrenches:
-        space.put_wrench(rigids[row], wrench, until)
-    for row, coming in checkpoint.coming:
-        space.commands.coming.put(rigids[row].body.name, coming)
+    put_commands(space, rigids, checkpoint)
     space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors
     space.joints.set_commands(checkpoint.commands, checkpoint.step)
     return checkpoint

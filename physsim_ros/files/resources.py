@@ -207,7 +207,7 @@ def _changed_by_name(
 # Greatest size of a drawing file [bytes]: 200 times that of the largest shipped one.
 _MOST_BYTES = 2**20
 # Greatest number of strokes of a drawing [1]: the largest shipped one has 14.
-_MOST_STROKES = 1_000
+MOST_STROKES = 1_000
 
 
 class BadDrawing(Refusal):
@@ -237,8 +237,8 @@ def load_drawing(drawing: str) -> list[tuple[str, Floats]]:
         near = nearest_name(drawing, drawings()) if plain else ''
         raise BadDrawing(f'cannot read {path}: {error}{near}') from error
     strokes = content.get('strokes') if isinstance(content, dict) else None
-    if not isinstance(strokes, list) or not 1 <= len(strokes) <= _MOST_STROKES:
-        message = f'strokes must be a list of 1 to {_MOST_STROKES:,} strokes'
+    if not isinstance(strokes, list) or not 1 <= len(strokes) <= MOST_STROKES:
+        message = f'strokes must be a list of 1 to {MOST_STROKES:,} strokes'
         raise BadDrawing(message, field='strokes')
     return [_stroke(entry, f'strokes[{number}]') for number, entry in enumerate(strokes)]
 

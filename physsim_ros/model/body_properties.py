@@ -18,6 +18,7 @@ from physsim_ros.model.checks import (
     HEAVIEST,
     LIGHTEST,
     shown,
+    text,
     Vector,
     VELOCITY,
     Within,
@@ -45,13 +46,12 @@ def _group(value: object, name: str) -> int:
 
 
 def _label(value: object, name: str) -> str:
-    if not isinstance(value, str):
-        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
-    if len(value) > LONGEST_LABEL:
+    label = text(value, name, BadProperty)
+    if len(label) > LONGEST_LABEL:
         raise BadProperty(f'{name} has more than {LONGEST_LABEL} characters', field=name)
-    if not is_printable(value.replace('\n', '')):
+    if not is_printable(label.replace('\n', '')):
         raise BadProperty(f'{name} has an unprintable character', field=name)
-    return value
+    return label
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

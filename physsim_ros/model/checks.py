@@ -18,7 +18,7 @@ import reprlib
 from types import UnionType
 from typing import Any, get_args
 
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose
 
@@ -261,15 +261,15 @@ def flag(value: object, name: str) -> bool:
     return value
 
 
-def text(value: object, name: str) -> str:
+def text(value: object, name: str, error: type[Refusal] = Malformed) -> str:
     """
     Return a text.
 
     :param name: of the field, for the refusal
-    :raises Malformed: it is something else
+    :param error: that is raised where it is something else
     """
     if not isinstance(value, str):
-        raise Malformed(f'{name} must be text, not {shown(value)}', field=name)
+        raise error(f'{name} must be text, not {shown(value)}', field=name)
     return value
 
 

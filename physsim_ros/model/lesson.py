@@ -10,7 +10,7 @@ Its question is answered by one figure, which is measured in the world.
 from dataclasses import dataclass
 from typing import Annotated, Any
 
-from physsim_ros.model.checks import HEAVIEST, number, shown, Whole, Within
+from physsim_ros.model.checks import HEAVIEST, number, text, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.settings import Bounds, rectangle
@@ -25,13 +25,11 @@ def _text(longest: int) -> Any:
     """Return a check of texts of at most a length [characters], which are not empty."""
 
     def check(value: object, name: str) -> str:
-        if not isinstance(value, str):
-            raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
         # Folded lines of YAML end with a line break.
-        text = value.strip()
-        if not 0 < len(text) <= longest:
+        line = text(value, name, BadProperty).strip()
+        if not 0 < len(line) <= longest:
             raise BadProperty(f'{name} must have 1 to {longest} characters', field=name)
-        return text
+        return line
 
     return check
 

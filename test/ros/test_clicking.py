@@ -141,7 +141,8 @@ def test_a_half_drawn_shape_is_shown_until_it_is_done_or_dropped(hand: Hand) -> 
     hand.click(1, 0)
     assert shown(pictures) == [Marker.LINE_STRIP, Marker.SPHERE_LIST, Marker.TEXT_VIEW_FACING]
     line = pictures[-1].markers[1]
-    assert [(each.x, each.y) for each in line.points] == [(0.0, 0.0), (1.0, 0.0)]
+    # A decimetre above the bodies.
+    assert [(each.x, each.y, each.z) for each in line.points] == [(0.0, 0.0, 0.1), (1.0, 0.0, 0.1)]
     assert line.header.frame_id == 'world'
     late = hand.client.listen(MarkerArray, '~/preview', KEPT)
     hand.client.spin_until(lambda: late)

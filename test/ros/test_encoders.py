@@ -36,6 +36,7 @@ from physsim_ros.ros.encoders.streams import (
 )
 from physsim_ros.ros.publishers.status_publishers import encode_event
 from physsim_ros.ros.requests.conversions import body_request
+from physsim_ros.simulation.world import World
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock
@@ -44,7 +45,7 @@ from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker, MarkerArray
 import yaml
 
-from ..building import PLAIN_BODY
+from ..building import join, PLAIN_BODY, spawn
 
 # Every shape, and the type, scale and points of the marker that spawns it.
 CORNERS = ((0.0, 0.0), (2.0, 0.0), (0.5, 0.5), (0.0, 2.0))
@@ -437,6 +438,15 @@ def test_scenes_that_change_in_each_frame_are_drawn_as_each_was_begun():
         assert encoder.encode(frame_of(begun)) is None
         markers = [each for each in picture(encoder, ready) if each.action == Marker.ADD]
         assert drawn(markers) == drawn(marker_array(begun).markers)
+
+
+def test_a_joint_that_is_changed_is_drawn_as_if_it_were_new():
+    world, encoder = World(), MarkersEncoder('world')
+    spawn(world, 'a/0', Disc(radius=0.35))
+    for kind in ('rod', 'spring'):
+        join(world, kind, [(0.0, 0.0), (3.0, 0.0)], a='a/0', b='world')
+        markers = picture(encoder, world.snapshot())
+    assert markers == picture(MarkersEncoder('world'), world.snapshot())
 
 
 def test_what_has_gone_is_deleted_in_sixty_messages_unless_it_comes_back():

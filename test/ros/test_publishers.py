@@ -22,6 +22,7 @@ from physsim_ros.ros.publishers import status_publishers
 from physsim_ros.ros.publishers.publishers import LATCH_PERIOD
 from physsim_ros.testing import box, disc, PhysSim
 import pytest
+from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
@@ -126,6 +127,21 @@ def test_an_unseen_picture_that_takes_several_frames_is_finished_at_once(
     physsim.step(1)
     assert encoded.count('markers') == 1
     assert not physsim.node.outputs.topics.is_read
+
+
+@pytest.mark.parametrize(
+    ('topic', 'kind'),
+    [('~/poses', PoseArray), ('~/contacts', MultiDOFJointState), ('~/timeline', DiagnosticStatus)],
+)
+def test_frames_are_read_while_a_topic_of_them_has_a_listener(
+    physsim: PhysSim, client: Client, topic: str, kind: type
+) -> None:
+    # The fixture itself hears the clock.
+    physsim.node.set_parameters([Parameter('publish_clock', value=False)])
+    physsim.step(2)
+    assert not physsim.node.outputs.topics.is_read
+    client.listen(kind, topic)
+    assert physsim.node.outputs.topics.is_read
 
 
 def test_an_unseen_picture_is_kept_up_with_a_changing_scene(

@@ -67,6 +67,16 @@ def test_a_teacher_freezes_the_pages_of_pupils_and_not_the_own(browser: Browser)
     assert pupil.spawn('b/0', 3.0)['ok']
 
 
+def test_who_is_there_is_told_when_it_changes_and_not_with_each_frame(browser: Browser) -> None:
+    page = browser.open_page()
+    assert page.ask('person', name='Anna')['ok']
+    page.until_last('class', lambda told: told['people'][0]['name'] == 'Anna')
+    count = len(page.of_type('class'))
+    browser.physsim.run(0.5)
+    page.until_frame(lambda frame: frame.time >= 0.5)
+    assert len(page.of_type('class')) == count
+
+
 def test_freezing_and_locking_are_parameters_that_scripts_have_too(browser: Browser) -> None:
     pupil = browser.open_page()
     browser.physsim.node.set_parameters([Parameter('sketchpad_frozen', value=True)])

@@ -74,6 +74,7 @@ def test_processes_have_the_same_runs_to_the_bit(runs: list[Run]) -> None:
         assert told(sweep(experiment(), CASES, pool.map)) == told(runs)
 
 
+@pytest.mark.slow
 def test_a_cluster_has_the_same_runs_to_the_bit(
     runs: list[Run], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -18,10 +18,12 @@ static const double least = 1e-6, most = 2.5; // 3 < 4
 enum { ROUNDS = 10 };
 enum { ONE, TWO };
     for (int k = 0; k < count; k++) {
+    assert(count <= most && room == 2);
         if (x >= least && is_µ) {
 """
 PYTHON = """
 LEAST = 3
+NONE = 0
 NAME = 'µ'
 def found(x, y):
     local = 4

@@ -46,7 +46,8 @@ def tests_of(path: Path) -> list[str]:
     if path.parts[1] == 'engine':
         return ['test/engine', 'test/laws']
     folder = f'test/{path.parts[1]}'
-    return [folder if (ROOT / folder).is_dir() else 'test']
+    # Limits are promised by documents, whatever folder they are of.
+    return [folder, 'test/test_limits.py'] if (ROOT / folder).is_dir() else ['test']
 
 
 def is_noticed(tree: Path, path: Path) -> bool:

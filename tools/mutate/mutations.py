@@ -18,9 +18,9 @@ _TURNED |= {'in': 'not in', 'not in': 'in'}
 # A constant of a file, or of an enum that has no other.
 _CONSTANTS = re.compile(r'^(static const double .*;|enum \{ \w+ = .* \};)', re.MULTILINE)
 _NUMBER = re.compile(r'(?<== )\d[\d.e+-]*')
-# Loops are left out: one that never ends is no answer.
+# Without loops: one that never ends is no answer. Without assertions, which are tests themselves.
 _CONDITIONS = re.compile(
-    r'^(?!.*\b(?:for|while) \().*(?:\bif \(|\breturn\b| \? |= ).*$', re.MULTILINE
+    r'^(?!.*\b(?:for|while|assert) ?\().*(?:\bif \(|\breturn\b| \? |= ).*$', re.MULTILINE
 )
 _OPERATOR = re.compile(r'(?<= )(<=|>=|<|>|==|!=|&&|\|\|)(?= )')
 
@@ -85,7 +85,8 @@ def _in_python(text: str) -> Iterator[tuple[int, int, str]]:
     module = ast.parse(text)
     for node in module.body:
         value = node.value if isinstance(node, (ast.Assign, ast.AnnAssign)) else None
-        if isinstance(value, ast.Constant) and type(value.value) in {int, float}:
+        # 0 times 40 is 0.
+        if isinstance(value, ast.Constant) and type(value.value) in {int, float} and value.value:
             end = place(value.end_lineno or 0, value.end_col_offset or 0)
             yield end, end, f' * {FACTOR}'
     for part in ast.walk(module):

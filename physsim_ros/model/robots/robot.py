@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import ListOf, Row, shown, Within
+from physsim_ros.model.checks import ListOf, Row, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.latency import delays
@@ -78,9 +78,7 @@ def check_namespace(value: object, name: str) -> str:
     :param name: of the field, for the refusal
     :raises BadProperty: ROS does not allow it
     """
-    if not isinstance(value, str):
-        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
-    namespace = value.removeprefix('/')
+    namespace = text(value, name, BadProperty).removeprefix('/')
     if len(namespace) > _LONGEST or not _NAMESPACE.fullmatch(namespace):
         raise BadProperty(
             f'{name} {shown(value)} is not a ROS name: letters, digits and _, separated by /; no '

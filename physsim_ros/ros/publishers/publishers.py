@@ -131,9 +131,8 @@ class Publishers:
     @property
     def is_read(self) -> bool:
         """Whether a topic of frames has subscribers."""
-        streams = (*self.streams, self.contacts)
-        others = self._markers.is_read or self.timeline.is_read
-        return others or any(each.is_read for each in streams)
+        streams = (each.is_read for each in (*self.streams, self.contacts))
+        return any((self._markers.is_read, self.timeline.is_read, *streams))
 
 
 class Encoder(Protocol):

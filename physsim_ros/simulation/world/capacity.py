@@ -16,7 +16,7 @@ whole world are counted (`engine.overlaps`).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 
 import numpy as np
@@ -128,9 +128,7 @@ class Capacity:
         :raises WorldFull: the robots would have too many topics
         """
         if self.checking and body.robot is not None:
-            bodies = self._space.bodies.by_name.items()
-            others = (rigid.body for name, rigid in bodies if name != body.name)
-            _check_topics((body, *others))
+            _check_topics(self._with(body))
 
     def check_attraction(self, body: Body) -> None:
         """
@@ -139,9 +137,12 @@ class Capacity:
         :raises WorldFull: too many bodies would attract each other
         """
         if self.checking:
-            bodies = self._space.bodies.by_name.items()
-            others = (rigid.body for name, rigid in bodies if name != body.name)
-            check_attraction(chain((body,), others), self._space.settings)
+            check_attraction(self._with(body), self._space.settings)
+
+    def _with(self, body: Body) -> Iterator[Body]:
+        """Yield the bodies of the space, a new one in place of that of its name."""
+        others = self._space.bodies.by_name.values()
+        return chain((body,), (each.body for each in others if each.body.name != body.name))
 
     def check_settings(self, settings: WorldSettings) -> None:
         """

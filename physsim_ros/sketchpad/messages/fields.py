@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.model.checks import check_point, number, pair, shown
+from physsim_ros.model import checks
+from physsim_ros.model.checks import check_point, number, pair
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.names import LONGEST_NAME
@@ -25,11 +26,10 @@ LONGEST_PERSON = 24
 
 def text(value: object, name: str) -> str:
     """Return a text of at most the length of a name."""
-    if not isinstance(value, str):
-        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
-    if len(value) > LONGEST_NAME:
+    words = checks.text(value, name, BadProperty)
+    if len(words) > LONGEST_NAME:
         raise BadProperty(f'{name} has more than {LONGEST_NAME} characters', field=name)
-    return value
+    return words
 
 
 def person(value: object, name: str) -> str:

@@ -9,7 +9,7 @@ import math
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import Row, shown, Within
+from physsim_ros.model.checks import Row, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.latency import delays
@@ -41,15 +41,14 @@ def topic_name(value: object, name: str) -> str:
     :param name: of the field, for the refusal
     :raises BadProperty: ROS does not allow it
     """
-    if not isinstance(value, str):
-        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
-    if len(value) > _LONGEST or not _TOPIC.fullmatch(value):
+    word = text(value, name, BadProperty)
+    if len(word) > _LONGEST or not _TOPIC.fullmatch(word):
         raise BadProperty(
             f'{name} {shown(value)} is not a ROS topic: letters, digits and _, not a digit first, '
             f'at most {_LONGEST} characters',
             field=name,
         )
-    return value
+    return word
 
 
 def mounting(value: object, name: str) -> Pose:
