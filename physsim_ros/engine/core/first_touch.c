@@ -144,7 +144,7 @@ void correct_first_touches(World *world) {
     }
     int begun = 0;
     bool *hidden = TAKE(arena, bool, count);
-    const Touch **faces = TAKE(arena, const Touch *, count);
+    MetFace *faces = TAKE(arena, MetFace, count);
     int face_count = list_met_faces(touches, count, faces);
     for (int number = 0; number < count; number++) {
         hidden[number] = has_stage(world, STAGE_EDGES) && is_disc_on_edges(touches[number].arbiter) &&

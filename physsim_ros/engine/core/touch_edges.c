@@ -44,19 +44,18 @@ static bool is_at_corner(const Touch *touch, int side) {
 }
 
 static int by_disc(const void *one, const void *other) {
-    uintptr_t a = (*(const Touch *const *)one)->shapes[0]->hashid,
-              b = (*(const Touch *const *)other)->shapes[0]->hashid;
-    return (a > b) - (a < b);
+    const MetFace *a = one, *b = other;
+    return (a->disc > b->disc) - (a->disc < b->disc);
 }
 
-int list_met_faces(const Touch *touches, int count, const Touch **faces) {
+int list_met_faces(const Touch *touches, int count, MetFace *faces) {
     int found = 0;
     for (int number = 0; number < count; number++) {
         if (touches[number].on_face) {
-            faces[found++] = touches + number;
+            faces[found++] = (MetFace){touches[number].shapes[0]->hashid, touches + number};
         }
     }
-    sort(faces, found, sizeof(const Touch *), by_disc);
+    sort(faces, found, sizeof(MetFace), by_disc);
     return found;
 }
 
@@ -66,21 +65,20 @@ static bool hides(const Touch *face, const Touch *corner) {
     return face->met <= corner->met && -dot(face->normal, offset) <= slop_of(corner->arbiter);
 }
 
-bool is_hidden(const Touch *touch, const Touch *const *faces, int count) {
+bool is_hidden(const Touch *touch, const MetFace *faces, int count) {
     if (touch->on_face || !is_at_corner(touch, 1)) {
         return false;
     }
+    uintptr_t disc = touch->shapes[0]->hashid;
     int low = 0, high = count;
     while (low < high) {
         int middle = (low + high) / 2;
-        if (by_disc(faces + middle, &touch) < 0) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
+        bool before = faces[middle].disc < disc;
+        low = before ? middle + 1 : low;
+        high = before ? high : middle;
     }
-    for (int number = low; number < count && faces[number]->shapes[0] == touch->shapes[0]; number++) {
-        if (hides(faces[number], touch)) {
+    for (int number = low; number < count && faces[number].disc == disc; number++) {
+        if (hides(faces[number].touch, touch)) {
             return true;
         }
     }
