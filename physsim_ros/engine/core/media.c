@@ -16,11 +16,12 @@
 // sub-step, of the velocity in the middle of that (implicit midpoint rule). Where drag stops a body within a sub-step,
 // the velocity is later than the middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration
 // Methods for Stiff Systems", SIAM J. Numer. Anal. 1970). D in free flight is that of the mean of a guess of the twist
-// and of the twist to which the drag of the guess leads (Newton's method for v² = a, which is Heron's). Scope: no mass
-// of medium that moves along (added mass), no lift, no waves; a medium is not pushed. Laws: drag takes energy from what
-// moves in a medium at rest; no drag is too strong for the steps, nor a bubble too light; what is dry, what is wet and
-// their sum are the same outline. Cost: a hundred bodies that float apart take 1.7 to 1.9 times as long as a hundred
-// that fall in no air. Without it laws 70 and 71 fail: nothing floats.
+// and of the twist to which the drag of the guess leads (Newton's method for v² = a, which is Heron's).
+// Scope: no mass of medium that moves along (added mass), no lift, no waves; a medium is not pushed.
+// Laws: drag takes energy from what moves in a medium at rest; no drag is too strong for the steps, nor a bubble too
+// light; what is dry, what is wet and their sum are the same outline.
+// Cost: a hundred bodies that float apart take 1.7 to 1.9 times as long as a hundred that fall in no air.
+// Without it laws 70 and 71 fail: nothing floats.
 
 #include "media.h"
 #include "stages.h"
