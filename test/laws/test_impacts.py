@@ -144,6 +144,46 @@ ROOMS = [
 ]
 
 
+def corner_impact(size, speed, spin, elasticity):
+    """
+    Let a smooth box that turns hit a plane with a corner, from a height of 1 m.
+
+    :return: its velocity along the normal [m/s] and its spin [rad/s] after that, of a rigid body
+    """
+    corners = [(x * size[0] / 2, y * size[1] / 2) for x in (-1, 1) for y in (-1, 1)]
+
+    def lowest(time):
+        return min((turned(corner, spin * time) for corner in corners), key=lambda place: place[1])
+
+    low, high = 0.0, 1.0 / speed
+    while high - low > 1e-12:
+        time = (low + high) / 2
+        low, high = (time, high) if 1.0 - speed * time + lowest(time)[1] > 0.0 else (low, time)
+    arm = lowest(low)[0]
+    moment = (size[0] ** 2 + size[1] ** 2) / 12
+    impulse = (1.0 + elasticity) * (speed - spin * arm) / (1.0 + arm**2 / moment)
+    return impulse - speed, spin + impulse * arm / moment
+
+
+@pytest.mark.parametrize('tiles', [1, 200])
+@pytest.mark.parametrize(('speed', 'spin'), [(3.0, 10.0), (10.0, -20.0), (30.0, 20.0)])
+def test_a_corner_bounces_where_it_first_meets_a_floor(report, speed, spin, tiles):
+    size, elasticity, width = (0.5, 0.3), 0.5, 4.0 / tiles
+    sim = simulation(gravity=NOWHERE, elasticity=elasticity, friction=0.0)
+    for number in range(tiles):
+        x = (number + 0.5) * width - 2.0
+        spawn(sim, f'tile/{number}', Box(width=width, height=0.2), (x, -0.1, 0.0), anchored=True)
+    said = {'velocity': (0.0, -speed), 'spin': spin}
+    box = spawn(sim, 'box/0', Box(width=size[0], height=size[1]), (0.003, 1.0, 0.0), **said)
+
+    after = next(now for now in steps(sim, round(2.0 / DT)) if now.twists[box, 2] != spin)
+
+    exact = corner_impact(size, speed, spin, elasticity)
+    what = f'corner at {speed:g} m/s, {spin:g} rad/s'
+    report.check(6, f'{what}, velocity', after.twists[box, 1], exact[0], 1e-3 * speed, 'm/s')
+    report.check(6, f'{what}, spin', after.twists[box, 2], exact[1], 1e-3 * abs(spin), 'rad/s')
+
+
 @pytest.mark.parametrize(('gap', 'speed'), ROOMS)
 def test_a_ball_between_walls_goes_the_way_of_its_reported_velocity(report, gap, speed):
     radius, seconds = 0.05, 5.0

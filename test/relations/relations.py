@@ -51,6 +51,8 @@ class Relation:
     :param reason: of the tolerance
     :param applies: whether it says anything about a state
     :param plain: plays a scene as that with which the other is compared
+    :param keeps_energy: whether the other world has the energy of the scene, by which chaotic ones
+        are compared; else their places are
     """
 
     law: str
@@ -59,6 +61,7 @@ class Relation:
     reason: str
     applies: Callable[[WorldState], bool] = lambda _: True
     plain: Callable[[Scene], Film] = film
+    keeps_energy: bool = True
 
     def is_about(self, scene: Scene) -> bool:
         """Return whether it says anything about a scene."""
@@ -66,12 +69,15 @@ class Relation:
 
     def limit(self, scene: Scene) -> float:
         """Return the tolerance of a scene [m]; of a chaotic one that of its energy [1]."""
-        return CHAOS if scene.chaotic and self.tolerance else self.tolerance
+        return CHAOS if self._is_of_energy(scene) else self.tolerance
+
+    def _is_of_energy(self, scene: Scene) -> bool:
+        return scene.chaotic and self.keeps_energy and self.tolerance > 0.0
 
     def off(self, scene: Scene) -> float:
         """Return how far the other world of a scene is off [m]; of a chaotic one in energy [1]."""
         found = difference(self.plain(scene), self.other(scene))
-        return found.energy if scene.chaotic and self.tolerance else found.way
+        return found.energy if self._is_of_energy(scene) else found.way
 
 
 def _changed(change):
@@ -459,6 +465,7 @@ RELATIONS = {
         tolerance=1e-9,
         reason=ROUNDING,
         applies=_moves_alone,
+        keeps_energy=False,
     ),
     'reordered': Relation(
         law='the order of bodies and joints changes nothing',
@@ -473,6 +480,7 @@ RELATIONS = {
         ),
         tolerance=1e-9,
         reason=ROUNDING,
+        keeps_energy=False,
     ),
     'limits far off': Relation(
         law='limits of joints that are not reached change nothing',

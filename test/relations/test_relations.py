@@ -3,10 +3,14 @@
 
 """Every relation holds for every scene, or is told as an exception with its figure."""
 
+import itertools
+
 import pytest
 
+from . import changes
 from .exceptions import crossings, EXCEPTIONS, is_quick, limit, MARGIN, REASONS, UNKNOWN
-from .relations import RELATIONS
+from .films import begin, difference, play
+from .relations import film, RELATIONS
 from .scenes import SCENES
 from ..slow import slow
 
@@ -27,6 +31,17 @@ def test_a_relation_holds_for_a_scene(relation, scene):
     else:
         assert off > most, 'it is no exception any more: python -m test.relations.exceptions'
         assert off <= MARGIN * told, f'{law.law}: off by {off:.2g}, told {told:.2g}'
+
+
+@pytest.mark.parametrize('scene', [name for name, scene in SCENES.items() if scene.chaotic])
+def test_chaos_is_seen_by_a_displacement_that_grows(scene):
+    grown = []
+    for size, seed in itertools.product((1e-12, 1e-9, 1e-7), range(4)):
+        moved = begin(changes.shaken(SCENES[scene].state, by=size, seed=seed))
+        seen = play(moved, SCENES[scene].seconds)
+        grown.append(difference(film(SCENES[scene]), seen).way / size)
+
+    assert max(grown) >= 1000.0
 
 
 def test_exceptions_are_those_of_crossings_that_there_are():

@@ -40,6 +40,7 @@ def test_every_stage_can_be_switched_off(stage):
         ('elastic rows, 2 of 5 (36)', 'impact propagation'),
         ('checkpoint (26)', 'warm start'),
         ('raft (70)', 'fields'),
+        ('box that tips (78)', 'steep friction'),
     ],
 )
 def test_a_scene_fails_without_a_stage(name, without):

@@ -27,6 +27,7 @@ from test.laws.scenes import (
     simulation,
     spawn,
     steps,
+    turned,
 )
 from test.worlds import film
 import time
@@ -367,6 +368,20 @@ def _raft() -> float:
     return abs(sim.world.snapshot().poses[1, 1] - 0.02)
 
 
+def _tips() -> float:
+    """Return how deep a box of great friction that tips on an incline comes in with its corner."""
+    sim, angle, height, depth = simulation(friction=3.0, elasticity=0.0), 0.8, 1.0, 0.0
+    floor(sim, angle=angle)
+    spawn(sim, 'box/0', Box(width=0.5, height=height), (*turned((0.0, 0.5), angle), angle))
+    for now in steps(sim, 240):
+        x, y, yaw = now.poses[1]
+        fallen = abs(yaw - angle)
+        below = 0.25 * math.sin(fallen) + height / 2 * math.cos(fallen)
+        if fallen < 1.2:
+            depth = max(depth, below - turned((x, y), -angle)[1])
+    return depth
+
+
 SCENES = (
     Scene('free flight (1)', 'm', 1e-9, _free_flight),
     Scene('thin wall (25)', 'm', 0.01, _thin_wall),
@@ -389,6 +404,7 @@ SCENES = (
     Scene('robot on an arc (38)', 'm', 1e-6, _robot),
     Scene('bridge', 'm', 2e-3, _bridge),
     Scene('raft (70)', 'm', 1e-4, _raft),
+    Scene('box that tips (78)', 'm', 1e-4, _tips),
     Scene('checkpoint (26)', 'm/s', 5e-3, _checkpoint),
     Scene('at rest', 'bare steps', 1.0, _at_rest),
 )

@@ -66,6 +66,7 @@ STAGES = (
     Stage('impact loads', lib.STAGE_LOADS),
     Stage('order of contact points', lib.STAGE_ORDER),
     Stage('fields', lib.STAGE_FIELDS),
+    Stage('steep friction', lib.STAGE_STEEP_FRICTION),
     Stage('sleeping', 0, (((settings, 'IDLE_TIME'), math.inf),)),
     Stage(
         'warm start',

@@ -28,13 +28,12 @@
 #include "impact_propagation.h"
 #include "lcp.h"
 #include "stages.h"
+#include "touch.h"
 
 // Points that are solved together, at most: of four boxes on each other and the ground, eight are.
 enum { CLUSTER_POINTS = LCP_ROWS };
 // Bodies that move, at most: two that meet, and each further one brings a point.
 enum { CLUSTER_BODIES = CLUSTER_POINTS + 1 };
-// Normals of one face differ by the tilt of the bodies that lie on it [1].
-static const double same_normal = 1e-3;
 
 // A contact that begins with an impact.
 typedef struct Hit {

@@ -6,7 +6,7 @@
 // Problem: Chipmunk finds an impact where the step ends: the bodies have entered each other by then, have lost the rest
 // of the step, and leave with the velocity of its end. A ball between two walls covers a fraction of its distance, each
 // bounce on a floor gains the energy of its overlap, and the position bias pushes apart what has sunk in.
-// Method: the time since an impact is the overlap by the approach velocity (of a disc: since it first met the other
+// Method: the time since an impact is the overlap by the approach velocity (of a corner: since it first met the other
 // shape). The impact gets the approach velocity of that moment, and gravity acts on the new velocity from then on:
 // parting velocity = -e v(t) + a (end - t), a the acceleration of one body against the other. After the solver the
 // displacement that each body has made since then is replaced by that of its new velocity, as far as nothing is in
@@ -52,6 +52,13 @@ static double deepest_of(const Touch *touch) {
     return greatest(-distance_of(touch, 0), -distance_of(touch, 1));
 }
 
+// The time since an impact, as long as the bodies moved freely [s]; `remaining` is the rest of the step.
+static double since_impact(const Touch *touch, double approach, double remaining, double dt) {
+    // The arms of a corner are those of its impact, so that its overlap leaves out that it has turned since.
+    bool is_corner = touch->met > 0.0 && kind_of(touch->shapes[0]) == SHAPE_POLYGON;
+    return is_corner ? (1.0 - touch->met) * dt - remaining : deepest_of(touch) / approach;
+}
+
 // The velocity at which bodies approach in a contact, as the step begins.
 static double true_approach(const World *world, const cpArbiter *arbiter) {
     double approach = -INFINITY, rate = 0.0;
@@ -92,10 +99,10 @@ void time_impacts(World *world) {
         if (approach <= slowest_impact) {
             continue;
         }
-        double since = clamped(deepest_of(touch) / approach, 0.0, world->dt);
         Body *a = body_of(touch->engines[0]), *b = body_of(touch->engines[1]);
-        bool bounces = set_bounce(world, touch->arbiter,
-                                  least(since + greatest(a->scratch.remaining, b->scratch.remaining), world->dt));
+        double remaining = greatest(a->scratch.remaining, b->scratch.remaining);
+        double since = clamped(since_impact(touch, approach, remaining, world->dt), 0.0, world->dt);
+        bool bounces = set_bounce(world, touch->arbiter, least(since + remaining, world->dt));
         a->scratch.bounces |= bounces;
         b->scratch.bounces |= bounces;
         a->scratch.since = greatest(a->scratch.since, since);

@@ -29,7 +29,7 @@ static void damp_rounds(const cpArbiter *arbiter, cpContact *point) {
 }
 
 void damp_steep_friction(World *world) {
-    for (int number = 0; number < arbiter_count(world); number++) {
+    for (int number = 0; number < arbiter_count(world) && has_stage(world, STAGE_STEEP_FRICTION); number++) {
         const cpArbiter *each = arbiter_at(world, number);
         for (int point = 0; point < each->count; point++) {
             damp_rounds(each, each->contacts + point);

@@ -23,6 +23,7 @@ Touch touch_of(cpArbiter *arbiter) {
 
 void write_touch(const Touch *touch) {
     touch->arbiter->n = touch->normal;
+    touch->arbiter->count = touch->count;
     for (int point = 0; point < touch->count; point++) {
         touch->arbiter->contacts[point].r1 = sub(touch->points[point][0], touch->engines[0]->p);
         touch->arbiter->contacts[point].r2 = sub(touch->points[point][1], touch->engines[1]->p);

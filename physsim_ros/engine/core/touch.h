@@ -16,13 +16,17 @@ typedef struct Touch {
     int count;        // of points
     Vec normal;       // from the first body to the second
     Vec points[2][2]; // of both points (first index) on either body (second) [m]
-    double met;       // when a disc first met the other shape, as a share of the step; 0 where that is not known
+    double met;       // when the shapes first met, as a share of the step; 0 where that is not known
+    int cornered;     // the shape, of which a corner met the other one then; a disc has but one
     bool on_face;     // whether that was at a face
 } Touch;
 
+// Normals of one face differ by the tilt of the bodies that lie on it [1].
+static const double same_normal = 1e-3;
+
 Touch touch_of(cpArbiter *arbiter);
 
-// Write normal and points to Chipmunk.
+// Write normal, points and their number to Chipmunk.
 void write_touch(const Touch *touch);
 
 // The distance of a point on the second body from that on the first along the normal, < 0 where they overlap [m].

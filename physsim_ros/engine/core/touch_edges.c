@@ -5,8 +5,8 @@
 //
 // Problem: at a seam a corner is in contact, whose normal stops what slides ("ghost collision").
 // Method: a contact at a corner, while a face is entered by no more than the slop and under no more than 10 degrees,
-// gets the normal of that face (`btInternalEdgeUtility` in Bullet). A disc that has met a face lies before its plane:
-// a corner that it meets later in the sub-step, in that plane or behind it, is none that it can touch.
+// gets the normal of that face (`btInternalEdgeUtility` in Bullet). A disc or corner that has met a face lies before
+// its plane: what its shape meets later in the sub-step, in that plane or behind it, is none that it can touch.
 // Cost, and what fails without it: `first_touch.c`.
 
 #include "touch_stages.h"
@@ -43,43 +43,68 @@ static bool is_at_corner(const Touch *touch, int side) {
     return false;
 }
 
-static int by_disc(const void *one, const void *other) {
-    const MetFace *a = one, *b = other;
-    return (a->disc > b->disc) - (a->disc < b->disc);
+// Whether a shape has met a face before another contact, which lies in the plane of the face or behind it.
+static bool hides(const Touch *face, const Touch *touch, int side) {
+    Vec outwards = face->cornered == 0 ? negated(face->normal) : face->normal;
+    Vec other = side == 0 ? negated(touch->normal) : touch->normal;
+    // Two corners of a polygon may meet one face.
+    bool may_be_hidden = kind_of(touch->shapes[side]) == SHAPE_CIRCLE || length(sub(outwards, other)) > same_normal;
+    Vec offset = sub(touch->points[0][1 - side], face->points[0][1 - face->cornered]);
+    return may_be_hidden && face->met <= touch->met && dot(outwards, offset) <= slop_of(touch->arbiter);
 }
 
-int list_met_faces(const Touch *touches, int count, MetFace *faces) {
-    int found = 0;
+static uintptr_t cornered_shape(const Touch *face) {
+    return face->shapes[face->cornered]->hashid;
+}
+
+static int by_shape(const void *one, const void *other) {
+    uintptr_t first = cornered_shape(*(const Touch *const *)one), second = cornered_shape(*(const Touch *const *)other);
+    return (first > second) - (first < second);
+}
+
+int list_faces(const Touch *touches, int count, const Touch **faces) {
+    int face_count = 0;
     for (int number = 0; number < count; number++) {
         if (touches[number].on_face) {
-            faces[found++] = (MetFace){touches[number].shapes[0]->hashid, touches + number};
+            faces[face_count++] = touches + number;
         }
     }
-    sort(faces, found, sizeof(MetFace), by_disc);
-    return found;
+    sort(faces, face_count, sizeof(const Touch *), by_shape);
+    return face_count;
 }
 
-// Whether the contact of a disc is at a face that it has met before a corner, which lies in its plane or behind it.
-static bool hides(const Touch *face, const Touch *corner) {
-    Vec offset = sub(corner->points[0][1], face->points[0][1]);
-    return face->met <= corner->met && -dot(face->normal, offset) <= slop_of(corner->arbiter);
-}
-
-bool is_hidden(const Touch *touch, const MetFace *faces, int count) {
-    if (touch->on_face || !is_at_corner(touch, 1)) {
-        return false;
-    }
-    uintptr_t disc = touch->shapes[0]->hashid;
+// The number of the first face that a shape has met, or that of the next shape.
+static int first_of(uintptr_t shape, const Touch *const *faces, int count) {
     int low = 0, high = count;
     while (low < high) {
-        int middle = (low + high) / 2;
-        bool before = faces[middle].disc < disc;
-        low = before ? middle + 1 : low;
-        high = before ? high : middle;
+        int middle = low + (high - low) / 2;
+        if (cornered_shape(faces[middle]) < shape) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
     }
-    for (int number = low; number < count && faces[number].disc == disc; number++) {
-        if (hides(faces[number].touch, touch)) {
-            return true;
+    return low;
+}
+
+// Whether a contact may be with what lies behind a face: of a disc one at a corner, of polygons one that begins fast.
+static bool may_be_behind(const Touch *touch) {
+    if (kind_of(touch->shapes[0]) != SHAPE_CIRCLE) {
+        return touch->met > 0.0;
+    }
+    return kind_of(touch->shapes[1]) != SHAPE_CIRCLE && !touch->on_face && is_at_corner(touch, 1);
+}
+
+bool is_hidden(const Touch *touch, const Touch *const *faces, int count) {
+    // A disc comes first.
+    int sides = kind_of(touch->shapes[0]) == SHAPE_CIRCLE ? 1 : 2;
+    for (int side = 0; side < sides && may_be_behind(touch); side++) {
+        uintptr_t shape = touch->shapes[side]->hashid;
+        int face = first_of(shape, faces, count);
+        for (; face < count && cornered_shape(faces[face]) == shape; face++) {
+            if (hides(faces[face], touch, side)) {
+                return true;
+            }
         }
     }
     return false;

@@ -108,7 +108,7 @@ def test_what_comes_to_rest_on_a_damped_spring_sleeps_there():
 
 
 # If a sub-step of falling began the idle time anew, as in Chipmunk, each would take a second more.
-@pytest.mark.parametrize(('seed', 'seconds'), [(0, 2.25), (9, 3.25), (3, 4.5)])
+@pytest.mark.parametrize(('seed', 'seconds'), [(0, 2.0), (1, 1.75), (4, 3.25)])
 def test_a_pile_sleeps_though_a_contact_that_bears_nothing_is_lost_now_and_then(seed, seconds):
     chance = random.Random(seed)
     world = World(settings=WorldSettings(bounds=(-1.0, 0.0, 1.0, 30.0), elasticity=0.0))
