@@ -14,8 +14,9 @@ lead. Pymunk does not wake bodies that overlap a static or kinematic body which 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 import math
 import operator
 
@@ -61,6 +62,9 @@ BODY_STATE = dtype_of('BodyState')
 _NEW = np.zeros(1, BODY_STATE)[0]
 _NEW['free'] = _NEW['fresh'] = _NEW['thrown'] = True
 _SPAWNED, _WAITING = np.array([SPAWNED], ROBOT_STATE)[0], np.array([WAITING], ACTOR_STATE)[0]
+# Pieces of a body that enter the engine's tree in their order [1]: of 1,000 segments in a row,
+# blocks of 16 or 32 make the fastest steps; all in their order take three times as long to enter.
+_BLOCK = 32
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
 
@@ -256,7 +260,7 @@ def build_body(body: Body) -> RigidBody:
     else:
         pm_body = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
     offset = offset_of(body)
-    shapes = [_shape(piece, pm_body, offset) for piece in body.shape.form.pieces]
+    shapes = [_shape(piece, pm_body, offset) for piece in _in_blocks(body.shape.form.pieces)]
     rigid = RigidBody(body, pm_body, handles_of(pm_body, *shapes))
     _set_neighbors([shape for shape in shapes if isinstance(shape, pymunk.Segment)])
     for shape in shapes:
@@ -282,6 +286,23 @@ def handles_of(*objects: pymunk.Body | pymunk.Shape | pymunk.Constraint) -> tupl
         vars(each).pop('_h' if isinstance(each, pymunk.Shape) else '_data_handle')
         for each in objects
     )
+
+
+def scattered(number: int) -> int:
+    """
+    Return the place of a number in an order in which shapes enter the engine's tree.
+
+    The tree of shapes in a row that enter from left to right is as deep as there are shapes: with
+    20,000 bodies it took 10 s. Numbers are scattered by the golden ratio (Fibonacci hashing:
+    Knuth, "The Art of Computer Programming" 3, section 6.4).
+    """
+    return number * 2654435761 % 2**32
+
+
+def _in_blocks(pieces: Sequence[Piece]) -> Iterator[Piece]:
+    """Yield the pieces of a body as they enter the engine's tree: in scattered blocks."""
+    for block in sorted(range(-(-len(pieces) // _BLOCK)), key=scattered):
+        yield from islice(pieces, block * _BLOCK, (block + 1) * _BLOCK)
 
 
 def _shape(piece: Piece, pm_body: pymunk.Body, offset: Point) -> pymunk.Shape:

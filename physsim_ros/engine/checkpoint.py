@@ -12,12 +12,12 @@ each checkpoint that is taken.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
-from physsim_ros.engine.bodies import BODY_STATE, build_body, RigidBody, wake_bodies
+from physsim_ros.engine.bodies import BODY_STATE, build_body, RigidBody, scattered
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, write_impulses
 from physsim_ros.model.checkpoint import Checkpoint
@@ -30,6 +30,8 @@ import pymunk
 _Entry = TypeVar('_Entry', Body, RigidBody, Joint)
 # Pieces of bodies, or ends and guides of joints, in a slice of a rebuild: at most some 30 ms.
 _SLICE = 500
+# Pieces that are moved away from others before a step that clears contacts.
+_CLEARED = 5000
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
@@ -102,7 +104,7 @@ def slices_of_restore(
     :param pool: bodies built beforehand, by name, which are used up
     """
     slices, scene = _slices_of_restore(checkpoint, dt, pool or {}), checkpoint.scene
-    if sum(map(_size, scene.bodies)) + sum(map(_size, scene.joints)) <= _SLICE:
+    if scene.piece_count + sum(map(_size, scene.joints)) <= _SLICE:
         return finish(slices)
     yield
     return (yield from slices)
@@ -148,7 +150,7 @@ def _restore_bodies(
     at_rest[:, 3:] = 0.0
     space.core.write_state(at_rest)
     yield
-    for some in _in_slices([rigids[row] for row in sorted(range(len(rigids)), key=_scattered)]):
+    for some in _in_slices([rigids[row] for row in sorted(range(len(rigids)), key=scattered)]):
         space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in some)
         yield
 
@@ -185,12 +187,12 @@ def _size(entry: Body | RigidBody | Joint) -> int:
     return len(body.shape.form.pieces)
 
 
-def _in_slices(entries: Sequence[_Entry]) -> Iterator[Sequence[_Entry]]:
-    """Yield bodies or joints in order, some at once that consist of few pieces."""
+def _in_slices(entries: Sequence[_Entry], most: int = _SLICE) -> Iterator[Sequence[_Entry]]:
+    """Yield bodies or joints in order, some at once that together have about `most` pieces."""
     begin = size = 0
     for end, entry in enumerate(entries, 1):
         size += _size(entry)
-        if size >= _SLICE or end == len(entries):
+        if size >= most or end == len(entries):
             yield entries[begin:end]
             begin, size = end, 0
 
@@ -206,17 +208,6 @@ def _body_states(checkpoint: Checkpoint) -> Records:
     if len(checkpoint.memory.pushes) == len(rows):
         states['push'][rows] = checkpoint.memory.pushes
     return states
-
-
-def _scattered(row: int) -> int:
-    """
-    Return the place of a body in the order in which its shapes enter the engine's tree, by row.
-
-    The tree of bodies in a row that enter from left to right is as deep as there are bodies: with
-    20,000 of them it took 10 s. Rows of the scene are scattered by the golden ratio (Fibonacci
-    hashing: Knuth, "The Art of Computer Programming" 3, section 6.4), so that names do not matter.
-    """
-    return row * 2654435761 % 2**32
 
 
 def _rigid_body(body: Body, pool: Mapping[str, RigidBody]) -> RigidBody:
@@ -239,6 +230,7 @@ class BodyPool:
     def __init__(self, retired: Space | None = None) -> None:
         self.bodies: dict[str, RigidBody] = {}
         self._retired = retired
+        self._clearing = iter(()) if retired is None else _slices_of_clearing(retired)
         self._has_contacts = retired is not None
         # The scene of the next rebuild, and the row of the next body to make.
         self._scene: Scene | None = None
@@ -250,35 +242,31 @@ class BodyPool:
 
     def slices_of_freeing(self) -> Iterator[None]:
         """Free the bodies and the retired space; yield after each slice."""
-        while self.bodies:
-            for _ in range(min(_SLICE, len(self.bodies))):
-                self.bodies.popitem()
-            yield
+        yield from _slices_of_emptying(self.bodies, lambda: self.bodies.popitem()[1])
         if self._retired is not None:
             yield from _slices_of_freeing(self._retired)
 
     def build_bodies(self, scene: Scene, count: int) -> None:
-        """Make up to a number of further bodies of a scene."""
+        """Make further bodies of a scene, of about a number of pieces."""
         if self._retired is not None and self._retired.joints.by_name:
             self._retired.joints.take_out(count)
             return
         if self._has_contacts and self._retired is not None:
             # Not in the frame of the checkpoint, which takes long.
-            _clear_contacts(self._retired)
-            self._has_contacts = False
+            self._has_contacts = next(self._clearing, self) is not self
             return
-        while count and self._retired is not None and self._retired.bodies.by_name:
+        while count > 0 and self._retired is not None and self._retired.bodies.by_name:
             rigid = _extract_body(self._retired)
             self.bodies[rigid.body.name] = rigid
-            count -= 1
+            count -= _size(rigid)
         if scene is not self._scene:
             self._scene, self._row = scene, 0
-        while count and self._row < len(scene.bodies):
+        while count > 0 and self._row < len(scene.bodies):
             body = scene.bodies[self._row]
             spare = self.bodies.get(body.name)
             if spare is None or spare.body is not body:
                 self.bodies[body.name] = build_body(body)
-                count -= 1
+                count -= _size(body)
             self._row += 1
 
 
@@ -288,8 +276,8 @@ def slices_of_freeing(space: Space, pool: BodyPool) -> Iterator[None]:
 
     A small one is freed with the last reference to it, at once.
     """
-    count = len(space.bodies.by_name) + len(space.joints.by_name) + len(pool.bodies)
-    if count > _SLICE:
+    pieces = sum(map(_size, (*space.bodies.by_name.values(), *pool.bodies.values())))
+    if pieces + len(space.joints.by_name) > _SLICE:
         yield from _slices_of_freeing(space)
         yield from pool.slices_of_freeing()
 
@@ -299,31 +287,40 @@ def _slices_of_freeing(space: Space) -> Iterator[None]:
     while space.joints.by_name:
         space.joints.take_out(_SLICE)
         yield
-    if space.bodies.by_name:
-        _clear_contacts(space)
-        yield
-    while space.bodies.by_name:
-        for _ in range(min(_SLICE, len(space.bodies.by_name))):
-            _extract_body(space)
+    yield from _slices_of_clearing(space)
+    for _ in _slices_of_emptying(space.bodies.by_name, lambda: _extract_body(space)):
         # Pymunk keeps shapes that were removed up to the next step.
         space.pm_space.step(space.dt)
         yield
 
 
-def _clear_contacts(space: Space) -> None:
-    """
-    Clear the engine's contacts, by a step with all bodies far from each other.
+def _slices_of_emptying(
+    bodies: Mapping[str, RigidBody], take: Callable[[], RigidBody]
+) -> Iterator[None]:
+    """Take all bodies, one by one; yield after each slice."""
+    size = 0
+    while bodies:
+        size += _size(take())
+        if size >= _SLICE or not bodies:
+            yield
+            size = 0
 
-    For each shape that is removed, Chipmunk searches all contacts that it caches.
+
+def _slices_of_clearing(space: Space) -> Iterator[None]:
     """
-    rigids = space.bodies.by_name.values()
-    wake_bodies(rigid.pm_body for rigid in rigids)
-    state = np.zeros((len(rigids), 6))
-    # In random order: in ascending order the engine's tree is as deep as there are bodies, and
-    # 20,000 took 4 s.
-    state[:, 0] = np.random.default_rng(0).permutation(len(rigids)) * 1e6
-    space.core.write_state(state)
-    space.pm_space.step(space.dt)
+    Clear the engine's contacts, by steps after each of which more bodies are far from all others.
+
+    For each shape that is removed, Chipmunk searches all contacts that it caches. Yield after each
+    slice; a world of few pieces has one.
+    """
+    rigids = list(space.bodies.by_name.values())
+    places = iter(sorted(range(1, len(rigids) + 1), key=scattered))
+    for some in _in_slices(rigids, _CLEARED):
+        for rigid in some:
+            rigid.pm_body.position = next(places) * 1e6, 0.0
+            rigid.pm_body.velocity, rigid.pm_body.angular_velocity = (0.0, 0.0), 0.0
+        space.pm_space.step(space.dt)
+        yield
 
 
 def _extract_body(space: Space) -> RigidBody:

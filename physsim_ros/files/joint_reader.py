@@ -31,6 +31,7 @@ from physsim_ros.model.motor_command import CommandPoint, MotorCommand, points_f
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Guide, Joint, Seat
+from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Point, Pose, REST
 from physsim_ros.simulation.world import World
 
@@ -68,6 +69,7 @@ def joints_from(
             name = entry.get('name')
             if not isinstance(name, str):
                 raise BadProperty('a joint needs a name', field='name')
+            name = canonical(name)
             if name in joints:
                 raise BadProperty('the name appears twice', field='name')
             terms = {key: entry[key] for key in entry if key not in OWN_JOINT_KEYS}

@@ -39,6 +39,7 @@ from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.settings import OF_WORLD, WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
+from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import steps_covering
 from physsim_ros.simulation.world.assembly import parts_of
@@ -123,7 +124,8 @@ def _body_states(
     check_limit('max_bodies', len(entries), settings)
     bodies: dict[str, BodyState] = {}
     unmoved: set[str] = set()
-    named = {name for entry in entries if isinstance(name := entry.get('name'), str)}
+    names = (entry.get('name') for entry in entries)
+    named = {canonical(name) for name in names if isinstance(name, str)}
     joints: list[dict[Any, Any]] = []
     pieces = 0
     for count, entry in enumerate(entries, 1):
@@ -146,7 +148,7 @@ def _body_states(
         check_limit('max_shapes', pieces, settings)
         check_limit('max_bodies', len(bodies), settings)
     for count, entry in enumerate(entries, 1):
-        state = bodies[entry['name']]
+        state = bodies[canonical(entry['name'])]
         # Of a saved world, the body that an actor waits for may have been deleted.
         if state.acting is None:
             with naming(entry, 'body', count):

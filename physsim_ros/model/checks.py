@@ -19,6 +19,7 @@ from types import UnionType
 from typing import Any, get_args
 
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
+from physsim_ros.model.spelling import canonical
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose
 
@@ -263,14 +264,14 @@ def flag(value: object, name: str) -> bool:
 
 def text(value: object, name: str, error: type[Refusal] = Malformed) -> str:
     """
-    Return a text.
+    Return a word or a name, in its canonical spelling.
 
     :param name: of the field, for the refusal
     :param error: that is raised where it is something else
     """
     if not isinstance(value, str):
         raise error(f'{name} must be text, not {shown(value)}', field=name)
-    return value
+    return canonical(value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,6 +19,7 @@ from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.latency import COMMAND_RATE, delays
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import LARGEST, SMALLEST
+from physsim_ros.model.spelling import canonical
 from physsim_ros.model.texts import name_meant, nearest_name
 from physsim_ros.model.transform import Point
 
@@ -44,13 +45,13 @@ AS_DRAWN = 'as drawn'
 def _names(value: object, name: str) -> tuple[str, ...]:
     if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
         raise BadProperty(f'{name} must be a list of names, not {shown(value)}', field=name)
-    return tuple(value)
+    return tuple(map(canonical, value))
 
 
 def _body_name(value: object, name: str) -> str:
     if not isinstance(value, str):
         raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
-    return value
+    return canonical(value)
 
 
 def _direction(value: object, name: str) -> float:

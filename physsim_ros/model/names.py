@@ -9,6 +9,7 @@ from collections.abc import Iterable
 
 from physsim_ros.model.checks import text
 from physsim_ros.model.errors import Malformed
+from physsim_ros.model.spelling import has_invisible
 from physsim_ros.model.texts import abbreviated, is_printable, LONGEST_WORD
 
 # Name of the background in joints, contacts and frames.
@@ -31,7 +32,7 @@ def check_name(value: object, field: str = 'name') -> str:
     Return a name that is `<namespace>/<id>`, the id a 32-bit whole number.
 
     :param field: for the refusal
-    :raises Malformed: it is not, or is too long, or has an unprintable character
+    :raises Malformed: it is not, or is too long, or has an unprintable or invisible character
     """
     name = text(value, field)
     namespace, id_ = split_name(name)
@@ -41,8 +42,7 @@ def check_name(value: object, field: str = 'name') -> str:
         )
     if len(name) > LONGEST_NAME:
         raise Malformed(f'a name has at most {LONGEST_NAME} characters', field=field)
-    if not is_printable(name):
-        raise Malformed(f'{name!r} contains a character that cannot be printed', field=field)
+    _check_visible(name, field)
     if REPLACEMENT in name:
         raise Malformed(f'{name!r} is not UTF-8', field=field)
     if not -(2**31) <= id_ < 2**31:
@@ -74,14 +74,20 @@ def check_hand_name(value: object, field: str) -> str:
     Return a name that a hand can have.
 
     :param field: for the refusal
-    :raises Malformed: it is empty or too long, or has an unprintable character
+    :raises Malformed: it is empty or too long, or has an unprintable or invisible character
     """
     name = text(value, field)
     if not 0 < len(name) <= LONGEST_NAME:
         raise Malformed(f'the name of a hand has 1 to {LONGEST_NAME} characters', field=field)
+    _check_visible(name, field)
+    return name
+
+
+def _check_visible(name: str, field: str) -> None:
     if not is_printable(name):
         raise Malformed(f'{name!r} contains a character that cannot be printed', field=field)
-    return name
+    if has_invisible(name):
+        raise Malformed(f'{name!a} contains an invisible character', field=field)
 
 
 def shown_name(name: str) -> str:

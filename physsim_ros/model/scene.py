@@ -317,6 +317,11 @@ class Scene:
         return tuple(body.name for body in self.bodies)
 
     @cached_property
+    def piece_count(self) -> int:
+        """Total of the convex pieces of all bodies."""
+        return sum(len(body.shape.form.pieces) for body in self.bodies)
+
+    @cached_property
     def owners(self) -> Ints:
         """(n,) int64: row of the robot of which each body is a part, else its own."""
         owners = np.arange(len(self.bodies))

@@ -18,6 +18,7 @@ from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import no_body, Refusal
 from physsim_ros.model.names import shown_name, WORLD
 from physsim_ros.model.scene import Joint, Scene
+from physsim_ros.model.spelling import canonical
 from physsim_ros.model.states import NO_ROBOTS, Records
 from physsim_ros.model.transform import Point, rotated_each
 
@@ -117,7 +118,7 @@ class Snapshot:
 
         :raises UnknownBody: no body has that name; the most similar name is told
         """
-        row = self.scene.row_of.get(name, -1)
+        row = self.scene.row_of.get(canonical(name), -1)
         if row < 0:
             raise no_body(name, self.scene.names, '')
         return row

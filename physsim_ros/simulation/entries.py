@@ -102,12 +102,15 @@ class Origin(NamedTuple):
     :ivar field: the only field of the message, which a refusal names; '' if it has several
     :ivar asker: key of a page and its message, which the answers carry; '' for none
     :ivar author: name of the person who did it; '' is nobody
+    :ivar check: raises a Refusal where the author has lost the right since; called in the turn of
+        the entry
     """
 
     topic: str
     field: str = ''
     asker: str = ''
     author: str = ''
+    check: Callable[[], object] = lambda: None
 
 
 @dataclass(slots=True)

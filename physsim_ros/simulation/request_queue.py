@@ -236,6 +236,7 @@ class RequestQueue:
                         self._has_jumped = False
                         self._carry_out(call, in_slices(call.call))
                     case Amend() | TakeBack() as change:
+                        entry.origin.check()
                         self._playback.seek_shown()
                         self._past.cursor.work(self._amend(change, entry))
                     case Seek(stamp=stamp):
@@ -243,6 +244,7 @@ class RequestQueue:
                         self._answer_arrival = partial(self._answer_seek, entry.origin, message)
                     case request:
                         self._playback.changed = True
+                        entry.origin.check()
                         if isinstance(request, Unread):
                             request = request.convert()
                         answer = self.apply_now(request, entry.gesture, entry.origin.author)
@@ -328,7 +330,7 @@ class RequestQueue:
 
     def _answer(self, result: Answer | Refusal, entry: Entry) -> None:
         """Collect the answer to a request that waited."""
-        topic, field, asker, _ = entry.origin
+        topic, field, asker, *_ = entry.origin
         if isinstance(result, Refusal):
             result = Answer.refused(result, topic=topic, subject=entry.subject, field=field)
         self.answers.append(replace(result, topic=topic, asker=asker))

@@ -20,7 +20,7 @@ from physsim_ros.files import on_thread, OwnWorlds
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Busy, PhysSimError, Refusal
+from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.slices import in_slices, Sliced
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
@@ -31,7 +31,13 @@ from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts
 from physsim_ros.sketchpad.results import Result, Results
-from physsim_ros.sketchpad.rights import check_locked, check_right, Role
+from physsim_ros.sketchpad.rights import (
+    check_locked,
+    check_right,
+    check_unchanged,
+    Right,
+    Role,
+)
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
@@ -118,6 +124,10 @@ class PageSession:
         kind = message.kind
         asker = asker_key(self.number, message.request)
         origin = Origin(kind.topic, asker=asker, author=author_of(self.person, self.role))
+        if kind.right is Right.CHANGE:
+            locked = self.world.locked_bodies
+            check = partial(check_unchanged, self.role, locked, self.world)
+            origin = origin._replace(check=check)
         try:
             with self.world.boundary.message(kind.topic):
                 check_right(kind.right, self.role, frozen=self.world.is_frozen)
@@ -128,13 +138,21 @@ class PageSession:
 
     def keep_hand(self, now: float) -> None:
         """
-        Keep the grip of a resting hand while the page is open.
+        Keep the grip of a resting hand while the page is open, and its body not locked.
 
         :param now: steady time [s]
         """
-        if self._hand_used is not None and now - self._hand_used > HAND_PERIOD:
+        if self._hand_used is None or now - self._hand_used <= HAND_PERIOD:
+            return
+        keep = KeepHand(hand=self.hand)
+        try:
+            check_locked(self.role, (keep,), self.world)
+        except Frozen:
+            self._hand_used = None
+            self._submit_unasked(LetGo(hand=self.hand))
+        else:
             self._hand_used = now
-            self._submit_unasked(KeepHand(hand=self.hand))
+            self._submit_unasked(keep)
 
     def tell_touches(self, frame: Frame) -> None:
         """Tell the page which of the bodies that it follows were touched in a frame, and when."""

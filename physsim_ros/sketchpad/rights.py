@@ -26,8 +26,8 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.line import Node
 from physsim_ros.sketchpad.world_control import WorldControl
 
-# Requests that concern every body of the world.
-_OF_ALL = (requests.DeleteAll, requests.UnjoinAll, requests.Restore)
+# Requests that concern no body: settings of the world; a hand may let go anywhere.
+_OF_NONE = (requests.Configure, requests.LetGo)
 # Names with wildcards: each is compiled, and compared with each name of a request.
 MOST_PATTERNS = 50
 
@@ -125,6 +125,18 @@ def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> 
     snapshot = world.current_snapshot()
     _check_newest(world)
     _check_names((name for each in wanted for name in _bodies_of(each, snapshot)), world)
+
+
+def check_unchanged(role: Role, locked: Collection[str], world: WorldControl) -> None:
+    """
+    Refuse what waited while a teacher froze the pages or locked bodies, but for a teacher.
+
+    :param locked: patterns of the bodies that were locked when it came
+    :raises Frozen: it has to be asked for again
+    """
+    check_right(Right.CHANGE, role, frozen=world.is_frozen)
+    if role is not Role.TEACH and not set(locked).issuperset(world.locked_bodies):
+        raise Frozen('a teacher has locked bodies meanwhile', field='name')
 
 
 def check_moment(role: Role, world: WorldControl) -> None:
@@ -233,8 +245,22 @@ def _joined(request: requests.Join, query: SceneQuery) -> tuple[str, ...]:
     return (*joined, *carrier, *_of_joint(request.name, query))
 
 
+def _in_hand(
+    request: requests.Grab | requests.MoveHand | requests.KeepHand, query: SceneQuery
+) -> tuple[str, ...]:
+    """Return the body that a hand grabs, or holds."""
+    if isinstance(request, requests.Grab):
+        under = query.bodies_at(request.point)
+        return tuple(each for each in under if query.body(each).dynamic)[:1] or under[:1]
+    return tuple(grip.body for grip in query.snapshot.grips if grip.hand == request.hand)
+
+
 def _named(request: Request, query: SceneQuery) -> tuple[str, ...]:
-    """Return the bodies that a request or its joints name, or that lie at its points."""
+    """
+    Return the bodies that a request or its joints name, or that lie at its points.
+
+    What is not named here concerns all.
+    """
     match request:
         case requests.MoveBodies() | requests.DeleteBodies() | requests.Command():
             return request.names
@@ -249,11 +275,10 @@ def _named(request: Request, query: SceneQuery) -> tuple[str, ...]:
             return tuple(name for names in parts for name in names)
         case requests.Unjoin() | requests.CommandMotors():
             return tuple(name for each in _joints_of(request) for name in _of_joint(each, query))
-        case requests.Grab(point=point):
-            under = query.bodies_at(point)
-            return tuple(each for each in under if query.body(each).dynamic)[:1] or under[:1]
+        case requests.Grab() | requests.MoveHand() | requests.KeepHand():
+            return _in_hand(request, query)
         case requests.Anchor(point=point) | requests.Release(point=point):
             return query.bodies_at(point)[:1]
         case requests.Pin(point=point) | requests.Axle(point=point):
             return query.bodies_at(point)[:2]
-    return query.names if isinstance(request, _OF_ALL) else ()
+    return () if isinstance(request, _OF_NONE) else query.names

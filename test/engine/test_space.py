@@ -4,13 +4,17 @@
 """Flight, commands, lost bodies and energy in the engine."""
 
 import math
+import time
 
 import numpy as np
+from physsim_ros.engine import bodies
 from physsim_ros.model.errors import Anchored
 from physsim_ros.model.requests import Command, Delete
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Chain
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
+import pymunk
 import pytest
 
 from ..building import (
@@ -262,3 +266,25 @@ def test_a_point_is_of_a_body_up_to_a_hundred_millionth_of_a_metre_from_it(world
     spawn(world, 'a/0', shape, (0.0, 0.0, 0.0))
     assert world.space.bodies.at((0.5 + 5e-10, 0.0)) == ['a/0']
     assert world.space.bodies.at((0.5 + 1e-8, 0.0)) == []
+
+
+def test_many_pieces_in_a_row_enter_the_engine_in_any_place_of_its_tree(monkeypatch):
+    """One after the other they make a tree as deep as there are pieces."""
+    points = tuple((0.06 * number, math.sin(0.1 * number)) for number in range(1000))
+    world = World()
+    spawn(world, 'a/0', Chain(points=points, thickness=0.1))
+    (chain,) = world.scene.bodies
+
+    def duration(block: int) -> float:
+        monkeypatch.setattr(bodies, '_BLOCK', block)
+        pm_space = pymunk.Space()
+        made = [bodies.build_body(chain).pm_body for _ in range(20)]
+        for number, pm_body in enumerate(made):
+            pm_body.position = 0.0, 3.0 * number
+        began = time.thread_time()
+        for pm_body in made:
+            pm_space.add(pm_body, *pm_body.shapes)
+        return time.thread_time() - began
+
+    block = bodies._BLOCK  # noqa: SLF001 - what is tested
+    assert min(duration(block) for _ in range(3)) < 0.7 * min(duration(1000) for _ in range(3))

@@ -7,13 +7,14 @@ import itertools
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+import unicodedata
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.files import save_world, text_of
 from physsim_ros.model.colors import color_of
-from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.errors import BadWorldFile, WorldFull
 from physsim_ros.model.requests import Anchor, Command, Configure, Release
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
@@ -357,3 +358,16 @@ def test_colours_are_written_in_three_ways(folder: Path) -> None:
         (red, green, half, 0.0),
         (red, green, 0.5, 0.25),
     ]
+
+
+def test_the_names_of_a_file_are_compared_in_one_spelling(folder: Path) -> None:
+    decomposed = unicodedata.normalize('NFD', 'Würfel')
+    body = f'- {{name: {decomposed}/0, circle: {{radius: 1}}}}\n'
+    joint = f'- {{name: {decomposed}/1, kind: axle, a: Würfel/0, points: [[0, 0]]}}\n'
+    text = f'format: 1\nbodies:\n{body}joints:\n{joint}'
+    state = load(write(folder, text))
+    assert [each.body.name for each in state.bodies] == ['Würfel/0']
+    assert [each.name for each in state.joints] == ['Würfel/1']
+    for entry in (body.replace(decomposed, 'Würfel'), body):
+        with pytest.raises(BadWorldFile, match='twice'):
+            load(write(folder, text.replace('joints:\n', f'{entry}joints:\n')))

@@ -105,6 +105,25 @@ def test_a_large_world_that_was_replaced_is_freed_in_slices(monkeypatch) -> None
     assert alive[-1] <= 1
 
 
+@pytest.mark.usefixtures('uncollected')
+def test_few_bodies_of_many_pieces_are_freed_in_slices(monkeypatch) -> None:
+    monkeypatch.setattr(checkpoint, '_SLICE', 100)
+    points = tuple((0.1 * number, 0.02 * (number % 2)) for number in range(101))
+    simulation = Simulation(settings=NOWHERE)
+    for number in range(10):
+        chain = Chain(points=points, thickness=0.05)
+        simulation.perform(spawning(f'a/{number}', chain, (0.0, float(number), 0.0)))
+    objects = objects_of(simulation)
+    simulation.reset()
+    alive = []
+    for number in range(20):
+        simulation.advance(number * FRAME)
+        alive.append(sum(each() is not None for each in objects))
+    assert alive[0] > len(objects) / 2, alive
+    assert max(before - after for before, after in pairwise(alive)) <= 202, alive
+    assert alive[-1] <= 1
+
+
 def test_bodies_in_slices_have_the_same_future(monkeypatch) -> None:
     digests = []
     for size in (3, 10, 10_000):

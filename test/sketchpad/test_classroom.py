@@ -372,8 +372,11 @@ def test_people_have_names_and_answers_say_who_did_it(browser: Browser) -> None:
     ben.until(lambda: any(each.get('subject') == 'a/0' for each in ben.of_type('answer')))
     (told,) = (each for each in ben.of_type('answer') if each['subject'] == 'a/0')
     assert told['page'] == int(anna.last('welcome')['client'])
-    for name in ('', '  ', 'x' * 25, 'a\nb', 7):
+    for name in ('', '  ', 'x' * 25, 'a\nb', 7, 'Ann\u200ba', 'Ann\u200da', '\u3164'):
         assert anna.ask('person', name=name)['code'] == 'bad_property'
+    # Keyboards write one name in several ways.
+    assert anna.ask('person', name='Zoe\u0308 \u2764\ufe0f')['ok']
+    ben.until(lambda: ('Zo\u00eb \u2764\ufe0f', 'draw') in people(ben))
     anna.close()
     ben.until(lambda: people(ben) == [('Teacher', 'teach')])
 

@@ -5,6 +5,7 @@
 
 import asyncio
 from contextlib import ExitStack, suppress
+import json
 import socket
 
 from physsim_ros.sketchpad import Role
@@ -232,6 +233,35 @@ def test_a_message_beyond_a_mebibyte_closes_the_page_alone(browser: Browser) -> 
     page.send_raw('x' * (MOST_BYTES + 1))
     page.until(lambda: page.closed)
     assert other.ask('drop')['ok']
+
+
+@pytest.mark.parametrize('way', ['length', 'chunks', 'announced'])
+def test_a_file_that_is_too_large_is_refused_with_a_code(browser: Browser, way: str) -> None:
+    """It is read to its end: who is refused before has nothing but a broken pipe."""
+    before, is_chunked = browser.physsim.digest(), way == 'chunks'
+    size = 100 * MOST_BYTES if way == 'announced' else 20 * MOST_BYTES
+    fields = {'Host': browser.base[7:], 'Cookie': browser.cookie, 'Origin': browser.base}
+    length = {'Transfer-Encoding': 'chunked'} if is_chunked else {'Content-Length': str(size)}
+    head = ''.join(f'{name}: {value}\r\n' for name, value in (fields | length).items())
+
+    def answer() -> bytes:
+        with socket.create_connection(('127.0.0.1', int(browser.base.rpartition(':')[2]))) as link:
+            link.settimeout(30.0)
+            link.sendall(f'POST /world HTTP/1.1\r\n{head}\r\n'.encode())
+            part = b'#' * 2**16
+            # Programs wait for the answer before they send so much.
+            for _ in range(0 if way == 'announced' else size // len(part)):
+                link.sendall(b'%x\r\n%b\r\n' % (len(part), part) if is_chunked else part)
+            link.sendall(b'0\r\n\r\n' * is_chunked)
+            told = b''
+            while b'}' not in told:
+                told += link.recv(2**16)
+            return told
+
+    status, _, body = browser.run(asyncio.to_thread(answer)).partition(b'\r\n\r\n')
+    assert status.startswith(b'HTTP/1.1 413 ')
+    assert json.loads(body[: body.index(b'}') + 1])['code'] == 'malformed'
+    assert browser.physsim.digest() == before
 
 
 @pytest.mark.parametrize('kind', ['message', 'ping'])

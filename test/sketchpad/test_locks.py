@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Law: no message of a pupil's page changes a locked body; every kind of message is tried."""
+"""Law: no message of a pupil's page changes a locked body; each kind and request is tried."""
 
 from __future__ import annotations
 
@@ -9,10 +9,18 @@ from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import Tool
-from physsim_ros.sketchpad import Role
+from physsim_ros.model import requests
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import Frozen
+from physsim_ros.model.motor_command import CommandPoint, MotorCommand
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation.entries import Origin
+from physsim_ros.simulation.world.world import HANDLERS
+from physsim_ros.sketchpad import page_session, Role
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages.worlds import ACTIONS
-from physsim_ros.sketchpad.rights import Right
+from physsim_ros.sketchpad.rights import check_locked, check_unchanged, Right
 from physsim_ros.testing import PhysSim
 import pytest
 
@@ -173,3 +181,135 @@ def test_what_is_about_other_things_changes_no_locked_body(
         for fields in ATTEMPTS[kind]:
             tell(pupil, kind, fields)
             assert locked(browser.physsim) == before, (kind, fields)
+
+
+# Roles that may send a message of each right.
+ALLOWED = {
+    Right.LOOK: {*Role},
+    Right.DRAW: {Role.DRAW, Role.TEACH},
+    Right.CHANGE: {Role.DRAW, Role.TEACH},
+    Right.TEACH: {Role.TEACH},
+}
+# Fields of the messages that only a teacher sends, or that change no body.
+OTHER_FIELDS: dict[str, dict[str, Any]] = {
+    'gravity': {'gravity': [0, 0]},
+    'air': {'damping': 0.0},
+    'seek': {'time': 0.0},
+    'watch': {'name': ''},
+    'follow': {'names': []},
+    'forget_results': {},
+    'lower_hand': {'page': 1},
+    'say': {'text': 'x'},
+    'freeze': {'frozen': False},
+    'lock': {'names': ['a/*']},
+    'clear_of': {'person': 'Nobody'},
+    'open_text': {'world': WORLD},
+}
+
+
+def test_each_kind_of_message_is_for_the_roles_of_its_right(
+    browser: Browser, tmp_path: Path
+) -> None:
+    pupil, boss = opened(browser, tmp_path)
+    viewer = browser.open_page('/ws?view')
+    pages = {Role.VIEW: viewer, Role.DRAW: pupil, Role.TEACH: boss}
+    # A new kind is in the table of this test or of the other one.
+    kinds = {name: kind.right for name, kind in KINDS.items() if kind.for_world}
+    assert kinds.keys() == (ATTEMPTS.keys() | OTHER_FIELDS.keys())
+    assert boss.ask('freeze', frozen=True)['ok']
+    for name, right in kinds.items():
+        fields = OTHER_FIELDS.get(name) or next(iter(ATTEMPTS.get(name, [{}])))
+        for role in {*Role} - ALLOWED[right]:
+            refused = 'view_only' if role is Role.VIEW else 'teacher_only'
+            assert pages[role].ask(name, **fields)['code'] == refused, (name, role)
+        if right is Right.CHANGE:
+            assert pupil.ask(name, **fields)['code'] == 'frozen', name
+
+
+# A request of each type that the world carries out, about body `b/0` or what is joined to it.
+REQUESTS = (
+    requests.Spawn(name='b/0', shape=Disc(radius=1.0)),
+    requests.ChangeBody(name='b/0'),
+    requests.Cut(pieces=(requests.ChangeBody(name='b/0'),)),
+    requests.MoveBodies(names=('b/0',), by=(1.0, 0.0)),
+    requests.Command(names=('b/0',)),
+    requests.Anchor(point=(4.0, 5.0)),
+    requests.Release(point=(4.0, 5.0)),
+    requests.Delete(name='b/0'),
+    requests.DeleteBodies(names=('b/0',)),
+    requests.DeleteAll(),
+    requests.Join(name='j/0', kind='pin', a='b/0', points=((4.0, 5.0),)),
+    requests.Rejoin(name='rod/0', a='a/0', b='b/0'),
+    requests.Pin(point=(4.0, 5.0)),
+    requests.Axle(point=(4.0, 5.0)),
+    requests.Unjoin(name='rod/0'),
+    requests.UnjoinAll(),
+    requests.Grab(hand='x', point=(4.0, 5.0)),
+    requests.MoveHand(hand='held', point=(0.0, 0.0)),
+    requests.KeepHand(hand='held'),
+    requests.CommandMotors(
+        commands=(MotorCommand(joint='rod/0', mode='effort', points=(CommandPoint(0.0, 1.0),)),)
+    ),
+    requests.DriveRobot(name='b/0', velocity=(1.0, 0.0, 0.0)),
+    requests.Restore(state=WorldState(settings=WorldSettings())),
+)
+# Those that are carried out for pupils, whatever is locked.
+HARMLESS = (requests.Configure(changes={'friction': 1.0}), requests.LetGo(hand='held'))
+
+
+class Unheard(requests.Request):
+    """A request that the rights do not know."""
+
+
+def test_each_request_of_the_world_is_tried() -> None:
+    assert {type(each) for each in (*REQUESTS, *HARMLESS)} == HANDLERS.keys()
+
+
+def test_a_pupil_has_no_request_for_a_locked_body_carried_out(
+    browser: Browser, tmp_path: Path
+) -> None:
+    _, boss = opened(browser, tmp_path)
+    simulation, control = browser.physsim.node.simulation, browser.physsim.node.control
+    simulation.perform(requests.Grab(hand='held', point=(4.0, 5.0)))
+    # What names a free body alone.
+    check_locked(Role.DRAW, [requests.Spawn(name='b/1', shape=Disc(radius=1.0))], control)
+    assert boss.ask('lock', names=['b/0'])['ok']
+    for request in (*REQUESTS, Unheard()):
+        with pytest.raises(Frozen):
+            check_locked(Role.DRAW, [request], control)
+        check_locked(Role.TEACH, [request], control)
+    check_locked(Role.DRAW, HARMLESS, control)
+
+
+def test_a_hand_lets_go_of_what_is_locked_meanwhile(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / 'locked.yaml').write_text(WORLD)
+    browser.physsim.load(tmp_path / 'locked.yaml')
+    browser.physsim.step()
+    pupil, boss = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
+    assert pupil.ask('grab', point=ON)['ok']
+    assert boss.ask('lock', names=['a/*'])['ok']
+    pupil.send('move', point=ASIDE)
+    pupil.until(lambda: any(each['code'] == 'frozen' for each in pupil.of_type('answer')))
+    monkeypatch.setattr(page_session, 'HAND_PERIOD', 0.0)
+    browser.until(
+        lambda: browser.physsim.step() or not browser.physsim.node.simulation.world.grips
+    )
+
+
+def test_what_waits_while_a_body_is_locked_is_refused_in_its_turn(
+    browser: Browser, tmp_path: Path
+) -> None:
+    """A long seek is under way: the right is there when the message comes, and not later."""
+    (tmp_path / 'locked.yaml').write_text(WORLD)
+    browser.physsim.load(tmp_path / 'locked.yaml')
+    browser.physsim.step()
+    node = browser.physsim.node
+    before = node.control.locked_bodies
+    origin = Origin('x', check=lambda: check_unchanged(Role.DRAW, before, node.control))
+    node.simulation.requests.submit(requests.Delete(name='a/0'), origin)
+    node.control.set_parameter('sketchpad_locked', 'a/*')
+    (answer,) = (each for each in node.apply_requests() if each.topic == 'x')
+    assert answer.code == 'frozen'
+    assert 'a/0' in browser.physsim.names

@@ -78,15 +78,15 @@ def files() -> dict[Path, str]:
     types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'
     return {
         **{
-            page: _with_parts(page, parts, '<!-- {}: made by `make tables` -->')
+            page: with_parts(page, parts, '<!-- {}: made by `make tables` -->')
             for page, parts in pages.items()
         },
-        types: _with_parts(types, _types(), '# {}: made by `make tables`'),
+        types: with_parts(types, _types(), '# {}: made by `make tables`'),
         ROOT / 'config' / 'physsim.yaml': _YAML_HEAD + '\n'.join(_yaml()),
     }
 
 
-def _with_parts(path: Path, parts: Mapping[str, str], comment: str) -> str:
+def with_parts(path: Path, parts: Mapping[str, str], comment: str) -> str:
     """
     Return the text of a file with its parts made anew.
 

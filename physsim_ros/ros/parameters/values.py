@@ -22,6 +22,7 @@ from physsim_ros.model.checks import shown
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, PhysSimError, UnknownProperty
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.spelling import canonical
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.parameters.table import AUTO, NodeSettings, SPECS, Type
 from rcl_interfaces.msg import ParameterDescriptor
@@ -192,7 +193,7 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
 @lru_cache(maxsize=2)
 def listed_names(value: str) -> tuple[str, ...]:
     """Return the names of bodies in the value of parameter `sketchpad_locked`."""
-    return tuple(name for each in value.split(',') if (name := each.strip()))
+    return tuple(name for each in canonical(value).split(',') if (name := each.strip()))
 
 
 def _draw_color(text: str) -> Color | None:

@@ -462,5 +462,5 @@ class Cursor(Replay):
         """Build the share of the bodies for the next checkpoint that is due in some steps."""
         world, spacing = self._world, self._tree.spacing
         if not world.is_built_ahead:
-            count = len(world) + len(world.scene.joints)
+            count = world.scene.piece_count + len(world.scene.joints)
             world.build_bodies(-(-count * steps // max(1, int(spacing * _AHEAD))))

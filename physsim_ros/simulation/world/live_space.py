@@ -188,7 +188,7 @@ class LiveSpace:
         return self._pool.is_complete(self.space.table.scene)
 
     def build_bodies(self, count: int) -> None:
-        """Build a number of bodies for the next `renew`."""
+        """Build bodies for the next `renew`, of about a number of pieces."""
         self._pool.build_bodies(self.space.table.scene, count)
 
     def _replace(self, space: Space, pool: BodyPool, fresh: Beginning | None = None) -> None:

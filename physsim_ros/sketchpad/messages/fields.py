@@ -17,6 +17,7 @@ from physsim_ros.model.checks import check_point, number, pair
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.names import LONGEST_NAME
+from physsim_ros.model.spelling import has_invisible
 from physsim_ros.model.texts import is_printable
 from physsim_ros.model.transform import Point
 
@@ -37,6 +38,8 @@ def person(value: object, name: str) -> str:
     checked = text(value, name).strip()
     if not 0 < len(checked) <= LONGEST_PERSON or not is_printable(checked):
         raise BadProperty(f'a name has 1 to {LONGEST_PERSON} characters', field=name)
+    if has_invisible(checked):
+        raise BadProperty('the name contains an invisible character', field=name)
     return checked
 
 

@@ -21,7 +21,7 @@ from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.access import Access, headers_for
 from physsim_ros.sketchpad.server.turns import Turns
 from tornado.iostream import StreamClosedError
-from tornado.web import HTTPError, RequestHandler
+from tornado.web import HTTPError, RequestHandler, stream_request_body
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 # Content types by suffix; the machine's own table may lack some.
@@ -38,6 +38,8 @@ TYPES = {
 # Rate of the messages of a socket in the long run [1/s], and messages at once. A pen and a hand
 # send one message each frame of the page, at 60 to 144 Hz.
 RATE, BURST = 200.0, 400.0
+# Size of a file that is read to its end though it is refused [bytes].
+_MOST_READ = 2**26
 # Errors of a client that has left.
 LEFT = (StreamClosedError, WebSocketClosedError)
 # Codes of closing, RFC 6455, section 7.4.1; the last one is this server's own.
@@ -68,7 +70,7 @@ class Guarded(RequestHandler):
 
     needs_cookie = True
     role: Role | None = None
-    _refusal = ''
+    _refusal = _code = ''
 
     @property
     def access(self) -> Access:
@@ -119,9 +121,9 @@ class Guarded(RequestHandler):
         if self.role is None or not self.role.draws:
             self.refuse(403, 'this page only shows the world')
 
-    def refuse(self, status: int, reason: str) -> NoReturn:
-        """Answer with an error and its reason."""
-        self._refusal = reason
+    def refuse(self, status: int, reason: str, code: str = '') -> NoReturn:
+        """Answer with an error and its reason, and to programs with its code where it has one."""
+        self._refusal, self._code = reason, code
         raise HTTPError(status)
 
     def log_exception(self, *details: Any) -> None:
@@ -133,6 +135,9 @@ class Guarded(RequestHandler):
     def write_error(self, status_code: int, **_: Any) -> None:
         """Write the reason of a refusal, or the meaning of the status; nothing of the request."""
         reason = self._refusal or HTTPStatus(status_code).phrase
+        if self._code:
+            self.finish({'ok': False, 'message': reason, 'code': self._code})
+            return
         if 'text/html' not in self.request.headers.get('Accept', ''):
             self.set_header('Content-Type', 'text/plain; charset=utf-8')
             self.finish(f'{reason}\n')
@@ -140,6 +145,54 @@ class Guarded(RequestHandler):
         # A person has opened the address in a browser.
         self.set_header('Content-Type', TYPES['.html'])
         self.finish(_REFUSAL.format(reason=escape(reason[:1].upper() + reason[1:])))
+
+
+@stream_request_body
+class GuardedUpload(Guarded):
+    """
+    A handler of files that a drawing page of this server sends.
+
+    A file that is too large is read to its end, and not kept: a client that is refused before has
+    nothing but a broken connection.
+
+    :cvar most: greatest size [bytes]
+    """
+
+    most: int
+    _size = 0
+
+    async def prepare(self) -> None:
+        """Refuse who may not send files, and what is too large to be read, before the file."""
+        self._parts: list[bytes] = []
+        connection: Any = self.request.connection
+        connection.set_max_body_size(_MOST_READ)
+        await super().prepare()
+        if self.request.method != 'POST':
+            return
+        self.require_origin()
+        self.require_drawing()
+        length = self.request.headers.get('Content-Length', '')
+        if length.isdecimal() and int(length) > _MOST_READ:
+            self.refuse_size()
+
+    def data_received(self, chunk: bytes) -> None:
+        """Keep a part of a file that is not too large."""
+        self._size += len(chunk)
+        if self._size <= self.most:
+            self._parts.append(chunk)
+        else:
+            self._parts.clear()
+
+    @property
+    def content(self) -> bytes:
+        """Return the file; one that is too large is refused."""
+        if self._size > self.most:
+            self.refuse_size()
+        return b''.join(self._parts)
+
+    def refuse_size(self) -> NoReturn:
+        """Answer with an error about the size of the file."""
+        self.refuse(413, f'a file has at most {self.most / 2**10:g} KiB here', code='malformed')
 
 
 class GuardedSocket(Guarded, WebSocketHandler):

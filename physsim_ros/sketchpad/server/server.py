@@ -39,7 +39,7 @@ from physsim_ros.sketchpad.server.world_handlers import (
     WorldPicture,
 )
 
-# Size of a message of a page, and of an uploaded world [bytes].
+# Size of a message of a page, and of a request that is no upload [bytes].
 MOST_BYTES = 2**20
 # Time from one ping to the next, and until a page without an answer is closed [s].
 PING_PERIOD = 10.0

@@ -30,11 +30,11 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
 from physsim_ros.sketchpad.rights import Role
-from physsim_ros.sketchpad.server.guarded import Guarded, TYPES
+from physsim_ros.sketchpad.server.guarded import Guarded, GuardedUpload, TYPES
 from physsim_ros.sketchpad.server.world_picture import picture_of
 
-# Uploads at once.
-MOST_UPLOADS = 4
+# Uploads at once, and size of each [bytes].
+MOST_UPLOADS, MOST_UPLOADED = 4, 2**20
 # Size of the picture of a world [bytes].
 MOST_PICTURE = 200_000
 _PNG = b'\x89PNG\r\n\x1a\n'
@@ -92,8 +92,10 @@ class WorldPicture(_OfWorlds):
         self.finish(picture)
 
 
-class Picture(_OfWorlds):
+class Picture(_OfWorlds, GuardedUpload):
     """The picture of an own world."""
+
+    most = MOST_PICTURE
 
     def initialize(  # type: ignore[override]
         self, own_worlds: OwnWorlds, on_change: Callable[[], None]
@@ -117,11 +119,9 @@ class Picture(_OfWorlds):
 
     async def post(self, name: str) -> None:
         """Write the picture of a world that was saved."""
-        self.require_origin()
-        self.require_drawing()
-        content = self.request.body
-        if not content.startswith(_PNG) or len(content) > MOST_PICTURE:
-            self.refuse(400, 'this is no PNG, or a large one')
+        content = self.content
+        if not content.startswith(_PNG):
+            self.refuse(400, 'this is no PNG')
         try:
             path = self.own_worlds.picture(name)
             self.world_path(name)
@@ -151,8 +151,10 @@ class Unsaved(Guarded):
         self.finish(content)
 
 
-class UploadWorld(Guarded):
+class UploadWorld(GuardedUpload):
     """Replace the world by that of an uploaded file."""
+
+    most = MOST_UPLOADED
 
     def initialize(self, inbox: Inbox, turns: asyncio.Semaphore) -> None:
         """Set the inbox of the world's thread, and the turns of its uploads."""
@@ -160,25 +162,24 @@ class UploadWorld(Guarded):
 
     async def post(self) -> None:
         """Answer with the world's own answer."""
-        self.require_origin()
-        self.require_drawing()
+        content = self.content
         if self._turns.locked():
             self.refuse(503, 'too many uploads at once')
         async with self._turns:
             try:
-                answer = await self._replace_world()
+                answer = await self._replace_world(content)
             except Refusal as refusal:
                 answer = Answer.refused(refusal, topic='~/load_world')
         self.finish({'ok': not answer.code, 'message': answer.message, 'code': answer.code})
 
-    async def _replace_world(self) -> Answer:
+    async def _replace_world(self, file: bytes) -> Answer:
         """
         Have the world's thread replace the world, and return its answer.
 
         :raises Refusal: the file is no mapping in YAML
         """
         try:
-            text = self.request.body.decode()
+            text = file.decode()
         except UnicodeDecodeError as error:
             raise Malformed('the file is not UTF-8', field='file') from error
         # YAML of a megabyte takes a second to be read; meanwhile the pages get their frames.
