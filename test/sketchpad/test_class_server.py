@@ -303,7 +303,7 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     )
     with sheet.context.expect_page() as opened:
         links.first.click()
-    opened.value.locator('.whose').get_by_text('WorldAddresses of Anna').wait_for()
+    opened.value.locator('.whose').get_by_text('World of Anna').wait_for()
     opened.value.get_by_role('button', name='People').click()
     opened.value.get_by_role('listitem').get_by_text('Anna').wait_for()
     # That code would lead to this world, and not to the class.

@@ -449,7 +449,7 @@ def test_a_field_that_is_refused_shows_again_what_is(sheet: Sheet, text: str, of
     field.fill(text)
     field.press('Enter')
     if text == '-1':
-        sheet.page.get_by_role('status').get_by_text('Friction is -1').wait_for()
+        sheet.page.get_by_role('status').get_by_text('-1 does not lie between 0 and').wait_for()
         # It can be corrected until the field is left.
         assert field.input_value() == '-1'
     field.evaluate('element => element.blur()')

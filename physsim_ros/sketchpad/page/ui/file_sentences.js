@@ -16,7 +16,7 @@ const WRONG = [
   [/^the file must be a YAML mapping.*/, t('it has no keys with values')],
   [/^format must be (\d+)$/, t('"format: $1" is missing')],
   [/^there is no property (.+); (?:nearest is|use) (.+)$/, t('there is no key $1, but $2')],
-  [/^there is no property (.+)$/, t('there is no key $1')],
+  [/^there is no property (.+?)(?:;.*)?$/, t('there is no key $1')],
   [/^there is no kind of \w+ (.+?);.*there are (.+)$/, t('there is no kind $1; there are $2')],
   [/^there is no body (.+?)(?:;.*)?$/, t('there is no body $1')],
   [/^a body has one of (.+)$/, t('it has none of $1')],
