@@ -31,9 +31,8 @@ _ACROSS = 0.25
 _CARRIED = 0.9
 # The least area of a wheel, as a share of the circle about it; a pentagon's is 0.76.
 _ROUND = 0.75
-# The least angle about the middle of a wheel, and the least change of direction there, of a rope
-# that runs around it [rad].
-_AROUND, _BEND = math.radians(90.0), math.radians(45.0)
+# The least change of direction of a rope that runs around a wheel [rad].
+_BEND = math.radians(45.0)
 # The greatest depth of the end of a line on which a body stands, in inner radii of the body, and
 # the cosine of the slope of a ramp that bears a ball: 45°.
 _SHALLOW, SLOPE = 0.33, 0.7
@@ -133,7 +132,8 @@ def wheels_passed(
         angles = np.unwrap([math.atan2(y, x) for x, y in away[passing].tolist()])
         (ux, uy), (vx, vy) = (points[each + 1] - points[each] for each in (before, last))
         bend = abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
-        if abs(angles[-1] - angles[0]) > _AROUND and bend > _BEND:
+        # A line that bends away from the wheel goes about its middle by less than it bends.
+        if abs(angles[-1] - angles[0]) > bend > _BEND:
             found.append((int(beside[len(beside) // 2]), name))
     return [(name, point_of(points[at])) for at, name in sorted(found)]
 

@@ -26,7 +26,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.transform import Point
 
 # The size of an axle or a weld, in shares of the greatest.
-_SMALL = Limit(1.0, 0.06)
+_SMALL = Limit(1.0)
 # The greatest diameter of an axle, and side of a weld, in side lengths of a square of the lesser
 # body's area: with its middle on one body, or in a gap; on two that overlap.
 _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
@@ -124,7 +124,7 @@ def _axle_share(center: Point, radius: float, context: Context) -> float:
         inside = np.count_nonzero(scene.covers(under[0], rim))
         # A circle over the edge is a body of its own, unless it is as small as a hand can draw.
         if inside < len(rim) - 1:
-            limit = min(2 * context.settings.snap, 0.9 * limit / _LARGEST)
+            limit = min(2 * context.settings.snap, limit)
     return _SMALL.below(2 * radius / limit)
 
 

@@ -16,28 +16,20 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.geometry import angles, meeting_point, smoothed, turns
-from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
+from physsim_ros.drawing.strokes.fitting import line, WOBBLE
+from physsim_ros.drawing.strokes.geometry import ARM, meeting_point, smoothed, turns
+from physsim_ros.drawing.strokes.stroke import HOOK
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import dots, norms, Point
 
-# Length of the arms of the turning angle [points].
-ARM = 5
-# The least turn of a candidate, and the least turn of a corner [rad].
-_CANDIDATE_TURN, _CORNER_TURN = 0.25, 0.42
-# The greatest number of candidates: the cost of the search grows with its square.
-_CANDIDATES = 28
+# The least turn of a corner [rad], half of which makes a candidate: over its arms it is rounded.
+_CORNER_TURN = 0.42
 # Cost of a corner: the decrease of the logarithm of the residual (mean square distance) that is
 # worth one. The wobble of a careful hand, in shares of the size, which is worth no corner: of open
 # lines and of outlines, whose many corners are flatter.
-_CORNER_COST, _WOBBLE, _WOBBLE_CLOSED = 0.5, 0.012, 0.008
-# The greatest number of sides of an outline with corners.
-_MOST_SIDES = 20
+_CORNER_COST, _WOBBLE_CLOSED = 0.5, 0.008
 # The least distance between the ends of a side, in shares of the length along the stroke.
 _ASTRAY = 0.75
-# The greatest length of an end that bends aside by mistake, in shares of the length.
-_STUB = 0.07
 
 
 def corners(points: Floats, *, closed: bool) -> list[int]:
@@ -52,7 +44,7 @@ def corners(points: Floats, *, closed: bool) -> list[int]:
     places = _peaks(turn, closed=closed)
     if not closed:
         inner = places[(places > 2) & (places < count - 3)]
-        chosen = _corners_among(smooth, np.array([0, *inner, count - 1]), _WOBBLE)
+        chosen = _corners_among(smooth, np.array([0, *inner, count - 1]), WOBBLE)
         return _without_arcs(smooth, chosen)
     if len(places) < 2:
         return list(map(int, places))
@@ -122,22 +114,16 @@ def _without_stubs(points: Floats, at: list[int]) -> list[int]:
     for _ in range(2):
         # Each round reverses the order: one end each, and the order is restored.
         kept.reverse()
-        if len(kept) > 2:
-            a, b = np.diff(points[kept[-3:]], axis=0)
-            bent = abs(float(angles(a, b))) > HOOK_TURN / 2
-            if abs(kept[-1] - kept[-2]) < (_STUB + HOOK * bent / 2) * (len(points) - 1):
-                kept.pop()
+        if len(kept) > 2 and abs(kept[-1] - kept[-2]) < HOOK * (len(points) - 1):
+            kept.pop()
     return kept
 
 
 def _peaks(turn: NDArray[np.float64], *, closed: bool) -> NDArray[np.intp]:
-    """Return the indices of the local maxima of the turn, at most `_CANDIDATES`."""
+    """Return the indices of the local maxima of the turn."""
     around = np.pad(turn, 2, mode='wrap' if closed else 'constant')
     highest = np.max([around[:-4], around[1:-3], around[3:-1], around[4:]], axis=0)
-    places = np.flatnonzero((turn >= highest) & (turn > _CANDIDATE_TURN))
-    if len(places) > _CANDIDATES:
-        places = np.sort(places[np.argsort(-turn[places])[:_CANDIDATES]])
-    return places
+    return np.flatnonzero((turn >= highest) & (turn > _CORNER_TURN / 2))
 
 
 def _corners_among(path: Floats, places: NDArray[np.intp], wobble: float) -> list[int]:
@@ -173,7 +159,7 @@ def _least_cost(errors: NDArray[np.float64], path: Floats, wobble: float) -> lis
     shares[np.tril_indices(len(shares))] = np.inf
     total, before = shares[0], []
     best, sides = math.inf, 0
-    for count in range(1, min(len(shares), _MOST_SIDES + 1)):
+    for count in range(1, len(shares)):
         if count > 1:
             sums = total[:, None] + shares
             before.append(sums.argmin(axis=0))

@@ -36,13 +36,12 @@ TABLE, CONSTANT = 'evidence.csv', 'constant'
 _DOUBT, _UNEXPLAINED = 0.02, 0.3
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
 _GROUP_BIAS, _GROUP_SLOPE = -0.4, 1.9
-# The same for a meaning within its group.
-_SHARE_BIAS, _SHARE_SLOPE = 0.36, 0.86
-# The least share of either side, so that log odds are finite.
-_LEAST = 1e-3
-# Forms and meanings of a lower weight are dropped. A rival of a hundredth tells right
-# readings from wrong ones.
+# Forms and meanings of a lower weight are dropped, and no share is nearer to 0 or 1, so that log
+# odds are finite. A rival of a hundredth tells right readings from wrong ones.
 LEAST = 0.002
+# Width of a soft limit, in shares of it: with 0.1, the line of a rope up, over a wheel and down,
+# whose ends lie 14 % of its length apart, is too nearly an outline to be read.
+_SOFT = 0.075
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -107,20 +106,20 @@ class Limit:
     """
     A soft limit of a measure, by which lines and outlines share their weight.
 
-    :param at: value of the measure at which either side has half the weight
-    :param width: distance from there at which the better side has 73 % of it
+    At `_SOFT` beyond the limit, the better side has 73 % of the weight.
+
+    :param at: value of the measure at which either side has half the weight, > 0
     """
 
     at: float
-    width: float
 
     def above(self, value: float) -> float:
         """Return the weight of being above: 0 far below the limit, 1 far above."""
-        return logistic((value - self.at) / self.width)
+        return logistic((value / self.at - 1.0) / _SOFT)
 
     def below(self, value: float) -> float:
         """Return the weight of being below: 1 far below the limit, 0 far above."""
-        return logistic((self.at - value) / self.width)
+        return 1.0 - self.above(value)
 
 
 def logistic(odds: float) -> float:
@@ -130,7 +129,7 @@ def logistic(odds: float) -> float:
 
 def log_odds(share: float) -> float:
     """Return the log odds of a share, 0 .. 1."""
-    share = min(max(share, _LEAST), 1.0 - _LEAST)
+    share = min(max(share, LEAST), 1.0 - LEAST)
     return math.log(share / (1.0 - share))
 
 
@@ -173,17 +172,4 @@ def group_confidence(weight: float, total: float, unexplained: float = 0.0) -> f
     :param unexplained: the weight that no form of the stroke has, 0 .. 1
     """
     doubt = _DOUBT + _UNEXPLAINED * unexplained
-    return _platt(weight / (total + doubt), _GROUP_BIAS, _GROUP_SLOPE)
-
-
-def share_confidence(share: float) -> float:
-    """
-    Return the confidence in a meaning where its group is right, 0 .. 1.
-
-    :param share: weight of the meaning, as a share of the weight of its group
-    """
-    return _platt(share, _SHARE_BIAS, _SHARE_SLOPE)
-
-
-def _platt(share: float, bias: float, slope: float) -> float:
-    return logistic(bias + slope * log_odds(share))
+    return logistic(_GROUP_BIAS + _GROUP_SLOPE * log_odds(weight / (total + doubt)))

@@ -16,9 +16,9 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.corner_detection import ARM
 from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.geometry import (
+    ARM,
     COUNT,
     Crossing,
     intersections,
@@ -39,7 +39,7 @@ _FRINGE = 4
 FEWEST = 3
 # The height of swings that are those of a trembling hand, or of a mouse that moves by pixels, in
 # shares of the size; what swings higher is drawn so.
-TREMOR = Limit(0.08, 0.008)
+TREMOR = Limit(0.08)
 # The advance of all swings, and of one, between those of scribbles and zigzags, in mean heights.
 _FAR_APART, _WIDE_TOOTH = 1.75, 0.23
 # Stride of the points between which crossings are searched.

@@ -71,8 +71,6 @@ _JOINED = CLOSED | _ARROWS | {'anchor', 'motor'}
 # Signs on a body that two strokes are however slowly they are drawn, and the longest pause between
 # these [s]: two lines across a body, and a rod with barbs at its free end, are nothing else.
 _ON_BODIES, SLOWLY = frozenset({'anchor', 'velocity'}), 10.0
-# Confidence that an arrow at whose tail a body is drawn next did turn gravity.
-_TURNED = 0.1
 # The least share of the middle half of a line that lies on a solid whose mark it is.
 _ON_SOLID = 0.6
 
@@ -157,8 +155,7 @@ class Figure:
         """Return a reading of a body with the guess that the arrow before it did turn gravity."""
         chosen, *rest = reading.guesses
         # The body alone is built.
-        turned = replace(chosen, meaning=GRAVITY, confidence=_TURNED)
-        chosen = replace(chosen, confidence=min(chosen.confidence, 1.0 - _TURNED))
+        turned = replace(chosen, meaning=GRAVITY, confidence=1.0 - chosen.confidence)
         rest = [each for each in rest if each.meaning != GRAVITY]
         self.guesses, self.chosen = (chosen, turned, *rest)[:MOST_GUESSES], 0
         return replace(reading, guesses=self.guesses)

@@ -25,11 +25,9 @@ from physsim_ros.drawing.strokes.geometry import (
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import dots, next_vertices, norms, rotated_each
 
-# The greatest distance of an open stroke from straight sides, root mean square, at which it is no
-# curve; and the tolerance to which a curve is simplified. Both in shares of its size.
-_CURVED, FINE = 0.013, 0.006
-# Rounds of the fit of a rectangle, each point to its nearest side.
-_ROUNDS = 3
+# The wobble of a careful hand (rms) in shares of the size of an open stroke: what is farther from
+# straight sides is a curve, which is simplified to half of that.
+WOBBLE = 0.012
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -101,11 +99,10 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     # Left, right, lower and upper side.
     sides = np.concatenate((local.min(axis=0), local.max(axis=0)))[[0, 2, 1, 3]]
     across = local[:, [0, 0, 1, 1]]
-    for _ in range(_ROUNDS):
-        nearest = np.abs(across - sides).argmin(axis=1)
-        for side in range(4):
-            if (nearest == side).any():
-                sides[side] = across[nearest == side, side].mean()
+    nearest = np.abs(across - sides).argmin(axis=1)
+    for side in range(4):
+        if (nearest == side).any():
+            sides[side] = across[nearest == side, side].mean()
     off = np.abs(across - sides).min(axis=1)
     left, right, lower, upper = sides.tolist()
     corners = np.array(((left, lower), (right, lower), (right, upper), (left, upper)))
@@ -149,9 +146,9 @@ def simplified(points: Floats, bends: Floats) -> Floats | None:
     size = size_of(points)
     path = smoothed(points, closed=False)
     off = segment_distances(path, bends[:-1, None], bends[1:, None]).min(axis=0)
-    if math.sqrt(float((off**2).mean())) <= _CURVED * size:
+    if math.sqrt(float((off**2).mean())) <= WOBBLE * size:
         return None
-    return _traced(path, FINE * size)
+    return _traced(path, size)
 
 
 def segment_distances(points: Floats, start: Floats, end: Floats) -> Floats:
@@ -176,17 +173,17 @@ def traced(outline: Floats) -> Floats:
     size = size_of(path)
     # Starting at the point farthest from the middle, which is a corner of the result.
     path = np.roll(path, -int(((path - path.mean(axis=0)) ** 2).sum(axis=1).argmax()), axis=0)
-    return _traced(np.vstack((path, path[:1])), FINE * size)[:-1]
+    return _traced(np.vstack((path, path[:1])), size)[:-1]
 
 
-def _traced(path: Floats, tolerance: float) -> Floats:
-    """Return a polyline simplified by the Ramer-Douglas-Peucker algorithm."""
+def _traced(path: Floats, size: float) -> Floats:
+    """Return a polyline of a size simplified by the Ramer-Douglas-Peucker algorithm."""
     kept, parts = {0, len(path) - 1}, [(0, len(path) - 1)]
     while parts:
         first, last = parts.pop()
         off = segment_distances(path[slice(first, last + 1)], path[first], path[last])
         furthest = first + int(off.argmax())
-        if off.max() > tolerance:
+        if off.max() > WOBBLE / 2 * size:
             kept.add(furthest)
             parts += [(first, furthest), (furthest, last)]
     return path[sorted(kept)]

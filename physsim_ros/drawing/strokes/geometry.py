@@ -162,15 +162,15 @@ def least_squares(columns: Floats, target: Floats) -> tuple[float, float]:
 
 # Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
 COUNT = 128
-# Number of points at an end of a stroke that give its direction there.
-END = 8
+# Number of points that give the direction of a stroke at a place, and the arms of a turn there.
+ARM = 5
 # Stride of the points between which strokes are compared: 1.6 % of the length.
 _FEW = 2
 # Standard deviation of the Gaussian that smooths a resampled stroke [points]: the steps of a mouse
 # that draws a figure of 25 pixels are two points long.
 _SMOOTHING = 1.5
-# The least width of an outline after stretching, in shares of its length, and the greatest factor.
-WIDE, _WIDEST = 0.3, 10.0
+# The least width of an outline after stretching, in shares of its length.
+_WIDE = 0.3
 
 
 def spaced(path: Floats, count: int) -> Floats:
@@ -262,7 +262,7 @@ def widened(outline: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
     :return: the polyline, evenly spaced; and the function that undoes the stretching
     """
     angle, along, across = principal_axis(outline - outline.mean(axis=0))
-    factor = min(max(WIDE / max(math.sqrt(across / along), 1e-6), 1.0), _WIDEST)
+    factor = max(_WIDE / max(math.sqrt(across / along), 1e-6), 1.0)
     side = unit_vector(angle + math.pi / 2)
     path = stretched(outline, side, factor)
     narrowed = partial(stretched, along=side, factor=1.0 / factor)

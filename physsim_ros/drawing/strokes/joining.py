@@ -19,9 +19,9 @@ import numpy as np
 from physsim_ros.drawing.strokes.fitting import segment_distances
 from physsim_ros.drawing.strokes.geometry import (
     angles,
+    ARM,
     convex_hull,
     COUNT,
-    END,
     few_points,
     path_length,
     size_of,
@@ -34,9 +34,8 @@ from physsim_ros.model.transform import cross, dots, norms
 
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
-# The length by which a stroke may end short of another that it is to meet, in shares of its own,
-# and the number of points on it.
-_BEYOND, _POINTS_BEYOND = 0.2, 10
+# The length by which a stroke may end short of another that it is to meet, in shares of its own.
+_BEYOND = 0.2
 # A shaft and a head: the least straightness of the shaft and of barbs (distance of the ends by
 # length), the greatest angle between barbs [rad], the least length of the shorter barb by that of
 # the longer, and its greatest length and the greatest gap before the tip, in lengths of the shaft.
@@ -189,10 +188,11 @@ def touch(one: Floats, other: Floats, size: float, snap: float) -> bool:
 
 def _extended(stroke: Floats) -> Floats:
     """Return points of a stroke and of its lines beyond both ends, where others may meet it."""
-    step = _BEYOND * path_length(stroke) / _POINTS_BEYOND
     parts = [few_points(stroke)]
+    # As far from one another as those on the stroke.
+    step = path_length(stroke) / len(parts[0])
+    steps = step * np.arange(1, int(_BEYOND * len(parts[0])) + 1)[:, None]
     for points in (stroke, stroke[::-1]):
-        ahead = points[0] - points[END]
-        ahead *= step / max(float(norms(ahead)), 1e-300)
-        parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
+        ahead = points[0] - points[ARM]
+        parts.append(points[0] + steps * (ahead / max(float(norms(ahead)), 1e-300)))
     return np.vstack(parts)

@@ -18,8 +18,8 @@ import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import Form, LEAST
-from physsim_ros.drawing.strokes.features import Features, TREMOR
-from physsim_ros.drawing.strokes.geometry import COUNT, END, path_length, point_of
+from physsim_ros.drawing.strokes.features import Features, FEWEST, TREMOR
+from physsim_ros.drawing.strokes.geometry import ARM, COUNT, path_length, point_of
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
@@ -28,12 +28,9 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.transform import cross, norms
 
-# The least straightness of a rod, and the greatest of a rope: the distance of the ends by the
-# length. An arc as high as a seventh of its chord has 0.95.
+# The least straightness of a rod and of the advance of round teeth, the greatest of a rope: the
+# distance of the ends by the length. An arc as high as a seventh of its chord has 0.95.
 _STRAIGHT = 0.95
-# The least number of bends, on alternate sides, of a spring; the least straightness of the advance
-# of round teeth.
-_FEWEST_TEETH, _STEADY = 3, 0.9
 # Factor on the density of a body by each line of its hatching.
 _HEAVIER = 1.25
 
@@ -95,7 +92,7 @@ def _is_held(body: str, context: Context) -> bool:
     """
     drawn, scene = context.drawn.points, context.scene
     for points in (drawn, drawn[::-1]):
-        before, end = map(point_of, points[[-END, -1]])
+        before, end = map(point_of, points[[-ARM, -1]])
         if body in scene.bodies_at(end):
             if not stands_on(body, end, scene):
                 return True
@@ -112,11 +109,11 @@ def _is_toothed(features: Features, points: Floats) -> bool:
     """
     # Bends of a brace are all on one side of the straight line between its ends.
     side = np.sign(cross(points[-1] - points[0], points[1:-1] - points[0]))
-    if len(side) >= _FEWEST_TEETH and bool((side[1:] == -side[:-1]).all()):
+    if len(side) >= FEWEST and bool((side[1:] == -side[:-1]).all()):
         return True
     swings = features.swings
     high = swings.height > TREMOR.at * features.stroke.size
-    return swings.count > _FEWEST_TEETH and high and swings.steady > _STEADY
+    return swings.count > FEWEST and high and swings.steady > _STRAIGHT
 
 
 def _cubic_length(points: Floats) -> float:

@@ -34,39 +34,33 @@ from physsim_ros.model.transform import next_vertices, norms
 # Names of the forms.
 LINE, DISC, OVAL, RECTANGLE, POLYGON = 'line', 'disc', 'oval', 'rectangle', 'polygon'
 # The number of swings from which on a stroke is no plain line or outline.
-_SWINGING = Limit(5.5, 0.25)
+_SWINGING = Limit(5.5)
 # The greatest gap of a closed outline, in shares of its length, and how much it rises with the
 # relatability of its ends: 99 of 100 people leave less than 11.5 %; a question mark has 17 %, and
 # ends that do not go on across it.
-_OPEN, _RELATED = Limit(0.134, 0.01), 0.045
+_OPEN, _RELATED = Limit(0.134), 0.045
 # The greatest length of a loop that is a mistake of the hand, in shares of the length.
 _LOOP = 0.15
 # The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
 # has 0.037 and more, that of a pigtail 0.07.
 _NARROW = 0.035
-# The greatest distance of an outline from a rectangle (rms), in shares of its size: that of an
-# octagon is 0.024 and more; and that in shares of the error of an ellipse, 0.5 for an oval.
-_SQUARE, _SQUARER = Limit(0.0222, 0.003), Limit(0.27, 0.03)
 # The spread of the radii of a circle or an oval, which is stretched to a circle, in shares of
-# their mean: of a square it is 0.11. The distance of an outline from straight sides between its
-# corners (rms), in shares of its size: that of a circle from a pentagon is 0.02.
-_ELLIPTIC, _SIDED = Limit(0.1, 0.01), Limit(0.022, 0.003)
+# their mean: of a square it is 0.11. The distance of an outline from a rectangle, and from
+# straight sides between its corners (rms), in shares of its size: that of a circle from a pentagon
+# is 0.02, that of an octagon from a rectangle 0.024 and more.
+_ELLIPTIC, _SIDED = Limit(0.1), Limit(0.022)
 # Of four corners of a rectangle: their mean distance from the corners of the nearest one, in mean
 # sides, and the mean deviation of their angles from right ones [rad]: a rhomb of 73° has 0.3, and
 # an eight more.
-_OFF, _SLANT = Limit(0.115, 0.012), Limit(0.3, 0.024)
+_OFF, _SLANT = Limit(0.115), Limit(0.3)
 # The least aspect of a circle as people draw it: from 0.5 to 0.63 no outline tells circles from
 # ovals, wheels are drawn more often, and the other reading is offered. The number of sides of an
 # oval, which rolls.
-_CIRCULAR, _OVAL_SIDES = Limit(0.58, 0.02), 48
+_CIRCULAR, _OVAL_SIDES = Limit(0.58), 48
 # Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
 # residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
 # the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.
 _EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -5.5, 2.8, 5.55, 4.95, 7.5, 0.35
-# The least residual that is told from 0, in shares of the size.
-_EXACT = 0.001
-# Factor on the weight of an outline that is neither round nor made of straight sides.
-_BLOB = 0.8
 
 
 def plain_forms(features: Features, plain: float) -> Iterator[Form]:
@@ -85,7 +79,7 @@ def plain_forms(features: Features, plain: float) -> Iterator[Form]:
     if line >= LEAST:
         yield Form(name=LINE, weight=line, points=bends_of(stroke.points))
     closed = plain * closure * still
-    if stroke.outline is None or closed < LEAST:
+    if closed < LEAST:
         return
     shapes = list(_shapes(stroke.outline))
     total = sum(shape.weight for shape in shapes)
@@ -144,11 +138,11 @@ def _shapes(outline: Floats) -> Iterator[Form]:
     yield Form(name=DISC, weight=circle * circular, points=disc, measures=measures)
     oval = ellipse.corners(_OVAL_SIDES)
     yield Form(name=OVAL, weight=circle * (1.0 - circular), points=oval, measures=measures)
-    square = _SQUARE.below(off) * _SQUARER.below(off / max(error, 1e-6))
-    if len(at) == 4 and _squareness(found) > square:
-        corners, square = found, _squareness(found)
-    else:
-        corners = narrowed(corners)
+    square = _SIDED.below(off)
+    sharpness = _squareness(found) if len(at) == 4 else 0.0
+    # Corners that are sharp are more exact than the rectangle of least squares.
+    corners = found if 2.0 * sharpness > square else narrowed(corners)
+    square = max(square, sharpness)
     weight = (1.0 - edgeless) * square
     yield Form(name=RECTANGLE, weight=weight, points=corners, measures=measures)
     if len(at) >= 3 and crosses_itself(found):
@@ -156,7 +150,7 @@ def _shapes(outline: Floats) -> Iterator[Form]:
         sided = sided if boundary is not None else 0.0
         found = found if boundary is None else boundary
     sided *= 1.0 - square
-    free = _BLOB * max(1.0 - max(square, circle) - sided, 0.0)
+    free = max(1.0 - max(square, circle) - sided, 0.0)
     if free > sided:
         # Neither round nor sided: a polygon along the stroke.
         along = traced(outline)
@@ -179,10 +173,10 @@ def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) ->
     """
     evidence = (
         _EVIDENCE
-        + _SIDES * math.log(max(sides, _EXACT))
-        - _ELLIPSE * math.log(max(error, _EXACT))
+        + _SIDES * math.log(max(sides, 1e-6))
+        - _ELLIPSE * math.log(max(error, 1e-6))
         + _BULGE * bulge
-        + _THIN * math.log(min(max(aspect, _EXACT) / _PLANK, 1.0))
+        + _THIN * math.log(min(max(aspect, 1e-6) / _PLANK, 1.0))
     )
     return logistic(evidence)
 
@@ -205,5 +199,5 @@ def _squareness(found: Floats) -> float:
     off = float(norms(nearest - found).mean() / lengths.mean())
     slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
     # The direction of a short side is less exact than its ends.
-    slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)
+    slant = float(slants.mean() * lengths.min() / lengths.max())
     return _OFF.below(off) * _SLANT.below(slant)

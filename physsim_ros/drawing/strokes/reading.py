@@ -40,7 +40,6 @@ from physsim_ros.drawing.strokes.evidence import (
     Form,
     group_confidence,
     LEAST,
-    share_confidence,
 )
 from physsim_ros.drawing.strokes.features import Features, features_of
 from physsim_ros.drawing.strokes.forms import forms_of
@@ -205,11 +204,10 @@ def guesses_by_rules(context: Context) -> tuple[Guess, ...]:
         # In the order of the meanings: that of a set differs from process to process.
         group = sum(share for each, share in weights.items() if each in others)
         sure = group_confidence(group, total, unexplained)
-        within = share_confidence(weight / group) if len(others) > 1 else 1.0
         guesses.append(
             Guess(
                 meaning=meaning,
-                confidence=sure * within,
+                confidence=sure * weight / group,
                 group_confidence=sure,
                 # An outcome is built once, whoever needs it first.
                 build=cache(best[meaning].build),

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.geometry import angles, COUNT, path_length, size_of, spaced
+from physsim_ros.drawing.strokes.geometry import angles, ARM, COUNT, path_length, size_of, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed
@@ -31,30 +31,21 @@ from physsim_ros.model.transform import dots, norms
 # Factor of the finer resampling, for the ends of narrow outlines, and its number of points.
 _FINER = 4
 _FINELY = _FINER * (COUNT - 1) + 1
-# Strokes of these numbers of samples have more put between them, on arcs. The greatest turn at a
-# sample of an arc [rad]: that of a circle of eight samples is 0.79, of a hexagon 1.05.
-_FEWEST, _FEW, _GENTLE = 4, 50, 0.9
+# Strokes of so many samples, and fewer than half of `COUNT`, have more put between them, on arcs.
+# The greatest turn at a sample of an arc [rad]: a circle of eight has 0.79, a hexagon 1.05.
+_FEWEST, _GENTLE = 4, 0.9
 # The greatest length of a hook, in shares of the stroke's size, and its least turn [rad].
-HOOK, HOOK_TURN = 0.1, 1.2
+HOOK, SHARP = 0.1, 1.2
 # The least number of rounds of an outline that was drawn more than once, and the greatest mean
 # distance of the other rounds from one, in shares of the size: that of a five-pointed star is 0.1.
 ROUNDS, AGAIN = 1.25, 0.065
-# The greatest overlap that is cut off at either end of a closed stroke, and the greatest gap
-# between its ends, in shares of its length.
-_OVERLAP, GAP = 0.14, 0.22
-# Cost of a length that is cut off, in lengths of gap.
-_CUT_COST = 0.6
-# The number of points that give the direction of a line at an overlap, and at an end: that of a
-# plank is short.
-_HEADING, _HEADING_AT_END = 6, 3
-# The greatest distance of lines that cross, in steps between points; the least cosine of the angle
-# between lines that overlap: the ends of a corner that cross are not antiparallel.
-_CROSSING, _SAME_DIRECTION = 1.0, -0.5
+# The greatest overlap that is cut off at either end of a closed stroke, in shares of its length.
+_OVERLAP = 0.14
 # The least distance of two samples that are kept, in shares of the stroke's size: a resting pen
 # jitters by some 0.2 % (standard deviation), and no side of a figure is shorter than 4 %.
 GRAIN = 0.01
-# The least length of a jump: in lengths of the longest other step, and in shares of the size.
-_JUMP, _FAR = 2.0, 0.15
+# The least length of a jump, in lengths of the longest other step.
+_JUMP = 2.0
 # The least number of samples of a stroke with jumps: strokes of fewer are clicks.
 _CLICKS = 12
 
@@ -66,7 +57,7 @@ class Stroke:
 
     :param points: (COUNT, 2) float64: the stroke without hooks [m]
     :param outline: (4 (COUNT - 1), 2) float64: the stroke closed, overlapping ends cut off, the
-        first point not repeated [m]; None where the gap between the ends is too large
+        first point not repeated [m]
     :param gap: between the ends, in shares of the length
     :param relatability: how well both ends go on across the gap, -2 .. 2: the cosines of the two
         angles between them and the gap (Kellman and Shipley, 1991); an arc of a circle has nearly
@@ -76,7 +67,7 @@ class Stroke:
     """
 
     points: Floats
-    outline: Floats | None
+    outline: Floats
     gap: float
     relatability: float
     size: float
@@ -97,7 +88,7 @@ def resample_stroke(samples: Floats) -> Stroke:
         raise BadSize(
             f'the stroke is smaller than {SMALLEST:g} m: a point draws nothing', field='poses'
         )
-    while _FEWEST <= len(cleaned) < _FEW:
+    while _FEWEST <= len(cleaned) < COUNT // 2:
         cleaned = _subdivided(cleaned)
     path = spaced(_without_hooks(spaced(cleaned, _FINELY)), _FINELY)
     points = path[::_FINER]
@@ -107,7 +98,7 @@ def resample_stroke(samples: Floats) -> Stroke:
     once = path[slice(_FINER * first, _FINER * last + 1)]
     return Stroke(
         points=points,
-        outline=spaced(np.vstack((once, once[:1])), _FINELY)[:-1] if gap <= GAP else None,
+        outline=spaced(np.vstack((once, once[:1])), _FINELY)[:-1],
         gap=gap,
         relatability=_relatability(points, first, last),
         size=size_of(points),
@@ -175,14 +166,14 @@ def _hook(points: Floats, reach: int) -> int:
     turn = np.abs(angles(a, b))
     sharpest = int(turn.argmax())
     # A turn that is sharpest at the last point belongs to something longer than a hook.
-    return sharpest + 1 if turn[sharpest] > HOOK_TURN and sharpest < reach - 1 else 0
+    return sharpest + 1 if turn[sharpest] > SHARP and sharpest < reach - 1 else 0
 
 
 def _relatability(points: Floats, first: int, last: int) -> float:
     """Return how well a stroke goes on from its last point across the gap to its first one."""
     gap = points[first] - points[last]
-    before = points[last] - points[last - _HEADING_AT_END]
-    after = points[first + _HEADING_AT_END] - points[first]
+    before = points[last] - points[last - ARM]
+    after = points[first + ARM] - points[first]
     lengths = norms(np.stack((before, after))) * max(math.hypot(*gap), 1e-300)
     return float((dots(np.stack((before, after)), gap) / np.maximum(lengths, 1e-300)).sum())
 
@@ -201,11 +192,11 @@ def _seam(points: Floats) -> tuple[int, int]:
     gaps = norms(head[:, None] - tail[None])
     # Number of points before a point of the head and after a point of the tail.
     cut = np.arange(ends)[:, None] + np.arange(ends)[None, ::-1]
-    onward = points[_HEADING:][:ends] - head
-    until = tail - points[:-_HEADING][-ends:]
-    cosines = dots(onward[:, None], until[None]) / (norms(onward)[:, None] * norms(until) + 1e-300)
-    overlap = (cosines > _SAME_DIRECTION) | (gaps < _CROSSING * step) | (cut == 0)
-    best = int(np.where(overlap, gaps + _CUT_COST * step * cut, np.inf).argmin())
+    onward = points[ARM:][:ends] - head
+    until = tail - points[:-ARM][-ends:]
+    overlap = (dots(onward[:, None], until[None]) > 0.0) | (gaps < step) | (cut == 0)
+    # A length that is cut off costs as much as a gap of half of it.
+    best = int(np.where(overlap, gaps + step * cut / 2, np.inf).argmin())
     first, last = divmod(best, ends)
     return first, count - ends + last
 
@@ -271,12 +262,11 @@ def _without_spikes(points: Floats) -> Floats:
     """Return points without spikes: without those to which the pen jumps, and from them back."""
     if len(points) < _CLICKS:
         return points
-    far = _FAR * _robust_size(points)
     steps = norms(np.diff(points, axis=0))
     # The two jumps of a spike are the two longest steps.
     usual = _JUMP * float(np.partition(steps, -3)[-3])
     there = np.minimum(steps[:-1], steps[1:])
     back = norms(points[2:] - points[:-2])
     kept = np.ones(len(points), np.bool_)
-    kept[1:-1] = (there <= max(far, usual)) | (back >= 0.5 * there)
+    kept[1:-1] = (there <= usual) | (back >= there / 2)
     return points[kept]

@@ -23,6 +23,7 @@ from physsim_ros.drawing.strokes.meanings import (
     Outcome,
     Sign,
 )
+from physsim_ros.drawing.strokes.stroke import SHARP
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
@@ -31,8 +32,6 @@ from physsim_ros.model.transform import cross, dots, norms
 # The least distance between the ends of an arrow, in shares of its size: barbs reach back to the
 # tail's side, if they are as long as the shaft.
 _LEAST_CHORD = 0.15
-# The least turn of the pen at the tip [rad]: at barbs it turns back.
-_LEAST_TURN = 1.2
 # The part of a shaft that shows how it is bowed, from its tail on, and the part of an arrow in
 # which its head is, before its tip; in shares of the distance between both.
 _SHAFT, _HEAD = 0.6, 0.9
@@ -45,7 +44,7 @@ _ALONG = np.linspace(0.15, 1.0, 8)[:, None]
 def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield a shaft and a head, in either order; points: tail and tip."""
     stroke, measures = features.stroke, features.measures
-    if measures['chord'] >= _LEAST_CHORD and measures['sharpest'] >= _LEAST_TURN:
+    if measures['chord'] >= _LEAST_CHORD and measures['sharpest'] >= SHARP:
         for points in (stroke.points, stroke.points[::-1]):
             yield _from_tail(points, features)
 

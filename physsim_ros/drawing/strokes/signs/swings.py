@@ -32,14 +32,14 @@ from physsim_ros.model.requests import Delete
 # The least spread of swings: those of scribbles lie closer.
 _CLOSEST = 0.9
 # The share of the stroke that lies on the bodies at its ends from which on it is no spring.
-_ON_ENDS = Limit(0.6, 0.03)
+_ON_ENDS = Limit(0.6)
 # The least number of swings: people make six and more.
 _FEWEST = 6
 # The greatest spread of swings: those of zigzags lie farther apart.
 _FARTHEST = 1.15
 # The greatest share of the middle half of a spring that lies on the bodies at its ends: a scribble
 # over two bodies side by side has 0.3 and more.
-_MIDDLE_ON_ENDS = Limit(0.15, 0.03)
+_MIDDLE_ON_ENDS = Limit(0.15)
 
 
 def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
