@@ -20,8 +20,8 @@ from pymunk._chipmunk_cffi import ffi as pymunk_ffi
 from pymunk._chipmunk_cffi import lib as pymunk_lib
 
 Table = NDArray[np.void]
-# A body at or beyond this position, angle or velocity is lost and removed [m, rad, s]; a double
-# resolves 0.1 mm there.
+# A body at or beyond this position, angle or velocity is lost and removed
+# [m, rad, m/s, rad/s]; a double resolves 0.1 mm there.
 LOST = 1e12
 # Functions of Chipmunk by the fields of `Chipmunk`.
 _FUNCTIONS = {
@@ -84,7 +84,7 @@ class CoreWorld:
 
     def use_bodies(self, bodies: Table, former: Sequence[int]) -> None:
         """
-        Have the core step these bodies; `forces`, `regions`, `robots`, `actors` are next.
+        Have the core step these bodies; the tables that `use` takes are next, but for motors.
 
         :param bodies: (n + 1,) `Body`; the last one is the background
         :param former: place of each in the table before; -1 for those that are new
@@ -136,7 +136,7 @@ class CoreWorld:
         :param has_fields: whether fields act on the bodies, or velocities lead by them
         """
         self._world.has_fields = has_fields
-        self._world.drag_force = settings.drag_force * settings.reference_gravity
+        self._world.drag_acceleration = settings.drag_force * settings.reference_gravity
         for name in ('gravitation', 'coulomb', 'attraction_power', 'softening'):
             setattr(self._world, name, getattr(settings, name))
 

@@ -7,12 +7,12 @@ Overlaps: pairs of convex pieces that would overlap at once, counted before the 
 Law: an overlap costs the engine a contact in every step, and n pieces in one place n² / 2 of them
 in a step that no signal ends; so they are counted before any is added or moved.
 
-A piece is counted by its *core*: the bounding box along its longest edge, about its centroid,
-reduced so that pieces that touch or rest on each other do not count (of a disc the square in it).
-Two pieces overlap if their cores do, by the separating axis theorem (Ericson, Real-Time Collision
-Detection, 4.4.1); candidates are found by the broad phase, in parts, so that the count ends soon
-after its limit. Shallower overlaps than that are not counted, and are no more than some for each
-piece, since their centres are apart.
+A piece is counted by its *inner box*: the bounding box along its longest edge, about the mean of
+its corners, reduced so that pieces that touch or rest on each other do not count (of a disc the
+square in it). Two pieces overlap if their inner boxes do, by the separating axis theorem (Ericson,
+Real-Time Collision Detection, 4.4.1); candidates are found by the broad phase, in parts, so that
+the count ends soon after its limit. Shallower overlaps than that are not counted, and are no more
+than some for each piece, since their centres are apart.
 """
 
 from __future__ import annotations
@@ -31,9 +31,11 @@ from physsim_ros.model.weak_cache import cached_weakly
 
 # Candidates compared at once: some 30 MB.
 _PART = 200_000
-# Share of a core in the bounding box of a piece: a disc's is the square in it; rounding and the
-# turning of pieces that lie on each other leave 95 %; of a triangle's box half is inside.
+# Share of an inner box in the bounding box of a piece: a disc's is the square in it; rounding and
+# the turning of pieces that lie on each other leave 95 %; of a triangle's box half is inside.
 _OF_DISC, _OF_BAR, _OF_CONVEX = math.sqrt(0.5), 0.95, 0.5
+# Gap between a rectangle's corner and that of its box, as a share of the width of the box [1].
+_SQUARE = 0.005
 # The least share: pieces may be as small as the overlap that the engine leaves.
 _LEAST = 0.2
 
@@ -41,9 +43,9 @@ _LEAST = 0.2
 Box = tuple[float, float, float, float]
 
 
-class Cores(NamedTuple):
+class InnerBoxes(NamedTuple):
     """
-    Cores of pieces.
+    Inner boxes of pieces.
 
     :ivar centers: (n, 2) float64 [m]
     :ivar halves: (n, 2) float64: half length and half width [m]
@@ -56,19 +58,19 @@ class Cores(NamedTuple):
 
 
 @cached_weakly
-def _cores_of(form: Form) -> Cores:
-    """Return the cores of the pieces of a form, in the body's frame."""
-    centers, halves, yaws = zip(*map(_core, form.pieces), strict=True)
-    return Cores(np.array(centers), np.array(halves), np.array(yaws))
+def _inner_boxes_of(form: Form) -> InnerBoxes:
+    """Return the inner boxes of the pieces of a form, in the body's frame."""
+    centers, halves, yaws = zip(*map(_inner_box, form.pieces), strict=True)
+    return InnerBoxes(np.array(centers), np.array(halves), np.array(yaws))
 
 
 @cached_weakly
-def _only_core(form: Form) -> tuple[tuple[float, float], tuple[float, float], float]:
-    """Return the core of a form of one piece: centre, half length and width, yaw."""
-    return _core(form.pieces[0])
+def _only_inner_box(form: Form) -> tuple[tuple[float, float], tuple[float, float], float]:
+    """Return the inner box of a form of one piece: centre, half length and width, yaw."""
+    return _inner_box(form.pieces[0])
 
 
-def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float]:
+def _inner_box(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float]:
     match piece:
         case Circle(center, radius):
             half = _reduced(radius, _OF_DISC)
@@ -89,47 +91,45 @@ def _core(piece: Piece) -> tuple[tuple[float, float], tuple[float, float], float
             middle = (low + high) / 2
             # All corners of a rectangle are corners of its box.
             gaps = np.abs(np.abs(along - middle) - (high - low) / 2).max()
-            if len(corners) == 4 and gaps < COLLISION_SLOP * float((high - low).min()):
-                share, center = _OF_BAR, corners.mean(axis=0)
-            else:
-                share, center = _OF_CONVEX, corners.mean(axis=0)
-            x, y = center.tolist()
+            is_rectangle = len(corners) == 4 and gaps < _SQUARE * float((high - low).min())
+            share = _OF_BAR if is_rectangle else _OF_CONVEX
+            x, y = corners.mean(axis=0).tolist()
             length, width = ((high - low) / 2).tolist()
             return (x, y), (_reduced(length, share), _reduced(width, share)), yaw
 
 
 def _reduced(half: float, share: float) -> float:
-    """Return half the extent of a core, of a piece of half an extent [m]."""
+    """Return half the extent of an inner box, of a piece of half an extent [m]."""
     return max(half * share - COLLISION_SLOP, half * _LEAST)
 
 
 class Layout(NamedTuple):
     """
-    The cores of the pieces of bodies in the world.
+    The inner boxes of the pieces of bodies in the world.
 
-    :ivar cores: in world coordinates
+    :ivar inner: in world coordinates
     :ivar bodies: (n,) int64: number of the body of each
     """
 
-    cores: Cores
+    inner: InnerBoxes
     bodies: Ints
 
 
 def laid_out(shapes: Sequence[Shape], poses: Floats) -> Layout:
     """
-    Return the cores of bodies.
+    Return the inner boxes of bodies.
 
     :param shapes: of the bodies
     :param poses: (n, 3) float64: of the bodies' origins, in the same order [m, rad]
     """
-    parts = [_cores_of(shape.form) for shape in shapes]
+    parts = [_inner_boxes_of(shape.form) for shape in shapes]
     bodies = np.repeat(np.arange(len(parts)), [len(part.yaws) for part in parts])
     if not parts:
-        return Layout(Cores(np.empty((0, 2)), np.empty((0, 2)), np.empty(0)), bodies)
-    local = Cores(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+        return Layout(InnerBoxes(np.empty((0, 2)), np.empty((0, 2)), np.empty(0)), bodies)
+    local = InnerBoxes(*(np.concatenate(column) for column in zip(*parts, strict=True)))
     yaws = poses[bodies, 2]
     centers = poses[bodies, :2] + rotated_each(local.centers, yaws)
-    return Layout(Cores(centers, local.halves, local.yaws + yaws), bodies)
+    return Layout(InnerBoxes(centers, local.halves, local.yaws + yaws), bodies)
 
 
 def count_overlaps(layout: Layout, first: Flags, anchored: Flags, *, most: int) -> int:
@@ -140,15 +140,15 @@ def count_overlaps(layout: Layout, first: Flags, anchored: Flags, *, most: int) 
     :param anchored: (b,) bool: bodies, which do not collide with each other
     :param most: the count ends when it is greater
     """
-    cores, bodies = layout
+    inner, bodies = layout
     count = 0
     if not len(bodies):
         return count
-    boxes = _boxes(cores)
+    boxes = _boxes(inner)
     for one, other in pairs_in_parts(boxes, first[bodies], most=_PART):
         a, b = bodies[one], bodies[other]
         apart = (a != b) & ~(anchored[a] & anchored[b])
-        count += int(_overlap(cores, one[apart], other[apart]).sum())
+        count += int(_overlap(inner, one[apart], other[apart]).sum())
         if count > most:
             break
     return count
@@ -165,32 +165,32 @@ def _count_inside(form: Form) -> int:
     if count == 1:
         return 0
     # As if each piece were a body.
-    layout = Layout(_cores_of(form), np.arange(count))
+    layout = Layout(_inner_boxes_of(form), np.arange(count))
     none = np.zeros(count, np.bool_)
     return count_overlaps(layout, ~none, none, most=count**2)
 
 
-def _overlap(cores: Cores, one: Ints, other: Ints) -> Flags:
-    """Return which pairs of cores overlap."""
-    offset = cores.centers[other] - cores.centers[one]
-    difference = cores.yaws[other] - cores.yaws[one]
+def _overlap(inner: InnerBoxes, one: Ints, other: Ints) -> Flags:
+    """Return which pairs of inner boxes overlap."""
+    offset = inner.centers[other] - inner.centers[one]
+    difference = inner.yaws[other] - inner.yaws[one]
     cos, sin = np.abs(np.cos(difference)), np.abs(np.sin(difference))
     overlap = np.ones(len(one), np.bool_)
     for axes, own, its in ((one, one, other), (other, other, one)):
-        distance = np.abs(rotated_each(offset, -cores.yaws[axes]))
-        length, width = cores.halves[its].T
+        distance = np.abs(rotated_each(offset, -inner.yaws[axes]))
+        length, width = inner.halves[its].T
         reach = np.column_stack((length * cos + width * sin, length * sin + width * cos))
-        overlap &= (distance < cores.halves[own] + reach).all(axis=1)
+        overlap &= (distance < inner.halves[own] + reach).all(axis=1)
     return overlap
 
 
-def core_boxes(shape: Shape, pose: Pose) -> list[Box]:
-    """Return left, bottom, right, top of the cores of a body [m]."""
+def bounds_of_pieces(shape: Shape, pose: Pose) -> list[Box]:
+    """Return left, bottom, right, top of the inner boxes of a body [m]."""
     if len(shape.form.pieces) > 1:
-        boxes = _boxes(laid_out([shape], np.array([pose])).cores).tolist()
+        boxes = _boxes(laid_out([shape], np.array([pose])).inner).tolist()
         return [(left, bottom, right, top) for left, bottom, right, top in boxes]
     # Without arrays, which take ten times as long for one piece.
-    (x, y), (length, width), yaw = _only_core(shape.form)
+    (x, y), (length, width), yaw = _only_inner_box(shape.form)
     x, y = rotated((x, y), pose[2])
     cos, sin = abs(math.cos(yaw + pose[2])), abs(math.sin(yaw + pose[2]))
     dx, dy = length * cos + width * sin, length * sin + width * cos
@@ -198,9 +198,9 @@ def core_boxes(shape: Shape, pose: Pose) -> list[Box]:
     return [(x - dx, y - dy, x + dx, y + dy)]
 
 
-def _boxes(cores: Cores) -> Floats:
-    """Return (n, 4) float64: left, bottom, right, top of cores [m]."""
-    cos, sin = np.abs(np.cos(cores.yaws)), np.abs(np.sin(cores.yaws))
-    length, width = cores.halves.T
+def _boxes(inner: InnerBoxes) -> Floats:
+    """Return (n, 4) float64: left, bottom, right, top of inner boxes [m]."""
+    cos, sin = np.abs(np.cos(inner.yaws)), np.abs(np.sin(inner.yaws))
+    length, width = inner.halves.T
     extents = np.column_stack((length * cos + width * sin, length * sin + width * cos))
-    return np.hstack((cores.centers - extents, cores.centers + extents))
+    return np.hstack((inner.centers - extents, inner.centers + extents))

@@ -254,7 +254,8 @@ class Space:
         self.bodies.wake_around(rigid, touching)
         if rigid.body.medium is not None:
             wake_bodies(each.pm_body for each in self.bodies.by_name.values())
-        self._core.note_moved_static()
+        if rigid.body.anchored:
+            self._core.note_moved_static()
         # It attracts others from another place.
         attracting = len(self._table.columns.attractors) if self._table is not None else 0
         for each in self.bodies.by_name.values() if attracting else (rigid,):

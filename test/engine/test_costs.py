@@ -4,9 +4,11 @@
 """What happens to many bodies in one step costs what their count says."""
 
 from collections.abc import Callable
+import math
 
+from physsim_ros.model.requests import Delete
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Disc
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 
 from .costs import growth, MOST
@@ -26,3 +28,44 @@ def landing(count: int) -> Callable[[], object]:
 
 def test_many_that_land_at_once_cost_what_their_count_says():
     assert growth(landing, 1500) < MOST
+
+
+def cornered(count: int) -> Callable[[], object]:
+    """Return the step in which discs meet the corners of boxes at once."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    for number in range(count):
+        x, y = divmod(number, 100)
+        post = Box(width=0.1, height=0.1)
+        spawn(world, f'post/{number}', post, (float(x), float(y), math.pi / 4), anchored=True)
+        pose = (float(x), y + 0.05 * math.sqrt(2.0) + 0.0525, 0.0)
+        spawn(world, f'disc/{number}', Disc(radius=0.05), pose, velocity=(0.0, -1.0))
+    # Makes the table.
+    world.snapshot()
+    return lambda: world.step(1)
+
+
+def test_many_discs_that_meet_corners_at_once_cost_what_their_count_says():
+    assert growth(cornered, 1500) < MOST
+
+
+def under_way(count: int) -> Callable[[], object]:
+    """Return a step of actors that have begun as one gate opened, which has closed since."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    gate = Box(width=1.0, height=1.0)
+    spawn(world, 'gate/0', gate, (-9.0, 0.0, 0.0), anchored=True, sensor=True)
+    waits = {'gate': 'gate/0'}
+    spawn(world, 'key/0', Disc(radius=0.1), (-9.0, 0.0, 0.0))
+    for number in range(count):
+        pose = (float(number), 0.0, 0.0)
+        path = {'kind': 'path', 'points': [[number, 0], [number, 9]], 'speed': 1.0}
+        actor = {**path, 'start': waits}
+        spawn(world, f'cart/{number}', Disc(radius=0.1), pose, kinematic=True, actor=actor)
+    world.step(1)
+    world.apply(Delete(name='key/0'))
+    world.step(1)
+    assert world.snapshot().twists[-1, 1] > 0.0
+    return lambda: world.step(4)
+
+
+def test_actors_under_way_do_not_look_at_their_gates():
+    assert growth(under_way, 300) < MOST

@@ -10,7 +10,7 @@ from physsim_ros.model.requests import ChangeBody, Command, Configure, Delete
 from physsim_ros.model.shapes import Box, Chain, Disc, hull_of, Triangles
 import pytest
 
-from ..laws.scenes import floor, G, run, simulation, spawn
+from ..laws.scenes import DT, floor, G, run, simulation, spawn
 
 WATER = {'density': 10.0, 'viscosity': 1.0}
 
@@ -196,3 +196,32 @@ def test_gusts_are_those_of_their_seed_whatever_the_region_is_called():
     same = blown(('left/0', 'right/0'), (7, 7))
     assert np.allclose(same[0], same[1])
     assert np.array_equal(same[1], one[1])
+
+
+def struck_raft(height, *, rebuilt):
+    """
+    Return the velocity of a raft that slept on water, after the step in which a ball strikes it.
+
+    :param height: from which the ball falls on it [m]
+    :param rebuilt: a request between the step before and this one changes what is far away
+    """
+    sim = simulation(elasticity=0.0)
+    pool(sim, 0.0)
+    raft = spawn(sim, 'raft/0', Box(width=2.0, height=0.4), (0.0, 0.0, 0.0), density=5.0)
+    spawn(sim, 'ball/0', Disc(radius=0.1), (0.0, height, 0.0), mass=0.1)
+    while sim.world.snapshot().poses[-1, 1] - 0.3 > abs(sim.world.snapshot().twists[-1, 1]) * DT:
+        sim.world.step(1)
+    assert asleep(sim, 'raft/0')
+    if rebuilt:
+        spawn(sim, 'far/0', Disc(radius=0.1), (90.0, 0.0, 0.0), anchored=True)
+    sim.world.step(1)
+    return sim.world.snapshot().twists[raft]
+
+
+@pytest.mark.parametrize('height', [60.0, 60.1, 60.2, 60.3])
+def test_a_sleeping_raft_that_is_struck_floats_whatever_is_requested_far_away(height):
+    velocity = struck_raft(height, rebuilt=False)
+
+    # g for a sub-step is 10 mm/s.
+    assert struck_raft(height, rebuilt=True) == pytest.approx(velocity, abs=1e-6)
+    assert np.abs(velocity).max() > 0.1

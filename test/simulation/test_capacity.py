@@ -235,7 +235,7 @@ def test_an_anchored_body_is_anchored_wherever_it_is():
     world.apply(Anchor(point=(0.0, 0.0)))
 
 
-def test_cores_of_one_piece_and_of_many_are_alike():
+def test_inner_boxes_of_one_piece_and_of_many_are_alike():
     world = row(1)
     assert flooded(world, [Spawn(name='b/0', shape=Disc(radius=0.5))]) == 0
 

@@ -27,7 +27,6 @@
 // Time in which a robot makes up for its distance from the path, and in which a pedestrian comes to rest at its last
 // point [s]. The drives of the shipped robots reach their speed in a tenth of a second or two.
 static const double settling_time = 0.5;
-static const double two_pi = 6.283185307179586;
 static const int64_t never = INT64_C(1) << 62;
 
 static Vec shortened(Vec a, double most) {
@@ -76,8 +75,8 @@ static bool is_near(const World *world, const Actor *actor) {
 static void start_actors(World *world) {
     for (int number = 0; number < world->actor_count; number++) {
         Actor *actor = world->actors + number;
-        bool starts = !actor->waits || is_opened(world, actor) || is_near(world, actor);
-        if (actor->state.begun == never && starts) {
+        // Whether a gate is open is looked for only while its actor waits: that can go through all bodies.
+        if (actor->state.begun == never && (!actor->waits || is_opened(world, actor) || is_near(world, actor))) {
             actor->state.begun = world->step + actor->delay;
         }
     }
@@ -86,7 +85,7 @@ static void start_actors(World *world) {
 // Paths
 
 // Where a path is at a time since it started.
-static Pose place_on_path(const Actor *actor, double time) {
+static Pose pose_on_path(const Actor *actor, double time) {
     const Waypoint *first = actor->points, *last = first + actor->point_count - 1;
     double whole = last->time;
     if (actor->repeat == ONCE || whole == 0.0) {
@@ -110,7 +109,7 @@ static Pose place_on_path(const Actor *actor, double time) {
 
 // The velocity of the centre of mass that brings a kinematic body in a step to where its path is at the end.
 static Twist keep_to_path(const Actor *actor, const Body *body, Pose end, double dt) {
-    double turn = actor->path.turns != 0.0 ? remainder(end.yaw - body->engine->a, two_pi) : 0.0;
+    double turn = actor->path.turns != 0.0 ? remainder(end.yaw - body->engine->a, full_turn) : 0.0;
     Rotation by = rotation(body->engine->a + turn);
     Vec displacement = sub(add(end.p, rotated(body->offset, by)), body->engine->p);
     double most_turn = 2.0 * actor->path.turn_rate;
@@ -127,7 +126,7 @@ static Twist chase_path(const World *world, const Actor *actor, Pose now, Pose e
     Vec error = sub(now.p, add(body->engine->p, led)), along = scaled(sub(end.p, now.p), 1.0 / dt);
     double turn = 0.0;
     if (actor->path.turns != 0.0) {
-        turn = (end.yaw - now.yaw) / dt + remainder(now.yaw - body->engine->a, two_pi) / settling_time;
+        turn = (end.yaw - now.yaw) / dt + remainder(now.yaw - body->engine->a, full_turn) / settling_time;
     }
     Twist velocity = {add(along, scaled(error, 1.0 / settling_time)), turn};
     velocity.v = actor->robot >= 0 ? velocity.v : velocity_at(velocity, offset);
@@ -137,7 +136,7 @@ static Twist chase_path(const World *world, const Actor *actor, Pose now, Pose e
 static Twist follow_path(const World *world, const Actor *actor, double dt) {
     const Body *body = world->bodies + actor->body;
     double time = (double)(world->step - actor->state.begun) * dt;
-    Pose now = place_on_path(actor, time), end = place_on_path(actor, time + dt);
+    Pose now = pose_on_path(actor, time), end = pose_on_path(actor, time + dt);
     return body->dynamic ? chase_path(world, actor, now, end, dt) : keep_to_path(actor, body, end, dt);
 }
 
@@ -159,17 +158,17 @@ static int next_point(const Actor *actor) {
 
 // The velocity that a pedestrian would have alone.
 static Vec desired_velocity(const World *world, const Surroundings *around, Actor *actor, const Disc *self) {
-    Vec offset = sub(actor->points[next_point(actor)].pose.p, self->place);
+    Vec offset = sub(actor->points[next_point(actor)].pose.p, self->point);
     bool ends = actor->repeat == ONCE;
     if (length(offset) <= actor->pace.goal_radius && !(ends && actor->state.reached >= actor->point_count)) {
         actor->state.reached++;
-        offset = sub(actor->points[next_point(actor)].pose.p, self->place);
+        offset = sub(actor->points[next_point(actor)].pose.p, self->point);
     }
     double speed = actor->pace.speed;
     if (ends && actor->state.reached >= actor->point_count - 1) {
         speed = least(speed, length(offset) / settling_time);
     }
-    return scaled(heading_to(world, around, self, add(self->place, offset)), speed);
+    return scaled(heading_to(world, around, self, add(self->point, offset)), speed);
 }
 
 static Vec walk(World *world, const Surroundings *around, Actor *actor, double dt) {

@@ -27,20 +27,20 @@ static double falloff(double square, double power) {
 
 Vec *attractions(World *world, double ahead) {
     Arena *arena = &world->own->arena;
-    Vec *places = TAKE(arena, Vec, world->attractor_count), *forces = TAKE(arena, Vec, world->attractor_count);
+    Vec *points = TAKE(arena, Vec, world->attractor_count), *forces = TAKE(arena, Vec, world->attractor_count);
     for (int number = 0; number < world->attractor_count; number++) {
         const Attractor *attractor = world->attractors + number;
         const Body *body = world->bodies + attractor->body;
         Twist twist = ahead > 0.0 ? twist_of(body->engine) : true_twist(body->engine);
         Pose pose = moved(pose_of(body->engine), twist, ahead);
-        places[number] = add(pose.p, rotated(attractor->center, rotation(pose.yaw)));
+        points[number] = add(pose.p, rotated(attractor->center, rotation(pose.yaw)));
     }
     double softening = world->softening * world->softening;
     for (int one = 0; one < world->attractor_count; one++) {
         const Attractor *a = world->attractors + one;
         for (int other = one + 1; other < world->attractor_count; other++) {
             const Attractor *b = world->attractors + other;
-            Vec offset = sub(places[one], places[other]);
+            Vec offset = sub(points[one], points[other]);
             double square = dot(offset, offset) + softening;
             // Two bodies at one point do not attract each other.
             if (square > 0.0) {

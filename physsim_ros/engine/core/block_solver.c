@@ -12,7 +12,7 @@
 // `b2ContactSolver::SolveVelocityConstraints` in Box2D 2.4, "block solver"). Chipmunk's own solver begins with these
 // impulses. Friction and what it changes of the normal impulses are found by rounds of sequential impulses over the
 // same points, as Chipmunk makes them.
-// Scope: two bodies that hit each other in two points or more, or one that so hits what forces do not move, with all
+// Scope: two bodies that hit each other, or one that hits what forces do not move, in any number of points, with all
 // contacts of these bodies and of those that they touch in turn: the ground that carries a body which is hit, a short
 // stack below it. Of two bodies the outermost points of each face count: the others can add nothing to them, whatever
 // pieces the bodies consist of. Impacts in piles of more than `CLUSTER_POINTS` are left to Chipmunk: impulses from a
@@ -21,7 +21,7 @@
 // pinched between a heavy one and the ground, with one where friction turns the slip round (T. R. Kane and D. A.
 // Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest share of its restitution
 // with which it gains none.
-// Cost: 1 µs for each pair of bodies that hit each other so.
+// Cost: 1 µs for each pair of bodies that hit each other.
 // Without it laws 8 (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of
 // energy laws 6 (oblique impacts) and 34 (random crowds).
 
@@ -103,7 +103,7 @@ static bool share_face(const cpArbiter *one, const cpArbiter *other) {
 }
 
 // Where a point lies along the face of a contact [m].
-static double place_along(const cpArbiter *face, ContactPoint point) {
+static double position_along(const cpArbiter *face, ContactPoint point) {
     const cpBody *body = is_movable(face->body_a) ? face->body_a : face->body_b;
     Vec arm = body == point.arbiter->body_a ? point.contact->r1 : point.contact->r2;
     return cross(face->n, arm);
@@ -125,11 +125,11 @@ static void add_point(Cluster *cluster, ContactPoint point) {
         }
         return;
     }
-    double place = place_along(point.arbiter, point), first = place_along(point.arbiter, *ends[0]),
-           second = place_along(point.arbiter, *ends[1]);
-    if (place < least(first, second)) {
+    double position = position_along(point.arbiter, point), first = position_along(point.arbiter, *ends[0]),
+           second = position_along(point.arbiter, *ends[1]);
+    if (position < least(first, second)) {
         *ends[first < second ? 0 : 1] = point;
-    } else if (place > greatest(first, second)) {
+    } else if (position > greatest(first, second)) {
         *ends[first > second ? 0 : 1] = point;
     }
 }
@@ -367,7 +367,7 @@ static void find_impulses(const World *world, Point *points, int count) {
 // Velocities of a body just before and just after an impact: those of the end of the step, less what its acceleration
 // adds from the impact on, and less the half-step lead while it flies.
 static Twist at_impact(const World *world, const Body *body, Twist end, bool flies) {
-    double share = 2.0 * (body->scratch.since + body->scratch.left) / world->dt + (flies ? 1.0 : 0.0);
+    double share = 2.0 * (body->scratch.since + body->scratch.remaining) / world->dt + (flies ? 1.0 : 0.0);
     return body->dynamic ? twist_sum(end, body->state.lead, -share) : end;
 }
 

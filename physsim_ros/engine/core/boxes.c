@@ -48,7 +48,7 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
         tree.leaves *= 2;
     }
     tree.members = TAKE(arena, int, count);
-    tree.places = TAKE(arena, int, count);
+    tree.leaf_of = TAKE(arena, int, count);
     tree.nodes = TAKE(arena, Box, 2 * tree.leaves);
     size_t mark = arena_mark(arena);
     Tile *tiles = TAKE(arena, Tile, count);
@@ -66,11 +66,11 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
         sort(tiles + first, size, sizeof(Tile), by_y);
     }
     clear_nodes(&tree);
-    for (int place = 0; place < count; place++) {
-        int number = tiles[place].number;
-        tree.members[place] = number;
-        tree.places[number] = place;
-        tree.nodes[tree.leaves + (size_t)place] = boxes[number];
+    for (int leaf = 0; leaf < count; leaf++) {
+        int number = tiles[leaf].number;
+        tree.members[leaf] = number;
+        tree.leaf_of[number] = leaf;
+        tree.nodes[tree.leaves + (size_t)leaf] = boxes[number];
     }
     for (size_t node = tree.leaves - 1; node > 0; node--) {
         tree.nodes[node] = united(tree.nodes[2 * node], tree.nodes[2 * node + 1]);
@@ -88,7 +88,7 @@ Tree emptied(const Tree *tree, Arena *arena) {
 
 void tree_set(Tree *tree, int number, Box box) {
     assert(number >= 0 && number < tree->count);
-    size_t node = tree->leaves + (size_t)tree->places[number];
+    size_t node = tree->leaves + (size_t)tree->leaf_of[number];
     tree->nodes[node] = box;
     for (node /= 2; node > 0; node /= 2) {
         tree->nodes[node] = united(tree->nodes[2 * node], tree->nodes[2 * node + 1]);

@@ -13,7 +13,7 @@ typedef struct Tree {
     int count;
     size_t leaves; // a power of two
     int *members;  // (count): which box each leaf has
-    int *places;   // (count): the leaf of each box
+    int *leaf_of;  // (count): the leaf of each box
     Box *nodes;    // (2 * leaves): the root is 1, the children of k are 2 k and 2 k + 1
 } Tree;
 

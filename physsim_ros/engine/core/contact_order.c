@@ -13,7 +13,6 @@
 // of boxes and their mirror images part.
 
 #include "stages.h"
-#include "touch.h"
 
 // Friction that tells a direction, as a share of the load [1]: far above rounding.
 static const double telling_friction = 1e-6;

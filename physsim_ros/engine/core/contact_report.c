@@ -26,8 +26,8 @@ enum { NEVER = -2 };
 typedef struct ReportedPair {
     int a, b; // places in the table, the lesser first
     // Of the last step in which they touched: impulse on the second body; sums over points of normals, from the first
-    // body to the second, and of places; the highest normal, for those that are opposed; count of points.
-    Vec impulse, normals, places, highest;
+    // body to the second, and of positions; the highest normal, for those that are opposed; count of points.
+    Vec impulse, normals, positions, highest;
     int points;
     Vec sum;       // of impulses in this frame [N s]
     int64_t stamp; // number of the last report in which they touched
@@ -111,7 +111,7 @@ static double first_touch(World *world, Body *a, Body *b) {
     if (a->sensor || b->sensor) {
         return crossing_time(world, a, b);
     }
-    return 1.0 - time_left(a, b) / world->dt;
+    return 1.0 - remaining_time(a, b) / world->dt;
 }
 
 static void add_begun(World *world, Report *report, Begun added) {
@@ -139,7 +139,7 @@ static void touch(World *world, Report *report, ReportedPair *pair) {
     }
     pair->stamp = report->stamp;
     pair->in_frame = true;
-    pair->impulse = pair->normals = pair->places = pair->highest = vec(0.0, 0.0);
+    pair->impulse = pair->normals = pair->positions = pair->highest = vec(0.0, 0.0);
     pair->points = 0;
 }
 
@@ -159,11 +159,11 @@ static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) 
     Vec impulse = vec(0.0, 0.0);
     for (int number = 0; number < arbiter->count; number++) {
         const cpContact *point = arbiter->contacts + number;
-        Vec place = add(add(arbiter->body_a->p, point->r1), add(arbiter->body_b->p, point->r2));
+        Vec sum = add(add(arbiter->body_a->p, point->r1), add(arbiter->body_b->p, point->r2));
         impulse = add(impulse, scaled(arbiter->n, point->jnAcc));
         impulse = add(impulse, scaled(perpendicular(arbiter->n), point->jtAcc));
         pair->normals = add(pair->normals, normal);
-        pair->places = add(pair->places, scaled(place, 0.5));
+        pair->positions = add(pair->positions, scaled(sum, 0.5));
         pair->points++;
     }
     double share = reported_share(body_of(arbiter->body_a), body_of(arbiter->body_b), impulse);
@@ -296,7 +296,7 @@ static Contact contact_of(const World *world, const ReportedPair *pair) {
     double size = length(pair->normals), count = pair->points > 0 ? (double)pair->points : 1.0;
     bool directed = size > opposed * count;
     return (Contact){.rows = {pair->a, pair->b == world->body_count - 1 ? -1 : pair->b},
-                     .point = scaled(pair->places, 1.0 / count),
+                     .point = scaled(pair->positions, 1.0 / count),
                      .normal = directed ? scaled(pair->normals, 1.0 / size) : pair->highest,
                      .impulse = pair->sum,
                      .points = pair->points};

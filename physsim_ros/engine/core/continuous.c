@@ -69,7 +69,7 @@ static void set_back(World *world, const Mover *mover) {
     cpBody *engine = mover->body->engine;
     Vec pivot;
     Pose end = pose_at(mover, 1.0, &pivot), free_end = moved(pose_of(engine), twist_of(engine), world->dt);
-    mover->body->scratch.left = mover->body->dynamic ? (1.0 - mover->since) * world->dt : 0.0;
+    mover->body->scratch.remaining = mover->body->dynamic ? (1.0 - mover->since) * world->dt : 0.0;
     mover->body->scratch.carried = (Twist){sub(end.p, mover->pose.p), end.yaw - mover->pose.yaw};
     Vec shift = sub(end.p, free_end.p);
     double turn = mover->turning > 0.0 ? end.yaw - free_end.yaw : 0.0;

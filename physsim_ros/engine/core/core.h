@@ -41,25 +41,25 @@ typedef struct BodyState {
     Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
 } BodyState;
 
-// What stages of a step tell each other of a body; nothing of it outlives the step.
+// What stages tell each other of a body; that of a sleeping body stays until it wakes. No checkpoint has it.
 typedef struct BodyScratch {
-    uint8_t slides;  // on a floor that does not carry it along
-    Pose begin;      // as the step begins
-    Twist twist;     // with which Chipmunk begins
-    Twist under;     // mean velocity of the floor under it
-    Twist without;   // velocity after the step without contacts, on a floor; scratch of block_solver.c
-    double left;     // of the step after continuous collision has stopped it [s]
-    Twist carried;   // displacement with what has stopped it, in that time [m, rad]
-    double since;    // time from its first impact to the end of its motion [s]
-    Twist rest;      // displacement that remains after its impact [m, rad]
-    uint8_t rests;   // that displacement has been found
-    uint8_t bounces; // its impact throws it off, so gravity acts on the new velocity
-    uint8_t thrown;  // its velocity was set before this sub-step
-    double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
-    Twist field;     // half of what fields change its velocity by in this step
-    uint8_t afloat;  // the surface of a medium crosses it
-    uint8_t stirred; // fields act on it that change while it rests
-    uint8_t lost;    // it has left the range of numbers
+    uint8_t slides;             // on a floor that does not carry it along
+    Pose begin;                 // as the step begins
+    Twist twist;                // with which Chipmunk begins
+    Twist under;                // mean velocity of the floor under it
+    Twist without_contacts;     // velocity after the sub-step without contacts, on a floor
+    double remaining;           // of the step after continuous collision has stopped it [s]
+    Twist carried;              // displacement with what has stopped it, in that time [m, rad]
+    double since;               // time from its first impact to the end of its motion [s]
+    Twist remaining_move;       // displacement that remains after its impact [m, rad]
+    uint8_t has_remaining_move; // that displacement has been found
+    uint8_t bounces;            // its impact throws it off, so gravity acts on the new velocity
+    uint8_t thrown;             // its velocity was set before this sub-step
+    double idle;                // for which it has been at rest as the step begins; < 0 while it sleeps [s]
+    Twist field;                // half of what fields change its velocity by in this step
+    uint8_t afloat;             // the surface of a medium crosses it
+    uint8_t stirred;            // fields act on it that change while it rests
+    uint8_t lost;               // it has left the range of numbers
 } BodyScratch;
 
 // A body as requests define it, with its state; the last one of the table is the background, which has the walls.
@@ -74,7 +74,6 @@ typedef struct Body {
     uint8_t motored;       // in one that a motor holds to something fixed; the core sets it
     uint8_t on_spring;     // a spring pulls it, and forces move it; the core sets it
     uint8_t towed;         // it rolls on an axle without a motor
-    uint8_t expires;       // the steps of Python end with it
     cpVect offset;         // the engine's origin in the body's frame [m]
     double reach;          // greatest distance of a point of it from the centre of mass [m]
     double half_width;     // of its thinnest piece [m]
@@ -277,7 +276,7 @@ typedef struct Row {
     int32_t part, component; // the constraint that has the impulse of the row, and which of its two numbers that is
     double lower, upper;     // [m, rad]
     double below, above;     // factors from Chipmunk's impulse to λ, where x is below the lower bound, and elsewhere
-    double most;             // greatest absolute value of λ in a step [N s, N m s]
+    double most;             // greatest absolute value of λ in a sub-step [N s, N m s]
     double rate;             // of x where it is driven, of the upper bound elsewhere [m/s, rad/s]
     double least, greatest;  // upper bound that such a rate leads to [m]
     double offset;           // of a path, the length that is added to it [m]
@@ -299,7 +298,7 @@ typedef struct Motor {
     int32_t joint, row; // numbers of them
     double effort;      // greatest force [N] or torque [N m]
     double speed;       // greatest rate [m/s, rad/s]
-    double gain;        // rate by the distance that is left [1/s]
+    double gain;        // rate by the distance that remains [1/s]
     double zero;        // x of the row where the joint is at 0 [m, rad]
     int32_t mode;       // of its command, as the two below; without points it holds
     int32_t point_count;
@@ -426,18 +425,18 @@ typedef struct Edge {
 typedef struct World {
     cpSpace *space;
     Chipmunk chipmunk;
-    double dt; // length of a step [s]
+    double dt; // length of a sub-step [s]
     uint32_t stages;
     uint8_t reports_contacts;
-    uint8_t statics_moved; // an anchored body or a wall has been moved since the last step
-    uint8_t has_fields;    // fields act, or velocities lead by them
-    double drag_force;     // greatest force of a hand, on a body of 1 kg [N]
+    uint8_t statics_moved;    // an anchored body or a wall has been moved since the last step
+    uint8_t has_fields;       // fields act, or velocities lead by them
+    double drag_acceleration; // greatest force of a hand, by the mass of its body [m/s²]
     // Of attraction (`attraction.c`): G [N m^p/kg²], k [N m^p/C²], p and ε [m].
     double gravitation, coulomb, attraction_power, softening;
     int64_t step;        // count of steps that the world has made
     int64_t age;         // count of steps since the space was built
     double longest_call; // time after which a call of `core_step` makes no further sub-step [s]
-    double farthest;     // a body beyond this position, angle or velocity is lost [m, rad, s]
+    double farthest;     // a body beyond this position, angle or velocity is lost [m, rad, m/s, rad/s]
     // The bodies with the background, the others as they are in the world.
     Body *bodies;
     Joint *joints;

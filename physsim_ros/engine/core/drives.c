@@ -82,7 +82,7 @@ static bool is_on(const Body *body, const Body *dock) {
     return false;
 }
 
-// Drain the battery of a robot, and charge it on a dock.
+// Drain the battery of a robot by a sub-step, and charge it on a dock.
 static void use_battery(const World *world, Robot *robot) {
     const Battery *battery = &robot->battery;
     if (battery->capacity == 0.0) {
@@ -104,7 +104,7 @@ static void use_battery(const World *world, Robot *robot) {
 
 // Accelerate the wheels.
 void roll_wheels(World *world) {
-    for (int number = 0; number < world->robot_count; number++) {
+    for (int number = 0; has_stage(world, STAGE_FLOOR) && number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         double yaw = world->bodies[robot->body].scratch.begin.yaw;
         bool obeys = world->step < robot->state.until && !is_empty(robot);
@@ -150,7 +150,7 @@ static void propagate_covariance(Robot *robot, Vec chord, double distance, doubl
 
 // Add the step to the travel of the wheels, and to the odometry.
 void reckon_odometry(World *world) {
-    for (int number = 0; number < world->robot_count; number++) {
+    for (int number = 0; has_stage(world, STAGE_FLOOR) && number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         const Body *body = world->bodies + robot->body;
         Vec travel = scaled(robot->mean.v, world->dt), measured = travel;
@@ -161,12 +161,17 @@ void reckon_odometry(World *world) {
             measured = scaled(travel, share);
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
-        use_battery(world, robot);
         robot->state.travel = twist_sum(robot->state.travel, robot->mean, world->dt);
         Pose before = robot->state.odometry;
         robot->state.odometry = reckoned(before, measured, turn + drift);
         if (robot->noise != NULL) {
             propagate_covariance(robot, sub(robot->state.odometry.p, before.p), distance, turn);
         }
+    }
+}
+
+void use_batteries(World *world) {
+    for (int number = 0; has_stage(world, STAGE_FLOOR) && number < world->robot_count; number++) {
+        use_battery(world, world->robots + number);
     }
 }

@@ -22,7 +22,7 @@ typedef struct Quotient {
     int *starts, *node_counts, *element_counts;
     int **members;              // of each element its nodes
     int *member_counts;         // 0 for what is no element, or has been absorbed by another one
-    int *degrees;               // NONE for what has been eliminated
+    int *degrees;               // NO_NODE for what has been eliminated
     int *heads, *next, *before; // nodes by degree, in doubly linked lists
     int *marks, mark;
     int *outside, *outside_marks; // weight of the nodes of an element outside of the newest one

@@ -111,18 +111,37 @@ void begin_fields(World *world) {
     }
 }
 
-// Find the forces of media for the step that begins.
-static void find_pulls(World *world) {
-    // Velocities change at the ends of the four sub-steps.
-    double ahead = world->dt * (SUB_STEPS + 1) / 2.0;
-    Media media = media_of(world, ahead);
+static bool lacks_pull(const World *world, int place) {
+    return is_moved_by_fields(world->bodies + place) && !world->own->pulls[place].found;
+}
+
+static void wake_reached(World *world, const Media *media) {
     for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
-        if (sleeps(body) && reaches(&media, body)) {
-            world->chipmunk.body_activate(body->engine);
+        if (sleeps(world->bodies + place) && reaches(media, world->bodies + place)) {
+            world->chipmunk.body_activate(world->bodies[place].engine);
         }
-        if (is_moved_by_fields(body)) {
-            find_pull(world, &media, body, ahead, world->dt);
+    }
+}
+
+// Find the forces of media for the step that begins; within it, those on bodies that have been woken since.
+static void find_pulls(World *world) {
+    bool begins = world->own->sub_step == 0, lacks = begins;
+    for (int place = 0; place < world->body_count; place++) {
+        world->own->pulls[place].found = world->own->pulls[place].found && !begins;
+        lacks = lacks || lacks_pull(world, place);
+    }
+    if (!lacks) {
+        return;
+    }
+    // Velocities change at the ends of the sub-steps that remain.
+    double ahead = world->dt * (SUB_STEPS - world->own->sub_step + 1) / 2.0;
+    Media media = media_of(world, ahead);
+    if (begins) {
+        wake_reached(world, &media);
+    }
+    for (int place = 0; place < world->body_count; place++) {
+        if (lacks_pull(world, place)) {
+            find_pull(world, &media, world->bodies + place, ahead, world->dt);
         }
     }
 }
@@ -131,7 +150,7 @@ void apply_fields(World *world) {
     if (!have_fields(world)) {
         return;
     }
-    if (world->own->sub_step == 0 && world->region_count > 0) {
+    if (world->region_count > 0) {
         find_pulls(world);
     }
     const Twist *attraction = attracted(world, world->dt);

@@ -11,7 +11,7 @@
 // pair in ten thousand of polygons that face each other exactly is said to have entered each other from the far sides,
 // though they are apart.
 //
-// Method: between Chipmunk's narrow phase and its solver, for all contacts that begin,
+// Method: between Chipmunk's narrow phase and its solver, for all contacts; parts 2 and 4 for those that begin:
 //
 // 1. False contacts: polygons whose normal points from the second to the first, and which a face separates (separating
 //    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1). Chipmunk ignores the contact in this step, and in
@@ -74,7 +74,7 @@ static bool is_disc_on_edges(const cpArbiter *arbiter) {
 static bool has_face(const cpShape *polygon, Vec direction) {
     double first = -INFINITY, second = -INFINITY;
     for (int number = 0; number < corner_count(polygon); number++) {
-        double height = dot(corner_in_world(polygon, number).place, direction);
+        double height = dot(corner_in_world(polygon, number).point, direction);
         second = greatest(second, least(first, height));
         first = greatest(first, height);
     }
@@ -84,7 +84,8 @@ static bool has_face(const cpShape *polygon, Vec direction) {
 // Whether faces have met by rounding, as the sub-step ends: the next one finds whether by a face or a corner.
 // Continuous collision has stopped others there.
 static bool meets_next(const World *world, cpArbiter *arbiter) {
-    bool stopped = body_of(arbiter->body_a)->scratch.left > 0.0 || body_of(arbiter->body_b)->scratch.left > 0.0;
+    bool stopped =
+        body_of(arbiter->body_a)->scratch.remaining > 0.0 || body_of(arbiter->body_b)->scratch.remaining > 0.0;
     if (stopped || arbiter->count != 1 || kind_of(arbiter->a) == SHAPE_CIRCLE || kind_of(arbiter->b) == SHAPE_CIRCLE) {
         return false;
     }

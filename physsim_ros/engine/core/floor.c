@@ -24,7 +24,7 @@
 // approximated by the ellipsoid of Howe and Cutkosky ("Practical force-motion models for sliding manipulation",
 // 1996): (f / F)² + (τ / T)² = 1 with F = μ m g and T = lever F. The body slips along its normal (maximum
 // dissipation). One step is implicit (backward Euler), so that friction stops a body and never turns it round: the
-// slip that is left is the root of a scalar equation, found by Newton's method as Moré and Sorensen do ("Computing a
+// slip that remains is the root of a scalar equation, found by Newton's method as Moré and Sorensen do ("Computing a
 // trust region step", 1983).
 //
 // Cost: 60 ns a body, 0.3 µs for one that slips; where there are conveyors, a query of their boxes for each body.
@@ -65,18 +65,18 @@ static double square(Twist change, Surface surface) {
     return x * x + y * y + turn * turn;
 }
 
-// The change of velocity by friction that a slip gets. The slip s that is left solves
+// The change of velocity by friction that a slip gets. The slip s that remains solves
 // (across / (s + most))² + (around / (s + most_around))² = 1, where turns count by the speed at the lever.
 static Twist friction(Twist slip, Surface surface) {
     double across = length(slip.v), around = surface.lever * fabs(slip.w);
-    double left = greatest(greatest(across - surface.most, around - surface.around), 0.0);
+    double remaining = greatest(greatest(across - surface.most, around - surface.around), 0.0);
     for (int number = 0; number < ITERATIONS; number++) {
-        double sliding = 1.0 / (left + surface.most), turning = 1.0 / (left + surface.around);
+        double sliding = 1.0 / (remaining + surface.most), turning = 1.0 / (remaining + surface.around);
         double a = across * sliding * across * sliding, b = around * turning * around * turning;
-        left += (a + b) * (sqrt(a + b) - 1.0) / (a * sliding + b * turning);
+        remaining += (a + b) * (sqrt(a + b) - 1.0) / (a * sliding + b * turning);
     }
-    return (Twist){scaled(slip.v, -surface.most / (left + surface.most)),
-                   -slip.w * surface.around / (left + surface.around)};
+    return (Twist){scaled(slip.v, -surface.most / (remaining + surface.most)),
+                   -slip.w * surface.around / (remaining + surface.around)};
 }
 
 // The conveyors of a world, in the order of their bodies, and the boxes about them.
@@ -187,7 +187,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
         as_moved = (Twist){scaled(sum.v, 0.5), sum.w / 2.0};
     }
     body->scratch.under = mean;
-    body->scratch.without = twist_sum(after, change, 1.0);
+    body->scratch.without_contacts = twist_sum(after, change, 1.0);
     if (!sleeps(body)) {
         set_twist(engine, as_moved);
         Vec added = add(scaled(sub(before.v, as_moved.v), kept), change.v);
@@ -219,11 +219,7 @@ static Driving driving_of(const World *world, int place, const Robot **robot, co
 }
 
 void apply_floor(World *world) {
-    if (!has_stage(world, STAGE_FLOOR)) {
-        return;
-    }
-    roll_wheels(world);
-    if (!world->own->has_floor) {
+    if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
         return;
     }
     Conveyors conveyors = conveyors_of(world);
@@ -242,20 +238,20 @@ void apply_floor(World *world) {
 }
 
 void find_pushes(World *world) {
-    if (!has_stage(world, STAGE_FLOOR)) {
+    if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
         return;
     }
-    for (int place = 0; world->own->has_floor && place < world->body_count; place++) {
+    for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         if (body->braking == 0.0) {
             continue;
         }
         // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in
         // turns.
-        Twist push = twist_sum(twist_sum(twist_of(body->engine), body->scratch.without, -1.0), body->state.push, 1.0);
+        Twist push =
+            twist_sum(twist_sum(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
         push = (Twist){scaled(push.v, 0.5), push.w / 2.0};
         double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
         body->state.push = sleeps(body) || size < least_push ? (Twist){0} : push;
     }
-    reckon_odometry(world);
 }

@@ -32,7 +32,6 @@
 
 #include "joint_parts.h"
 #include "stages.h"
-#include <string.h>
 
 // Difference of a sum in another order, as a share of the velocity.
 static const double rounding_of_velocity = 1e-12;

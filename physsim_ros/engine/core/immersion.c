@@ -20,13 +20,13 @@ enum { ROUND_CORNERS = 96 };
 
 // A corner of a polygon that is clipped, and whether the edge from it on is of the outline of the body.
 typedef struct Vertex {
-    Vec place;
+    Vec point;
     bool own;
 } Vertex;
 
 typedef struct Outline {
     Vertex *vertices;
-    int count;
+    int count, most;
 } Outline;
 
 // An edge of a basin as seen from the centre of mass of a body: a corner, and the normal outwards.
@@ -43,11 +43,12 @@ typedef struct Around {
 } Around;
 
 static Outline outline_of(int most, Arena *arena) {
-    return (Outline){TAKE(arena, Vertex, most), 0};
+    return (Outline){TAKE(arena, Vertex, most), 0, most};
 }
 
-static inline void add_vertex(Outline *outline, Vec place, bool own) {
-    outline->vertices[outline->count++] = (Vertex){place, own};
+static inline void add_vertex(Outline *outline, Vec point, bool own) {
+    assert(outline->count < outline->most);
+    outline->vertices[outline->count++] = (Vertex){point, own};
 }
 
 // Regions
@@ -70,13 +71,13 @@ Basin basin_of(const Region *region, const cpShape *shape, Pose pose, Arena *are
                    .normals = TAKE(arena, Vec, most)};
     Rotation by = rotation(pose.yaw);
     if (count < 3) {
-        Vec a = corner_on_body(shape, 0).place, b = corner_on_body(shape, count - 1).place;
+        Vec a = corner_on_body(shape, 0).point, b = corner_on_body(shape, count - 1).point;
         double along = atan2(b.y - a.y, b.x - a.x) - pi / 2.0;
         add_round(&basin, b, radius_of(shape), along, ROUND_CORNERS / 2);
         add_round(&basin, a, radius_of(shape), along + pi, ROUND_CORNERS / 2);
     } else {
         for (int number = 0; number < count; number++) {
-            basin.corners[basin.count++] = corner_on_body(shape, number).place;
+            basin.corners[basin.count++] = corner_on_body(shape, number).point;
         }
     }
     for (int number = 0; number < basin.count; number++) {
@@ -112,17 +113,18 @@ Containment containment_of(const Basin *basin, Vec center, double reach) {
 
 // What of a convex polygon lies behind a line.
 static Outline clipped(Outline from, Line line, Arena *arena) {
-    Outline kept = outline_of(from.count + 1, arena);
+    // As many again: rounding can put corners that are nearly on one line before and behind it in turn.
+    Outline kept = outline_of(2 * from.count, arena);
     Vertex a = from.vertices[0];
-    double out_a = dot(line.normal, sub(a.place, line.corner));
+    double out_a = dot(line.normal, sub(a.point, line.corner));
     for (int number = 1; number <= from.count; number++) {
         Vertex b = from.vertices[number < from.count ? number : 0];
-        double out_b = dot(line.normal, sub(b.place, line.corner));
+        double out_b = dot(line.normal, sub(b.point, line.corner));
         if (out_a <= 0.0) {
-            add_vertex(&kept, a.place, a.own);
+            add_vertex(&kept, a.point, a.own);
         }
         if ((out_a <= 0.0) != (out_b <= 0.0)) {
-            Vec crossing = add(a.place, scaled(sub(b.place, a.place), out_a / (out_a - out_b)));
+            Vec crossing = add(a.point, scaled(sub(b.point, a.point), out_a / (out_a - out_b)));
             add_vertex(&kept, crossing, out_a > 0.0 && a.own);
         }
         a = b;
@@ -148,7 +150,7 @@ static Outline in_basin(Outline outline, const Around *around, Arena *arena) {
 static void add_bulk(Immersion *wet, Outline outline) {
     const Vertex *vertices = outline.vertices;
     for (int number = 2; number < outline.count; number++) {
-        add_area(wet, vertices[0].place, vertices[number - 1].place, vertices[number].place);
+        add_area(wet, vertices[0].point, vertices[number - 1].point, vertices[number].point);
     }
 }
 
@@ -156,7 +158,7 @@ static void add_sides(Immersion *wet, Outline outline) {
     for (int number = 0; number < outline.count; number++) {
         if (outline.vertices[number].own) {
             const Vertex *end = outline.vertices + (number + 1 < outline.count ? number + 1 : 0);
-            wet->sides[wet->side_count++] = (Side){outline.vertices[number].place, end->place};
+            wet->sides[wet->side_count++] = (Side){outline.vertices[number].point, end->point};
         }
     }
 }
@@ -190,8 +192,8 @@ static void add_disc_segment(Immersion *wet, Vec center, double radius, Vec norm
 // Add what of a disc lies in a convex polygon, as the sum over the triangles that the centre makes with its edges.
 static void add_disc(Immersion *wet, Vec center, double radius, const Outline *basin) {
     for (int number = 0; number < basin->count; number++) {
-        Vec a = sub(basin->vertices[number].place, center);
-        Vec b = sub(basin->vertices[(number + 1) % basin->count].place, center), edge = sub(b, a);
+        Vec a = sub(basin->vertices[number].point, center);
+        Vec b = sub(basin->vertices[(number + 1) % basin->count].point, center), edge = sub(b, a);
         double square = dot(edge, edge), middle = dot(a, edge);
         double within = middle * middle - square * (dot(a, a) - radius * radius);
         double half = sqrt(greatest(within, 0.0));
@@ -238,7 +240,7 @@ static void add_whole_arc(Immersion *wet, Vec center, double radius, double from
 // Pieces of a body
 
 static Vec corner_at(const cpShape *shape, int number, Rotation by) {
-    return rotated(corner_on_body(shape, number).place, by);
+    return rotated(corner_on_body(shape, number).point, by);
 }
 
 static Outline polygon_of(const cpShape *shape, Rotation by, Arena *arena) {
@@ -328,11 +330,11 @@ Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outline
     Around around = basin == NULL ? (Around){0} : around_of(basin, pose.p, body->reach, arena);
     const Around *edges = basin == NULL ? NULL : &around;
     for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
-        // A polygon has a side an edge. Each edge of the basin, and that which halves the disc at an end of a segment,
-        // makes two arcs at most.
+        // A polygon has a side an edge. Each edge of a basin makes two arcs at most; for each end of a segment the
+        // basin is clipped, to twice its edges at most.
         int edge_count = basin == NULL ? 0 : basin->count;
         wet.sides = TAKE(arena, Side, corner_count(shape));
-        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 4 * (edge_count + 2));
+        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 8 * edge_count + 2);
         wet.side_count = wet.bow_count = 0;
         if (basin != NULL || body->hull_count == 0) {
             add_piece(&wet, shape, by, edges, arena);

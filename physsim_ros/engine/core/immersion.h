@@ -33,7 +33,7 @@ typedef struct Bow {
     double from, to; // angles [rad]
 } Bow;
 
-// What of a body is in a region; places are from its centre of mass, in axes of the world.
+// What of a body is in a region; positions are from its centre of mass, in axes of the world.
 typedef struct Immersion {
     double area; // [m²]
     Vec moment;  // area times centroid [m³]

@@ -49,7 +49,7 @@ static int compare_touches(const void *one, const void *other) {
 static void add_bearings(World *world, Touches *touches, const cpArbiter *arbiter) {
     Vec tangent = perpendicular(arbiter->n);
     bool begins = arbiter->state == ARBITER_FIRST_COLLISION;
-    double left = begins ? time_left(body_of(arbiter->body_a), body_of(arbiter->body_b)) : 0.0;
+    double remaining = begins ? remaining_time(body_of(arbiter->body_a), body_of(arbiter->body_b)) : 0.0;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         touches->list[touches->count++] = (Bearing){.point = point,
@@ -62,7 +62,7 @@ static void add_bearings(World *world, Touches *touches, const cpArbiter *arbite
                                                     .normal = arbiter->n,
                                                     .friction = arbiter->u,
                                                     .slide = dot(arbiter->surface_vr, tangent),
-                                                    .left = left,
+                                                    .remaining = remaining,
                                                     .rolling = rolling_arm(arbiter)};
     }
 }
@@ -359,6 +359,9 @@ static void lay_out(World *world, Island *island, int *numbers) {
 }
 
 Islands joint_islands(World *world) {
+    if (world->own->jointed_count == 0) {
+        return (Islands){0};
+    }
     Islands found = split(world, touches_of_jointed(world));
     int *numbers = TAKE(&world->own->arena, int, world->body_count);
     for (int number = 0; number < found.count; number++) {

@@ -14,12 +14,12 @@ typedef struct Bearing {
     uintptr_t shapes[2];
     Vec arm_a, arm_b, normal; // world axes [m]; the normal leads from the first to the second body
     double friction;
-    double slop;    // overlap that stays [m]
-    double slide;   // velocity across the normal of the surfaces against their bodies [m/s]
-    double closing; // impulse along the normal by which an overlap was closed [N s]
-    double left;    // of the step after the impact; 0 for a contact that does not begin [s]
-    double rolling; // arm of the load ahead of a disc that rolls; 0 is none [m]
-    Row *roll;      // of its rolling resistance; NULL is none
+    double slop;      // overlap that stays [m]
+    double slide;     // velocity across the normal of the surfaces against their bodies [m/s]
+    double closing;   // impulse along the normal by which an overlap was closed [N s]
+    double remaining; // of the step after the impact; 0 for a contact that does not begin [s]
+    double rolling;   // arm of the load ahead of a disc that rolls; 0 is none [m]
+    Row *roll;        // of its rolling resistance; NULL is none
 } Bearing;
 
 // The rotation of a body by a yaw, kept for the next poses with that.

@@ -8,7 +8,7 @@
 // Method: a velocity loop within a position loop, as drives of machines have them (cascade control). The inner loop is
 // a row of the joint solver, which gives the joint its rate with all loads that act, as far as the greatest force
 // allows; so a joint in its place bears any lesser load without sagging. The outer loop asks for the rate of the
-// trajectory and `gain` times the distance that is left: the distance falls as exp(-gain t). A torque is a motor that
+// trajectory and `gain` times the distance that remains: the distance falls as exp(-gain t). A torque is a motor that
 // is no stronger and never fast enough. Between two points of a trajectory the position is a cubic polynomial where
 // both have rates, else a straight line, as the joint trajectory controller of ros2_control has them. Without a command
 // a motor holds.

@@ -195,14 +195,14 @@ static double joint_impulse(const World *world, const Joint *joint) {
     return most;
 }
 
-// The place of an anchor in the world [m].
-static Vec world_place(const cpBody *body, Vec anchor) {
+// The point of an anchor in the world [m].
+static Vec world_point(const cpBody *body, Vec anchor) {
     return add(body->p, rotated(anchor, rotation(body->a)));
 }
 
 // The unit vector from the first anchor of a constraint to the second.
 static Vec between(const cpConstraint *constraint, Vec at_a, Vec at_b) {
-    Vec apart = sub(world_place(constraint->b, at_b), world_place(constraint->a, at_a));
+    Vec apart = sub(world_point(constraint->b, at_b), world_point(constraint->a, at_a));
     double distance = length(apart);
     return distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(0.0, 0.0);
 }
@@ -221,9 +221,9 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
         return negated(axis);
     }
     const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
-    Vec at_a = world_place(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
+    Vec at_a = world_point(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
     // From the point beyond the upper limit, the anchor lies against the axis.
-    double distance = dot(sub(at_a, world_place(b, limit->anchorA)), axis);
+    double distance = dot(sub(at_a, world_point(b, limit->anchorA)), axis);
     bool at_lesser = 2.0 * fabs(distance) < limit->min + limit->max;
     return at_lesser == (distance > 0.0) ? axis : negated(axis);
 }
@@ -307,7 +307,7 @@ void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8
 }
 
 // Return x of a row.
-static double place_of_row(const World *world, const Joint *joint, const Row *row) {
+static double x_of_row(const World *world, const Joint *joint, const Row *row) {
     Pose a = pose_of(world->bodies[joint->a].engine), b = pose_of(world->bodies[joint->b].engine);
     const Guide *guide = world->guides + row->first_guide;
     Jacobian jacobian;
@@ -329,7 +329,7 @@ static double place_of_row(const World *world, const Joint *joint, const Row *ro
 static double apart_by(const World *world, const Joint *joint) {
     double most = 0.0;
     for (const Row *row = world->rows + joint->first_row, *end = row + joint->row_count; row < end; row++) {
-        double x = place_of_row(world, joint, row);
+        double x = x_of_row(world, joint, row);
         most = greatest(most, row->law == LAW_BOUNDS ? greatest(x - row->upper, row->lower - x) : 0.0);
     }
     return most;

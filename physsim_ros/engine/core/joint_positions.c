@@ -40,7 +40,7 @@ typedef struct Displacement {
     double *excess;       // (joint_row_count): C at the poses of now
     Jacobian *jacobians;  // (link_count): of joints there
     double *gaps;         // (joint_row_count): C, less what is not closed in this step
-    double *left;         // (joint_row_count): parts of gaps that are too wide to be closed in one step
+    double *deferred;     // (joint_row_count): parts of gaps that are too wide to be closed in one step
     double *apart;        // (touch_count): distance by which contacts may approach at the start [m]
     double *distances;    // (touch_count): the same now, < 0 where they overlap
     double *impulses;     // (row_count): λ [kg m, kg m²]
@@ -101,7 +101,7 @@ static Displacement begin_displacement(Solve *solve) {
                          .excess = TAKE(arena, double, island->joint_row_count),
                          .jacobians = TAKE(arena, Jacobian, solve->system.link_count),
                          .gaps = TAKE(arena, double, island->joint_row_count),
-                         .left = TAKE(arena, double, island->joint_row_count),
+                         .deferred = TAKE(arena, double, island->joint_row_count),
                          .apart = TAKE(arena, double, island->touch_count),
                          .distances = TAKE(arena, double, island->touch_count),
                          .impulses = TAKE(arena, double, island->row_count),
@@ -114,7 +114,7 @@ static Displacement begin_displacement(Solve *solve) {
     double most = fastest_correction * solve->dt;
     for (int row = 0; row < island->joint_row_count; row++) {
         double gap = gap_of(island->rows[row], solve->holds[row], move.excess[row]);
-        move.left[row] = gap - clamped(gap, -most, most);
+        move.deferred[row] = gap - clamped(gap, -most, most);
     }
     // Of an overlap Chipmunk's share of a step is pushed out; nothing gets deeper.
     double stays = pow(space->collisionBias, solve->dt);
@@ -134,7 +134,7 @@ static void measure_gaps(const Solve *solve, Displacement *move) {
     const Island *island = solve->island;
     move->sum = move->widest = 0.0;
     for (int row = 0; row < island->joint_row_count; row++) {
-        move->gaps[row] = gap_of(island->rows[row], solve->holds[row], move->excess[row]) - move->left[row];
+        move->gaps[row] = gap_of(island->rows[row], solve->holds[row], move->excess[row]) - move->deferred[row];
         move->sum += fabs(move->gaps[row]);
         move->widest = greatest(move->widest, fabs(move->gaps[row]));
     }

@@ -11,8 +11,6 @@
 
 #include "joint_rows.h"
 
-static const double full_turn = 6.283185307179586;
-
 Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation of_b) {
     Anchors anchors = {.of_b = of_b};
     anchors.arm_a = rotated(vec(joint->anchor_a[0], joint->anchor_a[1]), of_a);
@@ -31,7 +29,7 @@ Jacobian along(Vec direction, Vec arm_a, Vec arm_b) {
 
 // x = direction . (p_a - p_b), where the direction turns with the second body, as a line that reaches from it to where
 // the first anchor is.
-static double place_on_line(Vec direction, const Anchors *anchors, Jacobian *jacobian) {
+static double position_on_line(Vec direction, const Anchors *anchors, Jacobian *jacobian) {
     *jacobian = along(direction, anchors->arm_a, add(anchors->arm_b, anchors->apart));
     return dot(direction, anchors->apart);
 }
@@ -56,16 +54,16 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
         return distance;
     }
     case ROW_ACROSS:
-        return place_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
+        return position_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
     case ROW_ROLL: {
-        double x = place_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
+        double x = position_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
         jacobian->a.w += joint->ratio;
         jacobian->b.w -= joint->ratio;
         return x + joint->ratio * (a.yaw - b.yaw);
     }
     default:
         assert(row->kind == ROW_ALONG);
-        return place_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
+        return position_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
     }
 }
 

@@ -337,7 +337,7 @@ static void mix(const Solve *solve, VelocityRows *rows, Solution *elastic, const
 
 // Whether a contact is an impact after which its bodies part.
 static bool bounces_off(const Island *island, const VelocityRows *rows, int number) {
-    return island->touches[number].left > 0.0 && rows->bounce[number] > 0.0;
+    return island->touches[number].remaining > 0.0 && rows->bounce[number] > 0.0;
 }
 
 // Whether a row is driven by a force that has a bound.
@@ -403,7 +403,7 @@ static void press_on(Solve *solve, VelocityRows *rows) {
             Jacobian jacobian = solve->jacobians[normal + number];
             Ends ends = island->ends[normal + number];
             double gained = rate(jacobian, ends, pressed.changes) - rate(jacobian, ends, impact.changes);
-            double share = island->touches[number].left / solve->dt + 0.5;
+            double share = island->touches[number].remaining / solve->dt + 0.5;
             rows->bounce[number] = greatest(rows->bounce[number] + gained * share, 0.0);
         }
     }
@@ -485,19 +485,19 @@ static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solu
     double *wanted = TAKE(solve->arena, double, island->row_count);
     bool late = false;
     for (int number = 0; number < island->touch_count; number++) {
-        double left = island->touches[number].left;
+        double remaining = island->touches[number].remaining;
         Ends ends = island->ends[normal + number];
         Twist displacements[] = {
-            displacement_gained(body_of(island->engine[ends.a]), velocities[ends.a], left, solve->dt),
-            displacement_gained(body_of(island->engine[ends.b]), velocities[ends.b], left, solve->dt)};
+            displacement_gained(body_of(island->engine[ends.a]), velocities[ends.a], remaining, solve->dt),
+            displacement_gained(body_of(island->engine[ends.b]), velocities[ends.b], remaining, solve->dt)};
         wanted[normal + number] = rate(rows->jacobians[normal + number], (Ends){0, 1}, displacements);
         wanted[tangent + number] = rate(rows->jacobians[tangent + number], (Ends){0, 1}, displacements);
-        late = late || left > 0.0;
+        late = late || remaining > 0.0;
     }
     if (late) {
         Twist *gained = changed_by(solve, solution, wanted);
         for (int number = 0; number < island->body_count; number++) {
-            add_rest(body_of(island->engine[number]), gained[number]);
+            set_remaining_move(body_of(island->engine[number]), gained[number]);
         }
     }
 }

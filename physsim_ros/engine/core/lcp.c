@@ -74,11 +74,11 @@ static void solve_rows_of_lcp(const Scaled *problem, const bool *active, double 
 static bool exchange_wrong(const Scaled *problem, const double *found, double slack, bool *active) {
     bool any = false, wrong[LCP_ROWS] = {false};
     for (int i = 0; i < problem->count; i++) {
-        double left = -problem->wanted[i];
+        double residual = -problem->wanted[i];
         for (int j = 0; j < problem->count; j++) {
-            left += problem->matrix[i][j] * found[j];
+            residual += problem->matrix[i][j] * found[j];
         }
-        wrong[i] = (active[i] ? found[i] : left) < -slack;
+        wrong[i] = (active[i] ? found[i] : residual) < -slack;
         any = any || wrong[i];
     }
     for (int i = 0; i < problem->count; i++) {

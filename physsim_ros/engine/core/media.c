@@ -12,11 +12,11 @@
 //   the width across the flow. Turning counts by its part along n, at the centre of a round piece: friction alone would
 //   slow down the spin of a disc, and quadratic drag has none.
 // Both drags are -D (q - f) of the twists q of body and f of medium, with a matrix D that is symmetric and not
-// negative. Buoyancy and D are found once a step, for its middle; drag in each sub-step, of the velocity in the middle
-// of that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the middle,
-// by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J. Numer.
-// Anal. 1970). D in free flight is that of the mean of a guess of the twist and of the twist to which the drag of the
-// guess leads (Newton's method for v² = a, which is Heron's).
+// negative. Buoyancy and D are found once a step, for its middle, or for the rest of it as a body wakes; drag in each
+// sub-step, of the velocity in the middle of that (implicit midpoint rule). Where drag stops a body within a sub-step,
+// the velocity is later than the middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration
+// Methods for Stiff Systems", SIAM J. Numer. Anal. 1970). D in free flight is that of the mean of a guess of the twist
+// and of the twist to which the drag of the guess leads (Newton's method for v² = a, which is Heron's).
 // Scope: no mass of medium that moves along (added mass), no lift, no waves; a medium is not pushed.
 // Laws: drag takes energy from what moves in a medium at rest; no drag is too strong for the steps, nor a bubble too
 // light; what is dry, what is wet and their sum are the same outline.
@@ -74,8 +74,8 @@ Media media_of(World *world, double ahead) {
 
 // Drag
 
-// Add to D a weight of B'B, where B has the columns x, y and `turn`: how a place moves with the body.
-static void add_place(Resistance *sum, double weight, Vec turn, double square) {
+// Add to D a weight of B'B, where B has the columns x, y and `turn`: how a point moves with the body.
+static void add_moving_point(Resistance *sum, double weight, Vec turn, double square) {
     sum->xx += weight;
     sum->yy += weight;
     sum->xw += weight * turn.x;
@@ -86,7 +86,7 @@ static void add_place(Resistance *sum, double weight, Vec turn, double square) {
 static void add_linear_side(Resistance *sum, double weight, Side side) {
     Vec edge = sub(side.end, side.begin), middle = scaled(add(side.begin, side.end), 0.5);
     double square = dot(middle, middle) + dot(edge, edge) / 12.0;
-    add_place(sum, weight * length(edge), perpendicular(middle), square);
+    add_moving_point(sum, weight * length(edge), perpendicular(middle), square);
 }
 
 static void add_linear_bow(Resistance *sum, double weight, Bow bow) {
@@ -119,23 +119,22 @@ static void add_quadratic_side(Resistance *sum, double weight, Side side, Twist 
         double share = from + (to - from) * (0.5 + (point == 0 ? -1.0 : 1.0) * 0.28867513459481288);
         double turn = turn_begin - size * share;
         double facing = weight * size * (to - from) / 2.0 * (first + (last - first) * share);
-        add_place(sum, facing, scaled(normal, turn), turn * turn);
+        add_moving_point(sum, facing, scaled(normal, turn), turn * turn);
     }
 }
 
 // The integral of the positive part of the cosine from 0 to an angle.
 static double facing_up_to(double angle) {
-    const double half_turn = 3.14159265358979323846;
-    double since = angle + half_turn / 2.0, turns = floor(since / (2.0 * half_turn));
-    double rest = since - 2.0 * half_turn * turns;
-    return 2.0 * turns + (rest < half_turn ? 1.0 - cos(rest) : 2.0);
+    double since = angle + pi / 2.0, turns = floor(since / full_turn);
+    double rest = since - full_turn * turns;
+    return 2.0 * turns + (rest < pi ? 1.0 - cos(rest) : 2.0);
 }
 
 static void add_quadratic_bow(Resistance *sum, double weight, Bow bow, Twist flow) {
     Vec velocity = velocity_at(flow, bow.center);
     double speed = length(velocity), along = atan2(velocity.y, velocity.x);
     double width = bow.radius * (facing_up_to(bow.to - along) - facing_up_to(bow.from - along));
-    add_place(sum, weight * width * speed, perpendicular(bow.center), dot(bow.center, bow.center));
+    add_moving_point(sum, weight * width * speed, perpendicular(bow.center), dot(bow.center, bow.center));
 }
 
 // The matrix D of a part of a body that moves through a medium with a twist.
@@ -256,7 +255,7 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, cons
     if (air != NULL) {
         shares[count++] = (Share){immersed(body, pose, NULL, resists(air), arena), air, media->wind, 1.0};
     }
-    Pull pull = {0};
+    Pull pull = {.found = true};
     for (int number = 0; number < count; number++) {
         pull.steady = twist_sum(pull.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
     }

@@ -28,6 +28,7 @@ typedef struct Pull {
     Resistance resistance; // D
     bool has_drag;
     Resistance inverse; // of M + D t, with the time t after which the velocity counts
+    bool found;         // in this step
 } Pull;
 
 // The media a time after now [s].

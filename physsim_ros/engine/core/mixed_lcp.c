@@ -162,15 +162,15 @@ static void solve_drawn(System *system, const Problem *problem, Solution *soluti
 
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena) {
     size_t mark = arena_mark(arena);
-    double *left = TAKE(arena, double, system->row_count), *impulses = TAKE(arena, double, system->row_count);
+    double *residuals = TAKE(arena, double, system->row_count), *impulses = TAKE(arena, double, system->row_count);
     Twist *changes = TAKE(arena, Twist, system->body_count);
     for (int row = 0; row < system->row_count; row++) {
-        left[row] = problem->wanted[row] - row_rate(system, problem->jacobians, row, solution->changes);
+        residuals[row] = problem->wanted[row] - row_rate(system, problem->jacobians, row, solution->changes);
         if (is_spring(problem, row)) {
-            left[row] -= problem->softness[row] * unit_of(system, problem, row) * solution->impulses[row];
+            residuals[row] -= problem->softness[row] * unit_of(system, problem, row) * solution->impulses[row];
         }
     }
-    solve_active(system, solution->sides, left, impulses, changes);
+    solve_active(system, solution->sides, residuals, impulses, changes);
     if (keeps_bounds(system, problem, solution->impulses, impulses)) {
         for (int row = 0; row < system->row_count; row++) {
             solution->impulses[row] += impulses[row];

@@ -45,7 +45,7 @@ static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Ve
     double share = soft.mass_scale / (k11 * k22 - k12 * k12);
     Vec impulse = {before.x - share * (k22 * u.x - k12 * u.y) - soft.impulse_scale * before.x,
                    before.y - share * (k11 * u.y - k12 * u.x) - soft.impulse_scale * before.y};
-    double size = length(impulse), most = world->drag_force * body->engine->m * world->dt;
+    double size = length(impulse), most = world->drag_acceleration * body->engine->m * world->dt;
     if (size > most) {
         impulse = scaled(impulse, most / size);
     }

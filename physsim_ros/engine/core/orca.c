@@ -43,12 +43,12 @@ static bool border(const Programme *given, int number, double *low, double *high
     if (square < 0.0) {
         return false;
     }
-    Vec along = perpendicular(own.n), place = scaled(own.n, own.c);
+    Vec along = perpendicular(own.n), point = scaled(own.n, own.c);
     *high = sqrt(square);
     *low = -*high;
     for (int before = 0; before < number; before++) {
         HalfPlane other = given->planes[before];
-        double slope = dot(other.n, along), lack = other.c - dot(other.n, place);
+        double slope = dot(other.n, along), lack = other.c - dot(other.n, point);
         if (fabs(slope) < parallel) {
             if (lack > 0.0) {
                 return false;
@@ -114,7 +114,7 @@ static void relax(const Programme *given, int fixed, int failed, HalfPlane *memo
 
 // The half-plane of another disc.
 static HalfPlane avoiding(const Disc *self, const Disc *other, double horizon) {
-    Vec apart = sub(other->place, self->place), relative = sub(self->velocity, other->velocity);
+    Vec apart = sub(other->point, self->point), relative = sub(self->velocity, other->velocity);
     double radius = self->radius + other->radius, square = dot(apart, apart);
     double share = other->walks ? 0.5 : 1.0;
     Vec n, change;
@@ -138,7 +138,7 @@ static HalfPlane avoiding(const Disc *self, const Disc *other, double horizon) {
 // The velocity damper of a disc. Two pedestrians share the room between them, so that they do not touch even where
 // neither can give way; standing is always allowed.
 static HalfPlane braking(const Disc *self, const Disc *other) {
-    Vec apart = sub(other->place, self->place);
+    Vec apart = sub(other->point, self->point);
     double distance = length(apart), room = distance - self->radius - other->radius;
     Vec towards = distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(1.0, 0.0);
     double share = other->walks ? 0.5 : 1.0, retreat = greatest(dot(other->velocity, towards), 0.0);
@@ -147,7 +147,7 @@ static HalfPlane braking(const Disc *self, const Disc *other) {
 
 static bool sees_disc(const Disc *self, const Disc *other) {
     double seen = farthest_seen + self->radius + other->radius;
-    return !passes_through(self->body, other->body) && length(sub(other->place, self->place)) < seen;
+    return !passes_through(self->body, other->body) && length(sub(other->point, self->point)) < seen;
 }
 
 Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *actor, const Disc *self, Vec desired) {
@@ -157,7 +157,7 @@ Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *ac
     for (int number = 0; number < around->wall_count; number++) {
         const cpShape *wall = around->walls[number];
         Nearest nearest;
-        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
+        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->point, &nearest)) {
             double room = nearest.distance - self->radius, time = room > 0.0 ? model->wall_horizon : parting_time;
             planes[programme.count++] = (HalfPlane){nearest.outwards, -room / time};
         }

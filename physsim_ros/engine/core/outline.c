@@ -44,12 +44,12 @@ static double distance_from(Vec point, Vec start, Vec end) {
 bool covers(const cpShape *shape, Vec point) {
     int last = corner_count(shape) - 1;
     if (last < 2) {
-        Vec start = corner_on_body(shape, 0).place, end = corner_on_body(shape, last).place;
+        Vec start = corner_on_body(shape, 0).point, end = corner_on_body(shape, last).point;
         return distance_from(point, start, end) <= radius_of(shape);
     }
     for (int number = 0; number <= last; number++) {
         Corner corner = corner_on_body(shape, number);
-        if (dot(corner.normal, sub(point, corner.place)) > radius_of(shape)) {
+        if (dot(corner.normal, sub(point, corner.point)) > radius_of(shape)) {
             return false;
         }
     }

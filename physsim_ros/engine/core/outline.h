@@ -13,7 +13,7 @@
 #include <stdbool.h>
 
 typedef struct Corner {
-    Vec place;  // [m]
+    Vec point;  // [m]
     Vec normal; // outwards of the face that ends there, of length 1; (0, 0) of a disc
 } Corner;
 

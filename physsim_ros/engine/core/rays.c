@@ -18,7 +18,7 @@
 // thousandth of the distance at which two points of a shape are one.
 static const double graze = 1e-9;
 // As diamond angles.
-static const double half_turn = 2.0, whole_turn = 4.0;
+static const double half_diamond = 2.0, whole_diamond = 4.0;
 
 // Rays from one point, counter-clockwise within a turn.
 typedef struct Fan {
@@ -41,7 +41,7 @@ static double diamond_angle(Vec a) {
 
 static double angle_since_first(const Fan *fan, Vec a) {
     double since = diamond_angle(a) - diamond_angle(fan->directions[0]);
-    return since < 0.0 ? since + whole_turn : since;
+    return since < 0.0 ? since + whole_diamond : since;
 }
 
 // Return how many rays are before an angle; `inclusive` counts those at it.
@@ -62,7 +62,7 @@ static int rays_before(const Fan *fan, double angle, bool inclusive) {
 static Range rays_between(const Fan *fan, Vec from, Vec to) {
     double low = angle_since_first(fan, from), high = angle_since_first(fan, to);
     int first = rays_before(fan, low, false), count = rays_before(fan, high, true) - first;
-    if (low - high > half_turn) {
+    if (low - high > half_diamond) {
         count += fan->count; // it passes the first ray
     }
     // An interval that rounding has turned round is empty.

@@ -36,13 +36,13 @@ static double true_parting(const World *world, const cpArbiter *arbiter, const c
 
 // Have an impact take place when it did; return whether the bodies bounce. The velocity of a body in free flight leads
 // by half a step (`half_step.c`).
-static bool set_bounce(const World *world, const cpArbiter *arbiter, double left) {
+static bool set_bounce(const World *world, const cpArbiter *arbiter, double remaining) {
     bool bounces = false;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         double rate = 0.0, parting = true_parting(world, arbiter, point, &rate);
-        double then = parting + rate * (world->dt - left);
-        point->bounce = -greatest(-arbiter->e * then + rate * (left + world->dt / 2.0), 0.0);
+        double then = parting + rate * (world->dt - remaining);
+        point->bounce = -greatest(-arbiter->e * then + rate * (remaining + world->dt / 2.0), 0.0);
         bounces = bounces || point->bounce < 0.0;
     }
     return bounces;
@@ -52,11 +52,11 @@ static double deepest_of(const Touch *touch) {
     return greatest(-distance_of(touch, 0), -distance_of(touch, 1));
 }
 
-// The time since an impact, as long as the bodies moved freely [s]; `left` is the rest of the step.
-static double since_impact(const Touch *touch, double approach, double left, double dt) {
+// The time since an impact, as long as the bodies moved freely [s]; `remaining` is the rest of the step.
+static double since_impact(const Touch *touch, double approach, double remaining, double dt) {
     // The arms of a corner are those of its impact, so that its overlap leaves out that it has turned since.
     bool is_corner = touch->met > 0.0 && kind_of(touch->shapes[0]) == SHAPE_POLYGON;
-    return is_corner ? (1.0 - touch->met) * dt - left : deepest_of(touch) / approach;
+    return is_corner ? (1.0 - touch->met) * dt - remaining : deepest_of(touch) / approach;
 }
 
 // The velocity at which bodies approach in a contact, as the step begins.
@@ -81,7 +81,7 @@ static void time_throws(World *world) {
             }
             Touch touch = touch_of(each);
             Body *a = body_of(each->body_a), *b = body_of(each->body_b);
-            double most = world->dt - greatest(a->scratch.left, b->scratch.left);
+            double most = world->dt - greatest(a->scratch.remaining, b->scratch.remaining);
             double since = clamped(deepest_of(&touch) / approach, 0.0, most);
             a->scratch.since = greatest(a->scratch.since, since);
             b->scratch.since = greatest(b->scratch.since, since);
@@ -100,9 +100,9 @@ void time_impacts(World *world) {
             continue;
         }
         Body *a = body_of(touch->engines[0]), *b = body_of(touch->engines[1]);
-        double left = greatest(a->scratch.left, b->scratch.left);
-        double since = clamped(since_impact(touch, approach, left, world->dt), 0.0, world->dt);
-        bool bounces = set_bounce(world, touch->arbiter, least(since + left, world->dt));
+        double remaining = greatest(a->scratch.remaining, b->scratch.remaining);
+        double since = clamped(since_impact(touch, approach, remaining, world->dt), 0.0, world->dt);
+        bool bounces = set_bounce(world, touch->arbiter, least(since + remaining, world->dt));
         a->scratch.bounces |= bounces;
         b->scratch.bounces |= bounces;
         a->scratch.since = greatest(a->scratch.since, since);
@@ -111,39 +111,39 @@ void time_impacts(World *world) {
     time_throws(world);
 }
 
-double time_left(const Body *a, const Body *b) {
-    double of_a = a->dynamic ? a->scratch.since + a->scratch.left : INFINITY;
-    double of_b = b->dynamic ? b->scratch.since + b->scratch.left : INFINITY;
+double remaining_time(const Body *a, const Body *b) {
+    double of_a = a->dynamic ? a->scratch.since + a->scratch.remaining : INFINITY;
+    double of_b = b->dynamic ? b->scratch.since + b->scratch.remaining : INFINITY;
     return a->dynamic || b->dynamic ? least(of_a, of_b) : 0.0;
 }
 
-Twist displacement_gained(const Body *body, Twist after, double left, double dt) {
-    double ahead = body->scratch.bounces ? left / dt + 1.0 : 0.0;
+Twist displacement_gained(const Body *body, Twist after, double remaining, double dt) {
+    double ahead = body->scratch.bounces ? remaining / dt + 1.0 : 0.0;
     Twist mean = twist_sum(after, body->state.lead, -ahead);
-    return twist_sum((Twist){0}, twist_sum(mean, body->scratch.twist, -1.0), left);
+    return twist_sum((Twist){0}, twist_sum(mean, body->scratch.twist, -1.0), remaining);
 }
 
-void add_rest(Body *body, Twist gained) {
+void set_remaining_move(Body *body, Twist gained) {
     // Continuous collision has had it move with what it met.
-    Twist kept = twist_sum(body->scratch.carried, body->scratch.twist, -body->scratch.left);
-    body->scratch.rest = twist_sum(gained, kept, -1.0);
-    body->scratch.rests = true;
+    Twist kept = twist_sum(body->scratch.carried, body->scratch.twist, -body->scratch.remaining);
+    body->scratch.remaining_move = twist_sum(gained, kept, -1.0);
+    body->scratch.has_remaining_move = true;
 }
 
 // Find the displacements of bodies that no island of joints has found.
-static void find_rests(World *world) {
+static void find_remaining_moves(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
-        double left = body->scratch.since + body->scratch.left;
-        if (left > 0.0 && body->dynamic && !body->scratch.rests) {
-            add_rest(body, displacement_gained(body, twist_of(body->engine), left, world->dt));
+        double remaining = body->scratch.since + body->scratch.remaining;
+        if (remaining > 0.0 && body->dynamic && !body->scratch.has_remaining_move) {
+            set_remaining_move(body, displacement_gained(body, twist_of(body->engine), remaining, world->dt));
         }
     }
 }
 
 // The remaining displacement of a body that could tunnel through the thinnest body of the world; else none.
 static Twist far_displacement(const World *world, const Body *body) {
-    Twist displacement = body->scratch.rest;
+    Twist displacement = body->scratch.remaining_move;
     bool is_far = length(displacement.v) + fabs(displacement.w) * body->turning_radius > world->own->least_depth;
     return is_far && is_solid(body) ? displacement : (Twist){0};
 }
@@ -154,10 +154,10 @@ static bool is_displaced(Twist displacement) {
 
 void finish_moves(World *world) {
     int count = 0;
-    find_rests(world);
+    find_remaining_moves(world);
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        Twist displacement = body->scratch.rest;
+        Twist displacement = body->scratch.remaining_move;
         if (is_displaced(far_displacement(world, body))) {
             count++;
         } else if (is_displaced(displacement)) {

@@ -19,7 +19,7 @@
 #include "social_force.h"
 #include "boxes.h"
 
-// Least half axis [m], so that the force of two at one place is finite.
+// Least half axis [m], so that the force of two at one point is finite.
 static const double least_axis = 0.01;
 // Gap of walls that touch, at most [m]: far above rounding.
 static const double seam = 1e-6;
@@ -49,9 +49,9 @@ static Vec wall_repulsion(const SocialForce *model, const Disc *self, Nearest ne
 }
 
 // Whether a wall touches a point.
-static bool touches(const World *world, const cpShape *wall, Vec place) {
+static bool touches(const World *world, const cpShape *wall, Vec point) {
     cpPointQueryInfo found;
-    return world->chipmunk.point_query(wall, place, &found) <= seam;
+    return world->chipmunk.point_query(wall, point, &found) <= seam;
 }
 
 // The search for the walls that touch the nearest point of one.
@@ -59,7 +59,7 @@ typedef struct FrontSearch {
     const World *world;
     Seen *seen;
     int number;
-    Vec place;
+    Vec point;
 } FrontSearch;
 
 // Keep a nearer wall; of several the first, whatever the order in which they are found.
@@ -70,7 +70,7 @@ static bool keep_front(int other, void *data) {
     double nearer = own->nearest.distance - wall->nearest.distance;
     bool first = own->front == search->number || other < own->front;
     if (first && (nearer > 0.0 || (nearer == 0.0 && other < search->number)) &&
-        touches(search->world, wall->wall, search->place)) {
+        touches(search->world, wall->wall, search->point)) {
         own->front = other;
     }
     return true;
@@ -88,9 +88,9 @@ static void find_nearer(const World *world, Seen *seen, int count, Vec from) {
     Tree tree = tree_of(boxes, count, arena);
     for (int number = 0; number < count; number++) {
         Nearest own = seen[number].nearest;
-        Vec place = sub(from, scaled(own.outwards, own.distance));
-        FrontSearch search = {world, seen, number, place};
-        tree_query(&tree, (Box){place, place}, keep_front, &search);
+        Vec point = sub(from, scaled(own.outwards, own.distance));
+        FrontSearch search = {world, seen, number, point};
+        tree_query(&tree, (Box){point, point}, keep_front, &search);
     }
     arena_release(arena, mark);
 }
@@ -102,12 +102,12 @@ static int find_fronts(const World *world, const Surroundings *around, const Dis
     for (int number = 0; number < around->wall_count; number++) {
         const cpShape *wall = around->walls[number];
         Nearest nearest;
-        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
-            seen[count] = (Seen){wall, nearest, distance_beside(wall, self->place, ahead), count};
+        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->point, &nearest)) {
+            seen[count] = (Seen){wall, nearest, distance_beside(wall, self->point, ahead), count};
             count++;
         }
     }
-    find_nearer(world, seen, count, self->place);
+    find_nearer(world, seen, count, self->point);
     for (int number = 0; number < count; number++) {
         int front = number;
         while (seen[front].front != front) {
@@ -128,7 +128,7 @@ static Vec swerved(Vec force, Vec desired) {
 }
 
 static Vec of_disc(const SocialForce *model, const Disc *self, const Disc *other, Vec desired, Vec ahead) {
-    Vec apart = sub(self->place, other->place);
+    Vec apart = sub(self->point, other->point);
     double distance = length(apart);
     if (distance > farthest_seen + other->radius || distance == 0.0) {
         return (Vec){0};

@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// The stages of a step, in the order of `step.c`.
+// The stages of a step; `step.c` has their order.
 
 #ifndef PHYSSIM_STAGES_H
 #define PHYSSIM_STAGES_H
@@ -34,11 +34,14 @@ void begin_actors(World *world);
 bool choose_velocity(World *world);
 void move_actors(World *world);
 
-// The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
-void apply_floor(World *world);
-void find_pushes(World *world);
+// Wheels, odometry and batteries of robots (`drives.c`).
 void roll_wheels(World *world);
 void reckon_odometry(World *world);
+void use_batteries(World *world);
+
+// The floor under bodies, and how contacts and joints have pushed what it carries (`floor.c`).
+void apply_floor(World *world);
+void find_pushes(World *world);
 
 // Contacts of one-way bodies that carry a load (`one_way.c`).
 void find_loaded(World *world);
@@ -73,9 +76,9 @@ void solve_impacts(World *world);
 void time_impacts(World *world);
 // The rest of the step after impacts (`rest_of_step.c`): how long it is for two bodies that met in this step [s]; by
 // how much further a body is for a velocity after its impact than for that before it, and what it has still to go then.
-double time_left(const Body *a, const Body *b);
-Twist displacement_gained(const Body *body, Twist after, double left, double dt);
-void add_rest(Body *body, Twist gained);
+double remaining_time(const Body *a, const Body *b);
+Twist displacement_gained(const Body *body, Twist after, double remaining, double dt);
+void set_remaining_move(Body *body, Twist gained);
 
 // Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
 void find_joint_islands(World *world);

@@ -14,7 +14,6 @@
 // Without it law 78 (boxes that tip) fails from a friction of 2 on: the corner of a box of 1 m sinks by 26 mm.
 
 #include "stages.h"
-#include "touch.h"
 
 // The greatest factor by which a round multiplies an error [1]: that of a rod at a friction of 1. Up to it, Chipmunk's
 // own rounds converge.

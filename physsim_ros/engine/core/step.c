@@ -10,9 +10,9 @@ static void begin_body(Body *body) {
     assert(body_of(body->engine) == body);
     body->scratch.begin = pose_of(body->engine);
     body->scratch.twist = twist_of(body->engine);
-    body->scratch.carried = body->scratch.rest = (Twist){0};
-    body->scratch.left = body->scratch.since = 0.0;
-    body->scratch.bounces = body->scratch.rests = false;
+    body->scratch.carried = body->scratch.remaining_move = (Twist){0};
+    body->scratch.remaining = body->scratch.since = 0.0;
+    body->scratch.bounces = body->scratch.has_remaining_move = false;
     body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
 }
 
@@ -97,6 +97,7 @@ static void step(World *world) {
     apply_forces(world);
     pull_grips(world);
     apply_fields(world);
+    roll_wheels(world);
     apply_floor(world);
     find_loaded(world);
     clamp_moves(world);
@@ -116,6 +117,8 @@ static void step(World *world) {
     correct_joint_positions(world);
     add_closings(world);
     find_pushes(world);
+    reckon_odometry(world);
+    use_batteries(world);
     if (world->reports_contacts) {
         report_contacts(world);
     } else {

@@ -23,22 +23,22 @@ bool has_begun(const World *world, const Actor *actor) {
     return actor->state.begun <= world->step;
 }
 
-bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest) {
-    double x = greatest(greatest(wall->bb[0] - place.x, place.x - wall->bb[2]), 0.0);
-    double y = greatest(greatest(wall->bb[1] - place.y, place.y - wall->bb[3]), 0.0);
+bool sees_wall(const World *world, const cpShape *wall, Vec point, Nearest *nearest) {
+    double x = greatest(greatest(wall->bb[0] - point.x, point.x - wall->bb[2]), 0.0);
+    double y = greatest(greatest(wall->bb[1] - point.y, point.y - wall->bb[3]), 0.0);
     if (greatest(x, y) > farthest_seen) {
         return false;
     }
     cpPointQueryInfo found;
-    world->chipmunk.point_query(wall, place, &found);
+    world->chipmunk.point_query(wall, point, &found);
     *nearest = (Nearest){found.distance, found.gradient};
     return true;
 }
 
-double distance_beside(const cpShape *wall, Vec place, Vec ahead) {
+double distance_beside(const cpShape *wall, Vec point, Vec ahead) {
     double left = -INFINITY, right = INFINITY;
     for (int number = 0; number < corner_count(wall); number++) {
-        double across = cross(ahead, sub(corner_in_world(wall, number).place, place));
+        double across = cross(ahead, sub(corner_in_world(wall, number).point, point));
         left = greatest(left, across);
         right = least(right, across);
     }

@@ -11,7 +11,7 @@
 // A body as pedestrians see it: the disc about its centre of mass.
 typedef struct Disc {
     const Body *body;
-    Vec place, velocity; // [m], [m/s]
+    Vec point, velocity; // [m], [m/s]
     double radius;       // [m]
     bool walks;          // it is a pedestrian, and avoids others
 } Disc;
@@ -68,10 +68,10 @@ bool has_begun(const World *world, const Actor *actor);
 // Of bodies that move, and of anchored discs, the disc around them; of others each shape.
 Surroundings surroundings_of(World *world);
 
-// A wall as a pedestrian at a place sees it; false if it is too far away.
-bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest);
+// A wall as a pedestrian at a point sees it; false if it is too far away.
+bool sees_wall(const World *world, const cpShape *wall, Vec point, Nearest *nearest);
 
-// The distance of a wall from the line through a place in a direction, at most 0 where the line meets it.
-double distance_beside(const cpShape *wall, Vec place, Vec ahead);
+// The distance of a wall from the line through a point in a direction, at most 0 where the line meets it.
+double distance_beside(const cpShape *wall, Vec point, Vec ahead);
 
 #endif

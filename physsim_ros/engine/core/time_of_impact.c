@@ -46,7 +46,7 @@ static MovingShape side_of(const Mover *mover, const cpShape *shape, Arena *aren
     double reach = 0.0;
     for (int number = 0; number < side.count; number++) {
         side.still[number] = corner_on_body(shape, number);
-        reach = greatest(reach, length(side.still[number].place));
+        reach = greatest(reach, length(side.still[number].point));
     }
     side.reach = reach + length(sub(mover->pose.p, mover->pivot));
     return side;
@@ -56,16 +56,16 @@ static void place(MovingShape *side, double share) {
     Pose pose = pose_at(side->mover, share, &side->pivot);
     Rotation by = rotation(pose.yaw);
     for (int number = 0; number < side->count; number++) {
-        side->corners[number].place = add(rotated(side->still[number].place, by), pose.p);
+        side->corners[number].point = add(rotated(side->still[number].point, by), pose.p);
         side->corners[number].normal = rotated(side->still[number].normal, by);
     }
 }
 
 static int foremost(const MovingShape *side, Vec axis) {
     int best = 0;
-    double most = dot(axis, side->corners[0].place);
+    double most = dot(axis, side->corners[0].point);
     for (int number = 1; number < side->count; number++) {
-        double ahead = dot(axis, side->corners[number].place);
+        double ahead = dot(axis, side->corners[number].point);
         if (ahead > most) {
             best = number, most = ahead;
         }
@@ -87,18 +87,18 @@ static void keep_nearer(Vec between, bool of_first, Vec *nearest) {
 static void try_faces(const MovingShape *side, const MovingShape *other, bool of_first, Separation *best,
                       Vec *nearest) {
     int facing = foremost(other, negated(side->corners[0].normal));
-    Vec corner = side->corners[side->count - 1].place;
+    Vec corner = side->corners[side->count - 1].point;
     for (int number = 0; number <= side->count; number++) {
         const Corner *face = side->corners + (number < side->count ? number : 0);
         int next = (facing + 1) % other->count;
-        keep_nearer(sub(other->corners[facing].place, corner), of_first, nearest);
-        while (dot(face->normal, sub(other->corners[next].place, other->corners[facing].place)) < 0.0) {
+        keep_nearer(sub(other->corners[facing].point, corner), of_first, nearest);
+        while (dot(face->normal, sub(other->corners[next].point, other->corners[facing].point)) < 0.0) {
             facing = next;
             next = (facing + 1) % other->count;
-            keep_nearer(sub(other->corners[facing].place, corner), of_first, nearest);
+            keep_nearer(sub(other->corners[facing].point, corner), of_first, nearest);
         }
-        corner = face->place;
-        Vec between = sub(other->corners[facing].place, corner);
+        corner = face->point;
+        Vec between = sub(other->corners[facing].point, corner);
         double distance = dot(face->normal, between);
         bool is_face = face->normal.x != 0.0 || face->normal.y != 0.0; // a point has none
         if (is_face && distance > best->distance) {
@@ -111,13 +111,13 @@ static void try_faces(const MovingShape *side, const MovingShape *other, bool of
 // The separation of the cores of two shapes, exact for disjoint ones; else the negative least depth.
 static Separation separation_of(const MovingShape *a, const MovingShape *b) {
     Separation best = {-1e300, {0.0, 0.0}, true};
-    Vec nearest = sub(b->corners[0].place, a->corners[0].place);
+    Vec nearest = sub(b->corners[0].point, a->corners[0].point);
     try_faces(a, b, true, &best, &nearest);
     try_faces(b, a, false, &best, &nearest);
     double size = length(nearest);
     Vec axis = scaled(nearest, size > 0.0 ? 1.0 / size : 0.0);
-    double lead = dot(axis, a->corners[foremost(a, axis)].place);
-    double distance = dot(axis, b->corners[foremost(b, negated(axis))].place) - lead;
+    double lead = dot(axis, a->corners[foremost(a, axis)].point);
+    double distance = dot(axis, b->corners[foremost(b, negated(axis))].point) - lead;
     // Two points in one place have no axis.
     return size > 0.0 && distance > best.distance ? (Separation){distance, axis, false} : best;
 }
@@ -134,7 +134,7 @@ static double speed_bound(const MovingShape *a, const MovingShape *b, Vec axis, 
         const MovingShape *other = sides[1 - side];
         double far = 0.0;
         for (int number = 0; number < other->count; number++) {
-            Vec arm = sub(other->corners[number].place, sides[side]->pivot);
+            Vec arm = sub(other->corners[number].point, sides[side]->pivot);
             far = greatest(far, dot(arm, arm));
         }
         double seen = turns[side] * (sqrt(far) + distance * lapse);
@@ -152,7 +152,7 @@ static double rate_along(const MovingShape *side, Vec point, Vec axis) {
 static double approach(const MovingShape *a, const MovingShape *b, const Separation *found) {
     const MovingShape *cornered = found->of_first ? b : a;
     Vec axis = found->of_first ? negated(found->axis) : found->axis;
-    Vec point = cornered->corners[foremost(cornered, axis)].place;
+    Vec point = cornered->corners[foremost(cornered, axis)].point;
     return rate_along(a, point, found->axis) - rate_along(b, point, found->axis);
 }
 

@@ -15,8 +15,8 @@ Touch touch_of(cpArbiter *arbiter) {
     for (int point = 0; point < 2; point++) {
         // Where there is but one, it stands for both.
         const cpContact *contact = arbiter->contacts + (point < arbiter->count ? point : 0);
-        touch.places[point][0] = add(arbiter->body_a->p, contact->r1);
-        touch.places[point][1] = add(arbiter->body_b->p, contact->r2);
+        touch.points[point][0] = add(arbiter->body_a->p, contact->r1);
+        touch.points[point][1] = add(arbiter->body_b->p, contact->r2);
     }
     return touch;
 }
@@ -25,8 +25,8 @@ void write_touch(const Touch *touch) {
     touch->arbiter->n = touch->normal;
     touch->arbiter->count = touch->count;
     for (int point = 0; point < touch->count; point++) {
-        touch->arbiter->contacts[point].r1 = sub(touch->places[point][0], touch->engines[0]->p);
-        touch->arbiter->contacts[point].r2 = sub(touch->places[point][1], touch->engines[1]->p);
+        touch->arbiter->contacts[point].r1 = sub(touch->points[point][0], touch->engines[0]->p);
+        touch->arbiter->contacts[point].r2 = sub(touch->points[point][1], touch->engines[1]->p);
     }
 }
 
@@ -35,9 +35,9 @@ double face_depth(const Touch *touch, int side, int face) {
     Corner corner = corner_in_world(touch->shapes[side], face);
     double nearest = INFINITY;
     for (int number = 0; number < corner_count(other); number++) {
-        nearest = least(nearest, dot(corner.normal, corner_in_world(other, number).place));
+        nearest = least(nearest, dot(corner.normal, corner_in_world(other, number).point));
     }
-    return dot(corner.normal, corner.place) - nearest + radius_of(other) + radius_of(touch->shapes[side]);
+    return dot(corner.normal, corner.point) - nearest + radius_of(other) + radius_of(touch->shapes[side]);
 }
 
 void prepare_contact(cpArbiter *arbiter) {

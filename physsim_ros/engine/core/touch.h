@@ -15,7 +15,7 @@ typedef struct Touch {
     cpBody *engines[2];
     int count;        // of points
     Vec normal;       // from the first body to the second
-    Vec places[2][2]; // of both points (first index) on either body (second) [m]
+    Vec points[2][2]; // of both points (first index) on either body (second) [m]
     double met;       // when the shapes first met, as a share of the step; 0 where that is not known
     int cornered;     // the shape, of which a corner met the other one then; a disc has but one
     bool on_face;     // whether that was at a face
@@ -31,13 +31,13 @@ void write_touch(const Touch *touch);
 
 // The distance of a point on the second body from that on the first along the normal, < 0 where they overlap [m].
 static inline double distance_of(const Touch *touch, int point) {
-    return dot(sub(touch->places[point][1], touch->places[point][0]), touch->normal);
+    return dot(sub(touch->points[point][1], touch->points[point][0]), touch->normal);
 }
 
-// The velocity of a place on one of the bodies [m/s].
-static inline Vec velocity_on(const Touch *touch, int side, Vec place) {
+// The velocity of a point on one of the bodies [m/s].
+static inline Vec velocity_on(const Touch *touch, int side, Vec point) {
     const cpBody *engine = touch->engines[side];
-    return velocity_at(twist_of(engine), sub(place, engine->p));
+    return velocity_at(twist_of(engine), sub(point, engine->p));
 }
 
 // How deep the other shape is behind a face of one [m].

@@ -36,7 +36,7 @@ static double reach_of(const Touch *touch, int side) {
 static bool is_at_corner(const Touch *touch, int side) {
     double reach = reach_of(touch, side);
     for (int number = 0; number < corner_count(touch->shapes[side]); number++) {
-        if (is_within(touch->places[0][side], corner_in_world(touch->shapes[side], number).place, reach)) {
+        if (is_within(touch->points[0][side], corner_in_world(touch->shapes[side], number).point, reach)) {
             return true;
         }
     }
@@ -49,7 +49,7 @@ static bool hides(const Touch *face, const Touch *touch, int side) {
     Vec other = side == 0 ? negated(touch->normal) : touch->normal;
     // Two corners of a polygon may meet one face.
     bool may_be_hidden = kind_of(touch->shapes[side]) == SHAPE_CIRCLE || length(sub(outwards, other)) > same_normal;
-    Vec offset = sub(touch->places[0][1 - side], face->places[0][1 - face->cornered]);
+    Vec offset = sub(touch->points[0][1 - side], face->points[0][1 - face->cornered]);
     return may_be_hidden && face->met <= touch->met && dot(outwards, offset) <= slop_of(touch->arbiter);
 }
 
@@ -69,7 +69,7 @@ int list_faces(const Touch *touches, int count, const Touch **faces) {
             faces[face_count++] = touches + number;
         }
     }
-    sort(faces, face_count, sizeof(const Touch *), by_shape);
+    sort((void *)faces, face_count, sizeof(const Touch *), by_shape);
     return face_count;
 }
 
@@ -116,8 +116,8 @@ static Vec relative_velocity(const Touch *touch) {
     for (int side = 0; side < 2; side++) {
         const cpShape *shape = touch->shapes[side];
         bool is_disc = kind_of(shape) == SHAPE_CIRCLE;
-        Vec place = is_disc ? corner_in_world(shape, 0).place : touch->places[0][side];
-        velocities[side] = velocity_on(touch, side, place);
+        Vec point = is_disc ? corner_in_world(shape, 0).point : touch->points[0][side];
+        velocities[side] = velocity_on(touch, side, point);
     }
     return sub(velocities[1], velocities[0]);
 }
@@ -129,9 +129,9 @@ static void find_slide(const Touch *touch, int side, Vec velocity, Slide *best) 
     double reach = reach_of(touch, side), sign = side == 0 ? 1.0 : -1.0;
     for (int face = 0; face < count && count > 1; face++) {
         Corner corner = corner_in_world(shape, face);
-        Vec before = corner_in_world(shape, (face + count - 1) % count).place, point = touch->places[0][side];
+        Vec before = corner_in_world(shape, (face + count - 1) % count).point, point = touch->points[0][side];
         double approach = -dot(corner.normal, velocity) * sign;
-        if (approach < best->approach && (is_within(point, corner.place, reach) || is_within(point, before, reach))) {
+        if (approach < best->approach && (is_within(point, corner.point, reach) || is_within(point, before, reach))) {
             double depth = face_depth(touch, side, face);
             if (depth >= 0.0 && depth <= slop_of(touch->arbiter)) {
                 *best = (Slide){side, approach, depth, corner.normal};
@@ -160,13 +160,13 @@ bool slide_over_edge(Touch *touch) {
     Vec along = slide.side == 0 ? slide.outwards : negated(slide.outwards), half = scaled(along, slide.depth / 2.0);
     touch->normal = along;
     for (int point = 0; point < 2; point++) {
-        Vec middle = scaled(add(touch->places[point][0], touch->places[point][1]), 0.5);
+        Vec middle = scaled(add(touch->points[point][0], touch->points[point][1]), 0.5);
         if (kind_of(other) == SHAPE_CIRCLE) {
             // A disc is touched below its centre.
-            middle = sub(corner_in_world(other, 0).place, scaled(slide.outwards, radius_of(other)));
+            middle = sub(corner_in_world(other, 0).point, scaled(slide.outwards, radius_of(other)));
         }
-        touch->places[point][0] = add(middle, half);
-        touch->places[point][1] = sub(middle, half);
+        touch->points[point][0] = add(middle, half);
+        touch->points[point][1] = sub(middle, half);
     }
     return true;
 }

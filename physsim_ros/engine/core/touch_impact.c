@@ -37,7 +37,7 @@ typedef struct FirstImpact {
     CornerHit hit;
     int side;   // of the shape whose corner meets the other one
     Vec corner; // in the frame of `Moments`
-    Vec place;  // of it, where the other shape has the yaw and place of now
+    Vec point;  // of it, where the other shape has the yaw and point of now
 } FirstImpact;
 
 static Moments moments_of(const World *world, const Touch *touch, int side) {
@@ -47,13 +47,13 @@ static Moments moments_of(const World *world, const Touch *touch, int side) {
     Vec offset = is_disc ? ((const cpCircleShape *)shape)->c : vec(0.0, 0.0);
     Pose poses[3] = {body->scratch.begin, moved(body->scratch.begin, body->scratch.twist, world->dt),
                      pose_of(touch->engines[side])};
-    Vec places[3];
+    Vec points[3];
     for (int number = 0; number < 3; number++) {
-        places[number] = add(poses[number].p, rotated(offset, rotation(poses[number].yaw)));
+        points[number] = add(poses[number].p, rotated(offset, rotation(poses[number].yaw)));
     }
     double counts = is_disc ? 0.0 : 1.0;
     return (Moments){
-        places[0], places[1], places[2], poses[0].yaw * counts, poses[1].yaw * counts, poses[2].yaw * counts};
+        points[0], points[1], points[2], poses[0].yaw * counts, poses[1].yaw * counts, poses[2].yaw * counts};
 }
 
 static double yaw_then(const Moments *moments, double share) {
@@ -73,8 +73,8 @@ static CornerHit first_hit(Vec start, Vec displacement, const cpShape *shape, do
     // Faces, moved outwards by the radius: t of n . (ahead + displacement t) = r, between their corners.
     for (int number = 0; number < count && count > 1; number++) {
         Corner corner = corner_in_world(shape, number);
-        Vec edge = sub(corner_in_world(shape, (number + count - 1) % count).place, corner.place);
-        Vec ahead = sub(start, corner.place);
+        Vec edge = sub(corner_in_world(shape, (number + count - 1) % count).point, corner.point);
+        Vec ahead = sub(start, corner.point);
         double height = dot(corner.normal, ahead) - radius, share = height / -dot(corner.normal, displacement);
         double beside = cross(corner.normal, add(ahead, scaled(displacement, share)));
         if (height >= 0.0 && beside <= 0.0 && beside >= cross(corner.normal, edge)) {
@@ -83,7 +83,7 @@ static CornerHit first_hit(Vec start, Vec displacement, const cpShape *shape, do
     }
     // Corners: t of |ahead + displacement t| = r. Two that are not rounded meet by no normal.
     for (int number = 0; number < count && radius > 0.0; number++) {
-        Vec ahead = sub(start, corner_in_world(shape, number).place);
+        Vec ahead = sub(start, corner_in_world(shape, number).point);
         double a = dot(displacement, displacement), b = dot(ahead, displacement);
         double share = (-b - sqrt(b * b - a * (dot(ahead, ahead) - radius * radius))) / a;
         keep_first(&hit, (CornerHit){share, scaled(add(ahead, scaled(displacement, share)), 1.0 / radius), false});
@@ -95,17 +95,17 @@ static CornerHit first_hit(Vec start, Vec displacement, const cpShape *shape, do
 static double approach_in_step(const World *world, const Touch *touch) {
     double distance = 0.0;
     for (int side = 0; side < 2; side++) {
-        Vec arm = sub(touch->places[0][side], touch->engines[side]->p);
+        Vec arm = sub(touch->points[0][side], touch->engines[side]->p);
         distance += length(touch->engines[side]->v) + fabs(touch->engines[side]->w) * length(arm);
     }
     return distance * world->dt;
 }
 
-// Whether a place is within a distance of the box of a shape.
-static bool lies_near(const cpShape *shape, Vec place, double distance) {
+// Whether a point is within a distance of the box of a shape.
+static bool lies_near(const cpShape *shape, Vec point, double distance) {
     const double *box = shape->bb;
-    return place.x > box[0] - distance && place.x < box[2] + distance && place.y > box[1] - distance &&
-           place.y < box[3] + distance;
+    return point.x > box[0] - distance && point.x < box[2] + distance && point.y > box[1] - distance &&
+           point.y < box[3] + distance;
 }
 
 // Keep the first impact of the corners of one shape, if it comes before another one.
@@ -117,7 +117,7 @@ static void keep_first_impact(const Touch *touch, const Moments *moments, int si
              from_end = rotation(other->now_yaw - other->end_yaw);
     double radius = radius_of(shape) + radius_of(struck);
     for (int number = 0; number < corner_count(shape); number++) {
-        Vec corner = kind_of(shape) == SHAPE_CIRCLE ? vec(0.0, 0.0) : corner_on_body(shape, number).place;
+        Vec corner = kind_of(shape) == SHAPE_CIRCLE ? vec(0.0, 0.0) : corner_on_body(shape, number).point;
         // The displacement of the corner in the frame that the other shape has where the step ends.
         Vec start = rotated(sub(add(own->begin, rotated(corner, at_begin)), other->begin), from_begin);
         Vec stop = rotated(sub(add(own->end, rotated(corner, at_end)), other->end), from_end);
@@ -138,7 +138,7 @@ static bool meet_by_corner(const Touch *touch) {
     if (kind_of(touch->shapes[0]) != SHAPE_POLYGON || kind_of(touch->shapes[1]) != SHAPE_POLYGON) {
         return false;
     }
-    double width = length(sub(touch->places[1][0], touch->places[0][0]));
+    double width = length(sub(touch->points[1][0], touch->points[0][0]));
     double tilt = fabs(distance_of(touch, 1) - distance_of(touch, 0));
     bool by_faces = touch->count == 2 && tilt < slope_of_faces * width;
     return !by_faces && approach_of(touch->arbiter) > slowest_impact;
@@ -149,14 +149,14 @@ static void set_impact(Touch *touch, const Moments *moments, const FirstImpact *
     const Moments *own = moments + first->side, *other = moments + 1 - first->side;
     double radius = radius_of(touch->shapes[first->side]), share = first->hit.share;
     Vec arm = rotated(first->corner, rotation(yaw_then(own, share)));
-    Vec on_other = sub(first->place, scaled(first->hit.normal, radius));
+    Vec on_other = sub(first->point, scaled(first->hit.normal, radius));
     Rotation turn = rotation(yaw_then(other, share) - other->now_yaw);
     Vec outwards = rotated(first->hit.normal, turn);
     touch->count = 1;
     touch->normal = first->side == 0 ? negated(outwards) : outwards;
     for (int point = 0; point < 2; point++) {
-        touch->places[point][first->side] = sub(add(own->now, arm), scaled(outwards, radius));
-        touch->places[point][1 - first->side] = add(other->now, rotated(sub(on_other, other->now), turn));
+        touch->points[point][first->side] = sub(add(own->now, arm), scaled(outwards, radius));
+        touch->points[point][1 - first->side] = add(other->now, rotated(sub(on_other, other->now), turn));
     }
 }
 

@@ -8,7 +8,7 @@
 
 #include "touch.h"
 
-// Replace normal and places of the contact of a disc, or of a corner that is fast, by those of its impact.
+// Replace normal and points of the contact of a disc, or of a corner that is fast, by those of its impact.
 void move_to_impact(const World *world, Touch *touch);
 
 // List the contacts at faces, of those that begin, by the shapes that met these with a corner; return their number.

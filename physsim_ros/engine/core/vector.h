@@ -12,6 +12,7 @@
 typedef cpVect Vec;
 
 static const double pi = 3.14159265358979323846;
+static const double full_turn = 6.283185307179586; // [rad]
 
 typedef struct Rotation {
     double c, s; // cosine and sine of the angle

@@ -17,7 +17,6 @@
 #include "way_around.h"
 #include "outline.h"
 
-static const double straight_angle = 3.141592653589793;
 // Both paths are equal within this share [1], more than rounding.
 static const double equal_share = 1e-9;
 
@@ -32,9 +31,9 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
     double grown = radius + radius_of(wall), greatest_angle = -INFINITY, least_angle = INFINITY;
     *span = (Span){.left = -INFINITY, .right = INFINITY};
     for (int number = 0; number < corner_count(wall); number++) {
-        Vec corner = corner_in_world(wall, number).place, offset = sub(corner, from);
+        Vec corner = corner_in_world(wall, number).point, offset = sub(corner, from);
         double angle = atan2(cross(ahead, offset), dot(ahead, offset)), distance = length(offset);
-        double half = distance > grown ? asin(grown / distance) : straight_angle / 2.0;
+        double half = distance > grown ? asin(grown / distance) : pi / 2.0;
         span->left = greatest(span->left, angle + half);
         span->right = least(span->right, angle - half);
         if (angle > greatest_angle) {
@@ -45,11 +44,11 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
         }
     }
     // More than half a turn is spanned by a wall behind the point or around it.
-    return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < straight_angle;
+    return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < pi;
 }
 
 static bool avoids(const World *world, const Disc *self, const cpShape *wall, Nearest *nearest) {
-    return !passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, nearest);
+    return !passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->point, nearest);
 }
 
 // Find the nearest wall that the straight line to a point meets.
@@ -61,8 +60,8 @@ static const cpShape *wall_in_way(const World *world, const Surroundings *around
         const cpShape *wall = around->anchored[number];
         Nearest nearest;
         Span there, back;
-        if (distance_beside(wall, self->place, ahead) < self->radius && avoids(world, self, wall, &nearest) &&
-            nearest.distance < least_distance && find_span(wall, self->place, ahead, self->radius, &there) &&
+        if (distance_beside(wall, self->point, ahead) < self->radius && avoids(world, self, wall, &nearest) &&
+            nearest.distance < least_distance && find_span(wall, self->point, ahead, self->radius, &there) &&
             find_span(wall, point, negated(ahead), self->radius, &back)) {
             found = wall, least_distance = nearest.distance, *span = there;
         }
@@ -73,12 +72,12 @@ static const cpShape *wall_in_way(const World *world, const Surroundings *around
 // Whether another wall leaves no room at an end of a wall, beside which a pedestrian walks in a direction.
 static bool is_blocked(const World *world, const Surroundings *around, const Disc *self, const cpShape *wall, Vec end,
                        Vec beside) {
-    Vec place = add(end, scaled(beside, self->radius + radius_of(wall)));
+    Vec point = add(end, scaled(beside, self->radius + radius_of(wall)));
     for (int number = 0; number < around->anchored_count; number++) {
         const cpShape *other = around->anchored[number];
         Nearest nearest;
         if (other != wall && !passes_through(self->body, body_of(other->body)) &&
-            sees_wall(world, other, place, &nearest) && nearest.distance < self->radius * (1.0 - equal_share)) {
+            sees_wall(world, other, point, &nearest) && nearest.distance < self->radius * (1.0 - equal_share)) {
             return true;
         }
     }
@@ -86,7 +85,7 @@ static bool is_blocked(const World *world, const Surroundings *around, const Dis
 }
 
 Vec heading_to(const World *world, const Surroundings *around, const Disc *self, Vec point) {
-    Vec offset = sub(point, self->place);
+    Vec offset = sub(point, self->point);
     double distance = length(offset);
     if (distance == 0.0) {
         return offset;
@@ -100,8 +99,8 @@ Vec heading_to(const World *world, const Surroundings *around, const Disc *self,
     Vec left = rotated(ahead, rotation(span.left)), right = rotated(ahead, rotation(span.right));
     bool left_blocked = is_blocked(world, around, self, wall, span.left_end, perpendicular(left));
     bool right_blocked = is_blocked(world, around, self, wall, span.right_end, negated(perpendicular(right)));
-    double by_left = length(sub(span.left_end, self->place)) + length(sub(point, span.left_end));
-    double by_right = length(sub(span.right_end, self->place)) + length(sub(point, span.right_end));
+    double by_left = length(sub(span.left_end, self->point)) + length(sub(point, span.left_end));
+    double by_right = length(sub(span.right_end, self->point)) + length(sub(point, span.right_end));
     double more = by_left - by_right;
     if (fabs(more) <= equal_share * by_right) {
         more = span.left + span.right + equal_share;

@@ -11,9 +11,6 @@
 #include "vector.h"
 #include <stdbool.h>
 
-// Overlaps are not smaller than this by rounding, within a kilometre of the origin [m].
-#define ROUNDING_OF_POSITIONS 1e-12
-
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;
@@ -23,7 +20,7 @@ typedef struct Private {
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
-    double kept;        // share of its velocity that a body keeps in a step
+    double kept;        // share of its velocity that a body keeps in a sub-step
     double push;        // rate at which an overlap is pushed out [1/s]
     double least_depth; // least safe depth of a body [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.

@@ -21,7 +21,7 @@ from itertools import chain
 
 import numpy as np
 from physsim_ros.engine.bodies import RigidBody
-from physsim_ros.engine.overlaps import core_boxes, count_inside, count_overlaps, laid_out
+from physsim_ros.engine.overlaps import bounds_of_pieces, count_inside, count_overlaps, laid_out
 from physsim_ros.engine.space import Space
 from physsim_ros.model.attraction import check_attraction
 from physsim_ros.model.checkpoint import WorldState
@@ -94,7 +94,7 @@ class Capacity:
             pieces = len(body.shape.form.pieces)
             shapes += pieces - (0 if old is None else len(old.body.shape.form.pieces))
             added += _inside(body) + space.bodies.count_near(
-                core_boxes(body.shape, pose),
+                bounds_of_pieces(body.shape, pose),
                 without=None if old is None else old.pm_body,
                 moving_only=body.anchored,
                 most=most,

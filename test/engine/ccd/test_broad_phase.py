@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine import broad_phase
+from physsim_ros.model.requests import Command
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
@@ -97,3 +98,16 @@ def test_who_passes_through_sensors_alone_is_not_swept():
     world = heap(sensor=True)
     world.step(1)
     assert swept(world) == 0
+
+
+@pytest.mark.parametrize(('moved', 'anew'), [('body/0', False), ('wall/0', True)])
+def test_the_tree_of_what_is_anchored_is_built_anew_only_where_that_is_moved(
+    monkeypatch, moved, anew
+):
+    world, noted = heap(), []
+    spawn(world, 'wall/0', Disc(radius=1.0), (50.0, 0.0, 0.0), anchored=True)
+    monkeypatch.setattr(world.space.core, 'note_moved_static', lambda: noted.append(moved))
+
+    world.apply(Command(names=(moved,), poses=np.array([[0.0, 9.0, 0.0]])))
+
+    assert bool(noted) == anew

@@ -6,9 +6,12 @@
 #include "calls.h"
 #include "boxes.h"
 #include "elimination_order.h"
+#include "immersion.h"
+#include "impact_islands.h"
 #include "lcp.h"
 #include "mixed_lcp.h"
 #include "time_of_impact.h"
+#include <stdlib.h>
 #include <string.h>
 
 void call_ldl(int size, const int *starts, const int *rows, double *values, double *diagonal, double *x) {
@@ -111,4 +114,50 @@ double call_time_of_impact(const Case *one, const Case *other, double slop, doub
     arena_free(&planes);
     arena_free(&own.arena);
     return share;
+}
+
+double call_immersed(const Case *given, const Case *region) {
+    Arena arena = {0};
+    Shaped inner = {0}, outer = {0};
+    shape_case(&inner, given, &arena);
+    shape_case(&outer, region, &arena);
+    outer.polygon.shape.body = &outer.engine;
+    inner.engine.shapeList = &inner.polygon.shape;
+    for (int number = 0; number < given->count; number++) {
+        Vec corner = corner_on_body(&inner.polygon.shape, number).point;
+        inner.body.reach = greatest(inner.body.reach, length(corner));
+    }
+    Basin basin = basin_of(NULL, &outer.polygon.shape, outer.mover.pose, &arena);
+    double area = immersed(&inner.body, inner.mover.pose, &basin, true, &arena).area;
+    arena_free(&arena);
+    return area;
+}
+
+int call_join_impacts(int pair_count) {
+    Private own = {0};
+    cpSpace space = {.collisionSlop = 1e-3};
+    World world = {.space = &space, .own = &own};
+    Statics statics = {0};
+    int kind = SHAPE_CIRCLE, count = 2 * pair_count, met = 0, *fast = TAKE(&own.arena, int, count);
+    cpCircleShape disc = {.shape = {.klass = &kind}, .r = 0.1};
+    cpBody engine = {.m = 1.0, .i = 1.0, .shapeList = &disc.shape};
+    Body body = {.engine = &engine, .dynamic = true, .reach = 0.1, .safe_depth = 0.02, .pieces = 1.0, .corners = 1.0};
+    Sweep sweep = {.world = &world, .count = count, .movers = TAKE(&own.arena, Mover, count), .statics = &statics};
+    Box *boxes = TAKE(&own.arena, Box, count);
+    sweep.followed = TAKE(&own.arena, bool, count);
+    for (int number = 0; number < count; number++) {
+        double side = number % 2 == 0 ? -1.0 : 1.0;
+        div_t pair = div(number / 2, 100);
+        engine.p = vec(10.0 * pair.rem + 0.6 * side, 10.0 * pair.quot);
+        sweep.movers[number] = mover_of(&body, (Twist){{-side, 0.0}, 0.0});
+        sweep.movers[number].island = fast[number] = number;
+        boxes[number] = sweep.movers[number].box;
+    }
+    sweep.tree = tree_of(boxes, count, &own.arena);
+    join_impacts(&sweep, fast, count);
+    for (int number = 0; number < count; number++) {
+        met += sweep.movers[number].met;
+    }
+    arena_free(&own.arena);
+    return met;
 }

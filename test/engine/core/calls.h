@@ -27,3 +27,9 @@ typedef struct Case {
     double pose[3], change[3];
 } Case;
 double call_time_of_impact(const Case *one, const Case *other, double slop, double depth);
+
+// Return the area of a convex shape, by the pose of its case, that lies in a polygon whose pose is the origin [m²].
+double call_immersed(const Case *given, const Case *region);
+
+// Have pairs of discs meet at half a step, far from other pairs; return the count of discs that have met.
+int call_join_impacts(int pair_count);

@@ -327,6 +327,16 @@ DEPTH = 0.02
 MOMENTS = np.linspace(0.0, 1.0, 4001)
 
 
+def case_of(call, corners, pose, *, radius=0.0, change=(0.0, 0.0, 0.0)):
+    """Return a `Case` of `calls.h`."""
+    case = call.ffi.new('Case *')
+    case.corners = call.array(corners)[1]
+    case.normals = call.array(normals_of(corners))[1]
+    case.count, case.radius = len(corners), radius
+    case.pose, case.change = list(pose), list(change)
+    return case
+
+
 def convex(random):
     """Return the corners of a point, a segment or a polygon, counter-clockwise, and its radius."""
     count = int(random.integers(1, 7))
@@ -385,12 +395,7 @@ def test_shapes_meet_when_they_first_overlap_by_the_slop(call, seed, turns):
         corners, radius = convex(random)
         pose = np.array([side * 1.5, 0.0, 0.0]) + random.uniform(-0.4, 0.4, 3)
         change = np.array([-side * 1.5, *random.uniform(-0.5, 0.5, 2)]) * [1.0, 1.0, turns]
-        case = call.ffi.new('Case *')
-        case.corners = call.array(corners)[1]
-        case.normals = call.array(normals_of(corners))[1]
-        case.count, case.radius = len(corners), radius
-        case.pose, case.change = list(pose), list(change)
-        cases.append(case)
+        cases.append(case_of(call, corners, pose, radius=radius, change=change))
         ways.append(ways_of(corners, pose, change))
         radii += radius
     gaps = gaps_of(*ways) - radii
@@ -405,3 +410,25 @@ def test_shapes_meet_when_they_first_overlap_by_the_slop(call, seed, turns):
         assert gaps[share >= MOMENTS].min() >= -skin - 1e-9
         # One that turns may end before, where it takes too many advances.
         assert np.interp(share, MOMENTS, gaps) <= (-0.9 * skin + 1e-6 if not turns else 0.0)
+
+
+# What of a body lies in a region
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_corners_on_the_edge_of_a_region_are_before_and_behind_it_in_turn(call, seed):
+    random = np.random.default_rng(seed)
+    pose = random.uniform(-3.0, 3.0, 3)
+    cos, sin = np.cos(pose[2]), np.sin(pose[2])
+    # Its lower side has nine corners on one line, on which the edge of the region lies.
+    corners = np.array([*((0.5 * number, 0.0) for number in range(9)), (4.0, 1.0), (0.0, 1.0)])
+    below = np.array([[-9.0, 0.0], [-9.0, -9.0], [9.0, -9.0], [9.0, 0.0]])
+    above = -below
+    for region, area in ((below, 0.0), (above, 4.0)):
+        world = region @ [[cos, sin], [-sin, cos]] + pose[:2]
+
+        found = call.lib.call_immersed(
+            case_of(call, corners, pose), case_of(call, world, (0.0, 0.0, 0.0))
+        )
+
+        assert found == pytest.approx(area, abs=1e-9)
