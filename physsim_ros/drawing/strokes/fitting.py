@@ -28,6 +28,8 @@ from physsim_ros.model.transform import dots, next_vertices, norms, rotated_each
 # The wobble of a careful hand (rms) in shares of the size of an open stroke: what is farther from
 # straight sides is a curve, which is simplified to half of that.
 WOBBLE = 0.012
+# Rounds of the fit of a rectangle, each point to its nearest side.
+_ROUNDS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -99,10 +101,11 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     # Left, right, lower and upper side.
     sides = np.concatenate((local.min(axis=0), local.max(axis=0)))[[0, 2, 1, 3]]
     across = local[:, [0, 0, 1, 1]]
-    nearest = np.abs(across - sides).argmin(axis=1)
-    for side in range(4):
-        if (nearest == side).any():
-            sides[side] = across[nearest == side, side].mean()
+    for _ in range(_ROUNDS):
+        nearest = np.abs(across - sides).argmin(axis=1)
+        for side in range(4):
+            if (nearest == side).any():
+                sides[side] = across[nearest == side, side].mean()
     off = np.abs(across - sides).min(axis=1)
     left, right, lower, upper = sides.tolist()
     corners = np.array(((left, lower), (right, lower), (right, upper), (left, upper)))

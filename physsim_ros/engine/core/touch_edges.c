@@ -69,7 +69,7 @@ int list_faces(const Touch *touches, int count, const Touch **faces) {
             faces[face_count++] = touches + number;
         }
     }
-    sort(faces, face_count, sizeof(const Touch *), by_shape);
+    sort((void *)faces, face_count, sizeof(const Touch *), by_shape);
     return face_count;
 }
 

@@ -135,6 +135,14 @@ def bowed(corners: Sequence[tuple[float, float]], bow: float) -> Floats:
     return np.vstack([side * (1.0 + 4.0 * bow * SHARE * (1.0 - SHARE))[:, None] for side in sides])
 
 
+def bowed_plank(bow: float) -> Floats:
+    """Return a plank of 5.3 m by 0.2 m that is bowed as a whole by a height [m]."""
+    corners = np.array([(0.0, 0.0), (5.3, 0.0), (5.3, 0.2), (0.0, 0.2), (0.0, 0.0)])
+    plank = np.vstack([a + SHARE[:-1, None] * (b - a) for a, b in itertools.pairwise(corners)])
+    x = np.append(plank[:, 0], 0.0)
+    return np.column_stack((x, np.append(plank[:, 1], 0.0) + bow * x * (5.3 - x) / 7.0))
+
+
 def narrow_loop(width: float) -> Floats:
     """Return a line of 4 m with a loop of a half width, as high as 1 m, in its middle [m]."""
     loop = np.column_stack((width * np.sin(ROUND), 0.5 * (1.0 - np.cos(ROUND))))[1:-1]
@@ -345,6 +353,9 @@ LIMITS: dict[
         'plain_forms._EVIDENCE plain_forms._THIN plain_forms._PLANK', [],
         lambda it: squircle(it) * (1.0, 0.2), (0.634, 0.66), ('rectangle', 'polygon'),
     ),
+    'bow of a plank, whose sides are those of a second round of the fit': (
+        '', [], bowed_plank, (0.12, 0.14), ('rectangle', 'polygon'),
+    ),
     'bow of the sides of a square': (
         'plain_forms._BULGE', [], lambda it: bowed(ring(4), it), (0.1654, 0.1694),
         ('rectangle', 'disc'),
@@ -360,13 +371,13 @@ LIMITS: dict[
     'height of two roofs on opposite sides': (
         'plain_forms._SIDED', [],
         lambda it: [(0, 0), (2, -it), (4, 0), (4, 2), (2, 2 + it), (0, 2), (0, 0)],
-        (0.508, 0.52), ('rectangle', 'polygon'),
+        (0.530, 0.541), ('rectangle', 'polygon'),
     ),
     'angle of a rhomb': (
         'plain_forms._SLANT plain_forms._OFF', [],
         lambda it: [(0, 0), (2, 0), (2 + 2 * math.cos(it), 2 * math.sin(it)),
                     (2 * math.cos(it), 2 * math.sin(it)), (0, 0)],
-        (1.275, 1.301), ('polygon', 'rectangle'),
+        (1.276, 1.288), ('polygon', 'rectangle'),
     ),
     'angle of a parallelogram': (
         'plain_forms._OFF', [],
@@ -515,6 +526,7 @@ FIGURES: dict[
 
 # Numbers of points between which readings do not differ, and what words and work are limited to.
 RESOLUTION = {
+    'fitting._ROUNDS',
     'geometry.COUNT', 'geometry.ARM', 'geometry._FEW', 'geometry._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',
