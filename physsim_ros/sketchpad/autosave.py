@@ -7,7 +7,8 @@ Autosave: the world that pages draw in is written to a file, which the next star
 A world with a lesson is kept as soon as a page opens it.
 
 Law: it takes at most a hundredth of the world's time and one file; a world that is too large, or a
-full disk, stops nothing. The file begins with a comment that names the people who drew in it.
+full disk, stops nothing. What the disk did not take is tried again. The file begins with a comment
+that names the people who drew in it.
 """
 
 from __future__ import annotations
@@ -134,18 +135,29 @@ class Autosave:
         """Save the world, on a thread."""
         self._changed = False
         write = partial(self._write, self._text(), self._people()[:MOST_NAMES])
-        took = await on_thread(write, finishes=True)
+        is_written, took = await on_thread(write, finishes=True)
+        self._changed |= not is_written
         now = time.monotonic()
         self._due = now + max(PERIOD, SHARE * took)
         self._due_still = now + max(STILL_PERIOD, SHARE * took)
 
-    def _write(self, text: Callable[[int], str], names: Sequence[str]) -> float:
-        """Write a world and the names of people, and return the time that it took [s]."""
+    def _write(self, text: Callable[[int], str], names: Sequence[str]) -> tuple[bool, float]:
+        """
+        Write a world and the names of people.
+
+        :return: whether the file system took it, and the time that it took [s]
+        """
         began = time.thread_time()
-        with suppress(OSError, WorldFull):
+        is_written = True
+        try:
             content = text(LONGEST)
             if names:
                 content = f'{_BY}{json.dumps(names)}\n{content}'
             make_directory(self._file.parent)
             write_file(self._file, content.encode())
-        return time.thread_time() - began
+        except WorldFull:
+            # It stays too large until it changes.
+            pass
+        except OSError:
+            is_written = False
+        return is_written, time.thread_time() - began

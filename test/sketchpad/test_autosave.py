@@ -148,6 +148,35 @@ def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) 
     assert autosave.unsaved_at == 0.0
 
 
+def test_what_a_full_disk_did_not_take_is_written_when_there_is_room(tmp_path: Path) -> None:
+    simulation = Simulation()
+    directory = tmp_path / 'worlds'
+    directory.write_text('')
+    autosave = Autosave(directory, names_in(simulation))
+    drawn(simulation, autosave, 'a/0')
+    at_once(autosave.save())
+    assert not autosave.is_due(time.monotonic())
+    directory.unlink()
+    assert autosave.is_due(time.monotonic() + 2 * PERIOD)
+    at_once(autosave.save())
+    assert (directory / '.autosave.yaml').read_text() == 'a/0'
+    assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
+
+
+def test_a_world_that_is_too_large_is_tried_again_when_it_changes(tmp_path: Path) -> None:
+    simulation = Simulation()
+
+    def refuse(_: int) -> str:
+        raise WorldFull('too large', field='world')
+
+    autosave = Autosave(tmp_path, lambda: refuse)
+    for name in ('a/0', 'a/1'):
+        drawn(simulation, autosave, name)
+        assert autosave.is_due(time.monotonic() + 2 * PERIOD)
+        at_once(autosave.save())
+        assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
+
+
 def test_one_save_waits_for_its_turn_however_long_a_call_is_under_way(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -405,6 +405,32 @@ def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
     sheet.context.close()
 
 
+def test_a_pupil_whose_seat_is_freed_is_told_and_leaves_the_world_to_the_next_one(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, teacher = run_class
+    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
+    boss = Sheet(chromium, teacher)
+    boss.page.get_by_text('2 of 2 here').wait_for()
+    boss.page.locator('#seats li').first.get_by_role('button', name='More').click()
+    boss.press('Free this seat')
+    told = anna.page.get_by_role('alert').get_by_text('Your teacher has freed this seat')
+    told.wait_for()
+    left = anna.page.evaluate('physsim.time')
+    boss.page.get_by_text('1 of 2 here').wait_for()
+    # It is alone there, and the page before does not come back.
+    cleo = come(chromium, pupils, 'Cleo')
+    assert urlsplit(cleo.page.url).port == urlsplit(anna.page.url).port
+    boss.page.get_by_text('2 of 2 here').wait_for()
+    cleo.wait(f'physsim.time > {left}')
+    assert anna.page.evaluate('physsim.time') == left
+    assert cleo.page.get_by_role('button', name='People').is_hidden()
+    assert told.is_visible()
+    for each in (anna, ben, cleo, boss):
+        each.close()
+    assert program.interrupt() == 0
+
+
 def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
     chromium: Any, run_class: tuple[Program, str, str]
 ) -> None:

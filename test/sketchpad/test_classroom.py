@@ -357,6 +357,7 @@ def test_what_is_for_teachers_is_refused_to_others(browser: Browser, role: Role)
     for kind, fields in (
         ('freeze', {'frozen': True}),
         ('lock', {'names': ['*']}),
+        ('leave', {}),
         ('clear_of', {'person': 'Anna'}),
     ):
         assert page.ask(kind, **fields)['code'] == code

@@ -90,6 +90,7 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('answered', {'lesson': 'Free fall', 'answer': '1' * 1000, 'right': False}),
     ('raise_hand', {'raised': True}),
     ('lower_hand', {'page': 2}),
+    ('leave', {}),
     ('forget_results', {}),
     ('say', {'text': 'Five minutes left'}),
     ('clear_of', {'person': 'Anna'}),

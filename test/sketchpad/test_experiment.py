@@ -37,11 +37,16 @@ SEEN = {
 }
 SIDES = [(1, 0), (0, 1), (-1, 0), (0, -1)]
 CORNERS = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
-ROOM = """() => {
-    const {left, top, right, bottom} = document.getElementById('room').getBoundingClientRect();
-    return [left, top, right, bottom];
+# Boxes of the bars and panels, and of what is beyond the page.
+COVERS = """() => {
+    const bars = document.querySelectorAll('#tools, #top > .bar, #bar, #lesson, #panel, #plot');
+    const boxes = [...bars].map((bar) => bar.getBoundingClientRect()).filter((box) => box.width);
+    const far = 1e6;
+    return [...boxes.map(({left, top, right, bottom}) => [left, top, right, bottom]),
+        [-far, -far, 0, far], [innerWidth, -far, far, far],
+        [-far, -far, far, 0], [-far, innerHeight, far, far]];
 }"""
-# Of a frame in which a body is drawn on the edge of the room [px].
+# Of a frame in which a body is drawn on the edge of what covers it [px].
 EDGE = 1.0
 
 
@@ -123,11 +128,11 @@ def shown(sheet: Sheet, name: str) -> Box:
         return Box(*sheet.place(left, high), *sheet.place(right, low))
 
     def is_in_sight() -> bool:
-        room, now = Box(*sheet.page.evaluate(ROOM)), box()
-        inner = np.array(now) - np.array(room)
-        return bool((inner[:2] > -EDGE).all() and (inner[2:] < EDGE).all())
+        covers, now = np.array(sheet.page.evaluate(COVERS)), np.array(box())
+        overlaps = np.minimum(covers[:, 2:], now[2:]) - np.maximum(covers[:, :2], now[:2])
+        return bool((overlaps.min(axis=1) < EDGE).all())
 
-    sheet.until(is_in_sight, f'the motion of {name} in the room')
+    sheet.until(is_in_sight, f'the motion of {name} in sight')
     return box()
 
 

@@ -199,6 +199,7 @@ OTHER_FIELDS: dict[str, dict[str, Any]] = {
     'follow': {'names': []},
     'forget_results': {},
     'lower_hand': {'page': 1},
+    'leave': {},
     'say': {'text': 'x'},
     'freeze': {'frozen': False},
     'lock': {'names': ['a/*']},

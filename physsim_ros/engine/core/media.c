@@ -52,6 +52,7 @@ Media media_of(World *world, double ahead) {
     }
     media.basins = TAKE(arena, Basin, count);
     media.currents = TAKE(arena, Twist, count);
+    media.around = TAKE(arena, int, count);
     for (int number = 0; number < world->region_count; number++) {
         const Region *region = world->regions + number;
         Vec gust = gust_of(region, time);
@@ -229,20 +230,30 @@ static Twist twist_after(Pull pull, const Share *shares, int count, const Flight
     return twist_sum(flight->now, resisted(inverse, all), flight->ahead);
 }
 
+// Find the basins that a disc around a body reaches, and return their count. For thousands of bodies, memory for the
+// shares of all basins would be cleared once for each body.
+static int find_around(const Media *media, Vec center, double reach) {
+    int count = 0;
+    for (int number = 0; number < media->basin_count; number++) {
+        if (containment_of(media->basins + number, center, reach) != OUTSIDE) {
+            media->around[count++] = number;
+        }
+    }
+    return count;
+}
+
 Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse) {
     Arena *arena = &world->own->arena;
     size_t mark = arena_mark(arena);
     const Region *air = media->air;
-    int count = 0;
-    Share *shares = TAKE(arena, Share, 2 * media->basin_count + 1);
+    int count = 0, around_count = find_around(media, pose.p, body->reach);
+    Share *shares = TAKE(arena, Share, 2 * around_count + 1);
     body->scratch.afloat = false;
     body->scratch.stirred = air != NULL && air->gusty;
-    for (int number = 0; number < media->basin_count; number++) {
+    for (int place = 0; place < around_count; place++) {
+        int number = media->around[place];
         const Basin *basin = media->basins + number;
         Containment containment = containment_of(basin, pose.p, body->reach);
-        if (containment == OUTSIDE) {
-            continue;
-        }
         bool outlined = resists(basin->region) || (air != NULL && resists(air));
         Immersion wet = immersed(body, pose, containment == INSIDE ? NULL : basin, outlined, arena);
         body->scratch.afloat = body->scratch.afloat || containment == CROSSING;

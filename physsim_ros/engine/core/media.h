@@ -13,6 +13,7 @@ typedef struct Media {
     Basin *basins;
     Twist *currents; // of the medium in each: flow and gusts, as the region moves
     int basin_count;
+    int *around;       // (basin_count): scratch, those around one body
     const Region *air; // NULL is none
     Twist wind;
 } Media;

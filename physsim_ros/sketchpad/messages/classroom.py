@@ -86,6 +86,13 @@ def lower_hand(session: PageSession, origin: Origin, page: int) -> None:
     session.answer_page(origin, 'the hand is lowered')
 
 
+@message('leave', 'page', Right.TEACH)
+def leave(page: PageSession, origin: Origin) -> None:
+    """Have the pages of pupils leave this world, as their seat is free."""
+    page.send_all({'type': 'leave'})
+    page.answer_page(origin, 'pupils have left this world')
+
+
 @message('say', 'page', Right.TEACH, text=fields.text)
 def say(page: PageSession, origin: Origin, text: str) -> None:
     """Show a message on all pages of this world."""

@@ -132,6 +132,15 @@ function listen() {
     if (lost) notes.dock([t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost})]);
     else if (sent) notes.showMessage(t('Connected again. What you did meanwhile is sent now.'));
   });
+  connection.on('leave', () => {
+    if (people.teacher || people.viewOnly) return;
+    gestures.cancelAll();
+    connection.leave();
+    dialog.close();
+    for (const each of document.querySelectorAll('body > *')) each.toggleAttribute('inert', each !== gone);
+    gone.hidden = false;
+    gone.textContent = t('Your teacher has freed this seat. To come back, open the address of the class.');
+  });
   connection.on('closed', ({status, opened}) => {
     // The server forgets the gestures that it knows of; a stroke is drawn to its end.
     if (!away && gestures.tool.atServer) gestures.cancelAll();

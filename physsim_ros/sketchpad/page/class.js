@@ -158,6 +158,8 @@ class Card {
       textButton(t('Pause'), () => done('service', {name: 'pause'})),
       textButton(t('Show this run to all'), () => this.#showRun()),
       ...this.seated ? [textButton(t('Free this seat'), async () => {
+        // Before a next pupil comes.
+        connection.send('leave');
         await ask('/free', {seat: cards.indexOf(this)});
         dialog.close();
       })] : []));

@@ -112,9 +112,22 @@ export class Connection extends Emitter {
     if (this.silence === ASKS && this.socket.readyState === WebSocket.OPEN) this.send('ping');
     if (this.silence === TELLS) this.#tell('silent', null);
     if (this.silence < LEAVES) return;
+    this.#drop();
+    this.#retry();
+  }
+
+  /** Close the socket, and hear nothing of it any more. */
+  #drop() {
+    if (!this.socket) return;
     this.socket.onclose = this.socket.onmessage = this.socket.onopen = null;
     this.socket.close();
-    this.#retry();
+    this.socket = null;
+  }
+
+  /** Leave the world for good: who comes back in this tab is another person. */
+  leave() {
+    this.#drop();
+    sessionStorage.removeItem(PERSON);
   }
 
   /**

@@ -665,9 +665,8 @@ def another_number(constant: str, factor: float) -> Iterator[ModuleType]:
         )
     lines = path.read_text('utf-8').splitlines()
     line = lines[number.lineno - 1]
-    lines[number.lineno - 1] = (
-        line[: number.col_offset] + repr(changed) + line[number.end_col_offset :]
-    )
+    begin, end = number.col_offset, number.end_col_offset
+    lines[number.lineno - 1] = line[:begin] + repr(changed) + line[end:]
     own = 'physsim_ros.drawing', 'test.drawing'
     kept = {name: each for name, each in sys.modules.items() if name.startswith(own)}
     for name in kept:
