@@ -106,6 +106,20 @@ def test_a_large_world_that_was_replaced_is_freed_in_slices(monkeypatch) -> None
 
 
 @pytest.mark.usefixtures('uncollected')
+def test_a_large_world_is_freed_in_slices_though_another_one_is_replaced(monkeypatch) -> None:
+    monkeypatch.setattr(checkpoint, '_SLICE', 10)
+    simulation = crowd()
+    objects = objects_of(simulation)
+    simulation.reset()
+    simulation.undo()
+    simulation.advance(0)
+    assert sum(each() is not None for each in objects) > len(objects) / 2
+    for number in range(1, 40):
+        simulation.advance(number * FRAME)
+    assert sum(each() is not None for each in objects) <= 1
+
+
+@pytest.mark.usefixtures('uncollected')
 def test_few_bodies_of_many_pieces_are_freed_in_slices(monkeypatch) -> None:
     monkeypatch.setattr(checkpoint, '_SLICE', 100)
     points = tuple((0.1 * number, 0.02 * (number % 2)) for number in range(101))

@@ -12,6 +12,7 @@ into a space that is built from it.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
 from functools import partial
 import math
@@ -41,6 +42,11 @@ from physsim_ros.simulation.world.capacity import Capacity, check_state
 # Difference within which places are the same [1, of their size]: markers that come back have the
 # digits of a double; no person draws a point twice so exactly.
 _SAME = 1e-9
+# Greatest number of spaces that wait to be freed: as many as an impatient person replaces by undo
+# and redo in the time in which one is freed.
+_MOST_FREEING = 3
+# In place of a slice, where none is left.
+_FREED = object()
 
 
 class LiveSpace:
@@ -64,8 +70,8 @@ class LiveSpace:
         self._ahead: Beginning | None = None
         self._fresh: Beginning | None = None
         self._pool = BodyPool()
-        # Frees the space that was replaced last.
-        self._freeing: Iterator[None] = iter(())
+        # Each frees a space that was replaced, the first one first.
+        self._freeing: deque[Iterator[None]] = deque()
         self._replace(Space(settings, self._sub_step), self._pool)
 
     @property
@@ -174,13 +180,17 @@ class LiveSpace:
         self._retire(old, pool)
 
     def _retire(self, space: Space, pool: BodyPool) -> None:
-        """Have a space that was replaced be freed in slices; what is left of another one now."""
-        self._freeing = slices_of_freeing(space, pool)
+        """Have a space that was replaced be freed in slices."""
+        if len(self._freeing) == _MOST_FREEING:
+            # At once: it goes with the last reference to it.
+            self._freeing.popleft()
+        self._freeing.append(slices_of_freeing(space, pool))
         self.free_slice()
 
     def free_slice(self) -> None:
-        """Free a part of the space that was replaced last."""
-        next(self._freeing, None)
+        """Free a slice of the spaces that were replaced."""
+        while self._freeing and next(self._freeing[0], _FREED) is _FREED:
+            self._freeing.popleft()
 
     @property
     def is_built_ahead(self) -> bool:
