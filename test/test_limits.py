@@ -66,7 +66,8 @@ PROMISES = {
     'drawing.md': [('and {:,} strokes', resources.MOST_STROKES)],
     'security.md': [('at most {:,} printable characters', texts.LONGEST_WORD)],
     'page_protocol.md': [
-        ('an uploaded world | {:g} MiB;', server.MOST_BYTES / MIB),
+        ('an uploaded world; a picture | {:g} MiB;', server.MOST_BYTES / MIB),
+        ('Up to {:g} MiB are read', guarded.MOST_READ / MIB),
         ('levels of a message | {:,} ', message.DEEPEST),
         ('pings too | {:g} a second,', guarded.RATE),
         ('pings too | 200 a second, {:g} at once', guarded.BURST),

@@ -39,7 +39,7 @@ TYPES = {
 # send one message each frame of the page, at 60 to 144 Hz.
 RATE, BURST = 200.0, 400.0
 # Size of a file that is read to its end though it is refused [bytes].
-_MOST_READ = 2**26
+MOST_READ = 2**26
 # Errors of a client that has left.
 LEFT = (StreamClosedError, WebSocketClosedError)
 # Codes of closing, RFC 6455, section 7.4.1; the last one is this server's own.
@@ -165,14 +165,14 @@ class GuardedUpload(Guarded):
         """Refuse who may not send files, and what is too large to be read, before the file."""
         self._parts: list[bytes] = []
         connection: Any = self.request.connection
-        connection.set_max_body_size(_MOST_READ)
+        connection.set_max_body_size(MOST_READ)
         await super().prepare()
         if self.request.method != 'POST':
             return
         self.require_origin()
         self.require_drawing()
         length = self.request.headers.get('Content-Length', '')
-        if length.isdecimal() and int(length) > _MOST_READ:
+        if length.isdecimal() and int(length) > MOST_READ:
             self.refuse_size()
 
     def data_received(self, chunk: bytes) -> None:
