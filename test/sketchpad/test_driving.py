@@ -87,8 +87,8 @@ def test_its_panel_tells_of_a_robot_and_not_of_what_a_robot_cannot_be(sheet: She
     panel.get_by_text('Up to 0.306 m/s and 1.9 rad/s').wait_for()
     assert panel.get_by_text('Anchored').count() == 0
     # Seen from above, a body has no height.
-    panel.get_by_text('Kinetic energy').wait_for()
-    assert not panel.get_by_text('Potential energy').is_visible()
+    panel.get_by_text('Kinetic energy', exact=True).wait_for()
+    assert not panel.get_by_text('Potential energy', exact=True).is_visible()
 
 
 def test_its_laser_is_light_around_it_while_it_is_selected(sheet: Sheet) -> None:

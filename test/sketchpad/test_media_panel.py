@@ -29,6 +29,15 @@ OTHER_WIND = """() => {
 }"""
 
 
+TWO_NUMBERS = """() => {
+    for (const [label, value] of [['Density of the medium [kg/m²]', 4], ['Viscosity [N s/m²]', 10]]) {
+        const field = document.querySelector(`[aria-label="${label}, typed"]`);
+        field.value = value;
+        field.dispatchEvent(new Event('change'));
+    }
+}"""
+
+
 @pytest.fixture
 def sheet(sheet: Sheet) -> Sheet:
     """Give a test a page with the hand."""
@@ -50,6 +59,16 @@ def test_a_body_becomes_water_and_a_block_floats_in_it(sheet: Sheet) -> None:
     type_number(sheet, 'Viscosity [N s/m²]', '10')
     sheet.play_until(5.0)
     # A quarter of its height is under the level of 4 m.
+    assert sheet.pose('block/0') == pytest.approx([0.0, 4.2, 0.0], abs=1e-3)
+
+
+def test_two_numbers_that_are_typed_in_a_row_are_both_kept(sheet: Sheet) -> None:
+    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    sheet.page.get_by_label('Water: bodies float in it').check()
+    sheet.page.get_by_label('Viscosity [N s/m²], typed', exact=True).wait_for()
+    # Before the world can answer.
+    sheet.page.evaluate(TWO_NUMBERS)
+    sheet.play_until(5.0)
     assert sheet.pose('block/0') == pytest.approx([0.0, 4.2, 0.0], abs=1e-3)
 
 

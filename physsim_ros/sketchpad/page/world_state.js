@@ -248,3 +248,21 @@ export class WorldState {
     return box.every(Number.isFinite) ? unionOf([box, ...this.#hingesIn(box)]) : [-6, -1, 6, 6];
   }
 }
+
+/**
+ * What the world has of a value that changes only as a whole, with what was said of it since the last scene: of two
+ * changes in a row, none undoes the other.
+ * @template T
+ * @param {WorldState} world
+ * @param {() => T} read
+ */
+export function latest(world, read) {
+  let said = read(), {scene} = world;
+  return {
+    now: () => world.scene === scene ? said : read(),
+    say: (/** @type {T} */ value) => {
+      scene = world.scene;
+      return said = value;
+    },
+  };
+}

@@ -3,6 +3,7 @@
 
 import {checkField, createElement, range} from '../dom.js';
 import {t} from '../strings.js';
+import {latest} from '../world_state.js';
 
 /** @import {Body, Medium, Parts} from '../types.js' */
 
@@ -23,8 +24,8 @@ export function mediumFields({world}, {name, medium, charge = 0}, change) {
       checkField(t('Water: bodies float in it'), false, () => change({anchored: true, sensor: true, medium: WATER}))];
   }
   // The panel is not rendered again while somebody works in it.
-  const now = () => world.body(name)?.medium ?? medium;
-  const set = (/** @type {Partial<Medium>} */ said) => change({medium: {...now(), ...said}});
+  const {now, say} = latest(world, () => world.body(name)?.medium ?? medium);
+  const set = (/** @type {Partial<Medium>} */ said) => change({medium: say({...now(), ...said})});
   return [
     checkField(t('Water: bodies float in it'), true, () => {
       const [left, low, right, high] = world.boundsOfAll([name]);

@@ -5,6 +5,7 @@ import {checkField, createElement, inRow, numberField, textButton} from '../dom.
 import {numberOf} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, polar, rotated} from '../vectors.js';
+import {latest} from '../world_state.js';
 
 /** @import {AppliedForce, Body, Parts} from '../types.js' */
 
@@ -18,8 +19,8 @@ const FIRST = 10; // N: of a force that is added, to the right
  */
 export function forceFields({world}, {name, forces = []}, change) {
   // The panel is not rendered again while somebody works in it.
-  const now = () => world.body(name)?.forces ?? [];
-  const send = (/** @type {AppliedForce[]} */ changed) => change({forces: changed});
+  const {now, say} = latest(world, () => world.body(name)?.forces ?? []);
+  const send = (/** @type {AppliedForce[]} */ changed) => change({forces: say(changed)});
   const rows = forces.map(({force: [x, y], axes}, i) => {
     const replaced = (/** @type {Partial<AppliedForce>} */ fields) => send(now().map((each, j) => j === i ? {...each, ...fields} : each));
     const number = (/** @type {string} */ label, /** @type {number} */ value) => numberField(value, () => {
