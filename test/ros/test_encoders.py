@@ -426,6 +426,16 @@ def test_of_a_scene_of_thousands_some_are_serialised_for_each_frame():
     assert len(dark) == MOST_NEW + 1
 
 
+def test_of_thousands_that_are_gone_some_are_serialised_for_each_frame():
+    bodies = [replace(PLAIN, name=f'body/{number}') for number in range(2 * MOST_NEW)]
+    encoder = MarkersEncoder('world')
+    assert encoder.encode(frame_of(snapshot_of(bodies))) is None
+    picture(encoder, snapshot_of(bodies))
+    assert encoder.encode(frame_of(snapshot_of([]))) is None
+    gone = picture(encoder, snapshot_of([]))
+    assert drawn(gone, Marker.DELETE) == [each.name for each in bodies]
+
+
 def test_scenes_that_change_in_each_frame_are_drawn_as_each_was_begun():
     encoder = MarkersEncoder('world')
     scenes = [
@@ -436,7 +446,10 @@ def test_scenes_that_change_in_each_frame_are_drawn_as_each_was_begun():
     ]
     for begun, ready in (scenes[:2], scenes[2:]):
         assert encoder.encode(frame_of(begun)) is None
-        markers = [each for each in picture(encoder, ready) if each.action == Marker.ADD]
+        while (message := encoder.encode(frame_of(ready))) is None:
+            pass
+        told = decoded(message, MarkerArray).markers
+        markers = [each for each in told if each.action == Marker.ADD]
         assert drawn(markers) == drawn(marker_array(begun).markers)
 
 

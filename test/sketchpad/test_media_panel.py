@@ -30,7 +30,8 @@ OTHER_WIND = """() => {
 
 
 TWO_NUMBERS = """() => {
-    for (const [label, value] of [['Density of the medium [kg/m²]', 4], ['Viscosity [N s/m²]', 10]]) {
+    const numbers = {'Density of the medium [kg/m²]': 4, 'Viscosity [N s/m²]': 10};
+    for (const [label, value] of Object.entries(numbers)) {
         const field = document.querySelector(`[aria-label="${label}, typed"]`);
         field.value = value;
         field.dispatchEvent(new Event('change'));

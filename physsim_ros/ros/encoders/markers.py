@@ -5,15 +5,16 @@
 `~/markers`: visualization_msgs/MarkerArray, all bodies, joints, walls and hands.
 
 A body is drawn with the marker that would spawn it, its material in `text`. A marker that is no
-longer drawn is deleted in each of the next `DELETE_REPEATS` messages. Of a scene with thousands of
-new bodies, `MOST_NEW` are serialised for each frame, and the message comes after the last, even if
-the scene has changed meanwhile.
+longer drawn is deleted in each of the next `DELETE_REPEATS` messages. If thousands are new or
+gone, `MOST_NEW` are serialised for each frame, and the message comes after the last, even if the
+scene has changed meanwhile.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain, islice
 import struct
 
 import numpy as np
@@ -50,7 +51,7 @@ _PADDING = -len(_UNMESHED) % 4
 # Number of messages in which a marker is deleted. The depth of the stream is 1, so that a slow
 # subscriber misses some; of those of one second it gets at least one.
 DELETE_REPEATS = 60
-# Greatest number of bodies and joints that are serialised for a frame, 50 µs each.
+# Greatest number of bodies, joints and deletions that are serialised for a frame, 50 µs each.
 MOST_NEW = 500
 
 
@@ -73,6 +74,8 @@ class MarkersEncoder:
         # The deletion of each marker that is no longer drawn, and the number of the first message
         # without it.
         self._gone: dict[Key, tuple[_MarkerBytes, int]] = {}
+        # Deletions of which the next template is to have some.
+        self._deletions: dict[Key, _MarkerBytes] = {}
         self._until = -1
         self._count = 0
         self._glyphs: JointGlyphs | None = None
@@ -94,7 +97,7 @@ class MarkersEncoder:
         same = snapshot.scene is self._scene and hands == self._hands
         if not same or self._count == self._until:
             self._begun = snapshot
-            if not self._serialise_new(snapshot.scene):
+            if not self._serialise_some(snapshot.scene):
                 return None
             self._begun = None
             self._build_template(snapshot.scene, hands)
@@ -125,11 +128,8 @@ class MarkersEncoder:
             for key, (marker, last) in self._gone.items()
             if last > self._count and key not in shown
         }
-        gone |= {
-            key: (self._serialise(Symbol(key, action=Marker.DELETE)), until)
-            for key in self._shown
-            if key not in shown
-        }
+        gone |= {key: (self._deletion(key), until) for key in self._shown if key not in shown}
+        self._deletions.clear()
         markers += [(-1, marker) for marker, _ in gone.values()]
 
         writer = CdrWriter(START)
@@ -171,33 +171,53 @@ class MarkersEncoder:
         return markers
 
     @suspended_collection()
-    def _serialise_new(self, scene: Scene) -> bool:
-        """Serialise some markers of new bodies and joints; return whether none is left."""
-        left = MOST_NEW
+    def _serialise_some(self, scene: Scene) -> bool:
+        """Serialise some of what is new in a scene; return whether none is left."""
+        new = chain(
+            self._serialise_bodies(scene), self._serialise_joints(scene), self._delete(scene)
+        )
+        # One more than `MOST_NEW` is left, or none.
+        return not any(True for _ in islice(new, MOST_NEW, None))
+
+    def _serialise_bodies(self, scene: Scene) -> Iterator[None]:
+        """Serialise the markers of new bodies; yield after each."""
         for body in scene.bodies:
             known = self._bodies.get(body.name)
             if known is None or (known[0] is not body and known[0] != body):
-                if not left:
-                    return False
-                left -= 1
                 symbols = tuple(self._serialise(symbol) for symbol in body_symbols(body))
                 self._bodies[body.name] = body, symbols
+                yield
+
+    def _serialise_joints(self, scene: Scene) -> Iterator[None]:
+        """Serialise the markers of new joints, or of another look; yield after each."""
         if not scene.joints:
             self._glyphs = None
-            return True
+            return
         if self._glyphs is None or self._glyphs.scene is not scene:
             self._glyphs = JointGlyphs(scene)
         counts = self._glyphs.segment_ends.tolist()
         for joint, *look in zip(scene.joints, self._glyphs.sizes, counts, strict=True):
             drawn = self._joints.get(joint.name)
             if drawn is None or drawn[0] != (joint, *look):
-                if not left:
-                    return False
-                left -= 1
                 points, lines = joint_symbols(joint, *look)
                 pair = self._serialise(points), self._serialise(lines)
                 self._joints[joint.name] = (joint, *look), pair
-        return True
+                yield
+
+    def _delete(self, scene: Scene) -> Iterator[None]:
+        """Serialise deletions of markers that no body or joint has any more; yield after each."""
+        bodies = (marker for body in scene.bodies for marker in self._bodies[body.name][1])
+        joints = (marker for joint in scene.joints for marker in self._joints[joint.name][1])
+        kept = {marker.key for marker in chain(bodies, joints)}
+        for key in self._shown:
+            if key not in kept and key not in self._deletions:
+                self._deletions[key] = self._deletion(key)
+                yield
+
+    def _deletion(self, key: Key) -> _MarkerBytes:
+        """Return the serialised deletion of a marker."""
+        known = self._deletions.get(key)
+        return self._serialise(Symbol(key, action=Marker.DELETE)) if known is None else known
 
     def _serialise(self, symbol: Symbol) -> _MarkerBytes:
         head = CdrWriter()
