@@ -20,7 +20,6 @@ from physsim_ros.sketchpad.server import (
     guarded,
     open_pages,
     page_socket,
-    server,
     website,
     world_handlers,
 )
@@ -66,7 +65,7 @@ PROMISES = {
     'drawing.md': [('and {:,} strokes', resources.MOST_STROKES)],
     'security.md': [('at most {:,} printable characters', texts.LONGEST_WORD)],
     'page_protocol.md': [
-        ('an uploaded world; a picture | {:g} MiB;', server.MOST_BYTES / MIB),
+        ('an uploaded world; a picture | {:g} MiB;', world_handlers.MOST_UPLOADED / MIB),
         ('Up to {:g} MiB are read', guarded.MOST_READ / MIB),
         ('levels of a message | {:,} ', message.DEEPEST),
         ('pings too | {:g} a second,', guarded.RATE),

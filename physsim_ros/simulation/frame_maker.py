@@ -150,7 +150,7 @@ class FrameMaker:
 
     def _carry_out(self, slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
         """Carry out slices for which time waits, until time is up; return whether all are done."""
-        if _are_done(slices, is_overdue):
+        if _finished(slices, is_overdue):
             return True
         # Their time is not made up for.
         self.playback.clock.restart()
@@ -330,7 +330,7 @@ class FrameMaker:
         before = self.playback.step
         if not self._carry_out(self.playback.rewind(steps), is_overdue):
             return None
-        _are_done(self.playback.replay_ahead(steps), is_overdue)
+        _finished(self.playback.replay_ahead(steps), is_overdue)
         if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self.requests.report_oldest('; paused')
@@ -362,6 +362,6 @@ class FrameMaker:
         return frame
 
 
-def _are_done(slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+def _finished(slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
     """Carry out slices of work until time is up, and return whether all are done."""
     return not any(is_overdue() for _ in slices)

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What happens to many bodies in one step costs what their count says."""
+"""The cost of an event of many bodies in one step is proportional to their number."""
 
 from collections.abc import Callable
 import math

@@ -68,6 +68,20 @@ def objects_of(simulation: Simulation) -> list[weakref.ref[object]]:
     return [weakref.ref(each) for each in (*space.bodies, *space.shapes, *space.constraints)]
 
 
+def alive(objects: list[weakref.ref[object]]) -> int:
+    """Return how many objects are not freed."""
+    return sum(each() is not None for each in objects)
+
+
+def alive_by_frame(simulation: Simulation, objects: list[weakref.ref[object]]) -> list[int]:
+    """Return how many objects are not freed after each of the next frames."""
+    counts = []
+    for number in range(20):
+        simulation.advance(number * FRAME)
+        counts.append(alive(objects))
+    return counts
+
+
 REPLACE: dict[str, Callable[[Simulation], object]] = {
     'begin': lambda simulation: simulation.begin(simulation.save()),
     'reset': Simulation.reset,
@@ -85,7 +99,7 @@ def test_what_was_replaced_is_freed_without_the_collector(replace) -> None:
     replace(simulation)
     simulation.apply_requests()
     # Except the background, with its walls.
-    assert sum(each() is not None for each in objects) <= 1
+    assert alive(objects) <= 1
     assert gc.collect() <= 2 * FEW
 
 
@@ -95,14 +109,11 @@ def test_a_large_world_that_was_replaced_is_freed_in_slices(monkeypatch) -> None
     simulation = crowd()
     objects = objects_of(simulation)
     simulation.reset()
-    alive = []
-    for number in range(20):
-        simulation.advance(number * FRAME)
-        alive.append(sum(each() is not None for each in objects))
-    assert alive[0] > len(objects) / 2, alive
-    assert alive == sorted(alive, reverse=True)
-    assert max(before - after for before, after in pairwise(alive)) <= 40, alive
-    assert alive[-1] <= 1
+    counts = alive_by_frame(simulation, objects)
+    assert counts[0] > len(objects) / 2, counts
+    assert counts == sorted(counts, reverse=True)
+    assert max(before - after for before, after in pairwise(counts)) <= 40, counts
+    assert counts[-1] <= 1
 
 
 @pytest.mark.usefixtures('uncollected')
@@ -112,11 +123,9 @@ def test_a_large_world_is_freed_in_slices_though_another_one_is_replaced(monkeyp
     objects = objects_of(simulation)
     simulation.reset()
     simulation.undo()
-    simulation.advance(0)
-    assert sum(each() is not None for each in objects) > len(objects) / 2
-    for number in range(1, 40):
-        simulation.advance(number * FRAME)
-    assert sum(each() is not None for each in objects) <= 1
+    counts = alive_by_frame(simulation, objects)
+    assert counts[0] > len(objects) / 2, counts
+    assert counts[-1] <= 1
 
 
 @pytest.mark.usefixtures('uncollected')
@@ -129,13 +138,10 @@ def test_few_bodies_of_many_pieces_are_freed_in_slices(monkeypatch) -> None:
         simulation.perform(spawning(f'a/{number}', chain, (0.0, float(number), 0.0)))
     objects = objects_of(simulation)
     simulation.reset()
-    alive = []
-    for number in range(20):
-        simulation.advance(number * FRAME)
-        alive.append(sum(each() is not None for each in objects))
-    assert alive[0] > len(objects) / 2, alive
-    assert max(before - after for before, after in pairwise(alive)) <= 202, alive
-    assert alive[-1] <= 1
+    counts = alive_by_frame(simulation, objects)
+    assert counts[0] > len(objects) / 2, counts
+    assert max(before - after for before, after in pairwise(counts)) <= 202, counts
+    assert counts[-1] <= 1
 
 
 def test_bodies_in_slices_have_the_same_future(monkeypatch) -> None:

@@ -272,7 +272,7 @@ def test_a_pupil_has_no_request_for_a_locked_body_carried_out(
     _, boss = opened(browser, tmp_path)
     simulation, control = browser.physsim.node.simulation, browser.physsim.node.control
     simulation.perform(requests.Grab(hand='held', point=(4.0, 5.0)))
-    # What names a free body alone.
+    # A request that names a body that is not locked.
     check_locked(Role.DRAW, [requests.Spawn(name='b/1', shape=Disc(radius=1.0))], control)
     assert boss.ask('lock', names=['b/0'])['ok']
     for request in (*REQUESTS, Unheard()):

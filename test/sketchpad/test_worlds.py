@@ -177,7 +177,7 @@ def test_the_card_of_strokes_is_in_the_help_and_beside_an_empty_canvas(sheet: Sh
     sheet.press('Empty room')
     card.wait_for()
     assert card.get_by_role('listitem').count() == 14
-    # Whoever has drawn something knows how, though nothing moves yet.
+    # A person who has drawn something knows the strokes, though nothing moves yet.
     sheet.drag((-5.0, 2.0), (-1.0, 3.0))
     sheet.until(lambda: not card.is_visible(), 'no card beside what was drawn')
     sheet.press('Help')

@@ -135,7 +135,7 @@ def rods(number: int) -> Entries:
 
 
 def of_kind(kind: str, points: int, **more: Any) -> KindOfFile:
-    """Return what yields a disc with a joint of a kind to the one before."""
+    """Return a kind of file: each disc has a joint of a kind to the one before."""
 
     def entries(number: int) -> Entries:
         for which, entry in rods(number):

@@ -34,7 +34,8 @@ _FINELY = _FINER * (COUNT - 1) + 1
 # Strokes of so many samples, and fewer than half of `COUNT`, have more put between them, on arcs.
 # The greatest turn at a sample of an arc [rad]: a circle of eight has 0.79, a hexagon 1.05.
 _FEWEST, _GENTLE = 4, 0.9
-# The greatest length of a hook, in shares of the stroke's size, and its least turn [rad].
+# The greatest length of a hook, in shares of the stroke's size; the least turn at which the pen
+# turns back, as at a hook and at the tip of an arrow [rad].
 HOOK, SHARP = 0.1, 1.2
 # The least number of rounds of an outline that was drawn more than once, and the greatest mean
 # distance of the other rounds from one, in shares of the size: that of a five-pointed star is 0.1.

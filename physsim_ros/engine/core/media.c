@@ -52,7 +52,7 @@ Media media_of(World *world, double ahead) {
     }
     media.basins = TAKE(arena, Basin, count);
     media.currents = TAKE(arena, Twist, count);
-    media.around = TAKE(arena, int, count);
+    media.around = TAKE(arena, Reached, count);
     for (int number = 0; number < world->region_count; number++) {
         const Region *region = world->regions + number;
         Vec gust = gust_of(region, time);
@@ -235,8 +235,9 @@ static Twist twist_after(Pull pull, const Share *shares, int count, const Flight
 static int find_around(const Media *media, Vec center, double reach) {
     int count = 0;
     for (int number = 0; number < media->basin_count; number++) {
-        if (containment_of(media->basins + number, center, reach) != OUTSIDE) {
-            media->around[count++] = number;
+        Containment containment = containment_of(media->basins + number, center, reach);
+        if (containment != OUTSIDE) {
+            media->around[count++] = (Reached){number, containment};
         }
     }
     return count;
@@ -250,15 +251,13 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, cons
     Share *shares = TAKE(arena, Share, 2 * around_count + 1);
     body->scratch.afloat = false;
     body->scratch.stirred = air != NULL && air->gusty;
-    for (int place = 0; place < around_count; place++) {
-        int number = media->around[place];
-        const Basin *basin = media->basins + number;
-        Containment containment = containment_of(basin, pose.p, body->reach);
+    for (const Reached *each = media->around, *end = each + around_count; each < end; each++) {
+        const Basin *basin = media->basins + each->basin;
         bool outlined = resists(basin->region) || (air != NULL && resists(air));
-        Immersion wet = immersed(body, pose, containment == INSIDE ? NULL : basin, outlined, arena);
-        body->scratch.afloat = body->scratch.afloat || containment == CROSSING;
+        Immersion wet = immersed(body, pose, each->containment == INSIDE ? NULL : basin, outlined, arena);
+        body->scratch.afloat = body->scratch.afloat || each->containment == CROSSING;
         body->scratch.stirred = body->scratch.stirred || basin->region->gusty || basin->moves;
-        shares[count++] = (Share){wet, basin->region, media->currents[number], 1.0};
+        shares[count++] = (Share){wet, basin->region, media->currents[each->basin], 1.0};
         if (air != NULL) {
             shares[count++] = (Share){wet, air, media->wind, -1.0};
         }

@@ -8,12 +8,18 @@
 
 #include "immersion.h"
 
+// A basin that a disc around a body reaches.
+typedef struct Reached {
+    int basin;
+    Containment containment;
+} Reached;
+
 // The media of a world at a moment.
 typedef struct Media {
     Basin *basins;
     Twist *currents; // of the medium in each: flow and gusts, as the region moves
     int basin_count;
-    int *around;       // (basin_count): scratch, those around one body
+    Reached *around;   // (basin_count): scratch, those around one body
     const Region *air; // NULL is none
     Twist wind;
 } Media;

@@ -412,7 +412,7 @@ def test_shapes_meet_when_they_first_overlap_by_the_slop(call, seed, turns):
         assert np.interp(share, MOMENTS, gaps) <= (-0.9 * skin + 1e-6 if not turns else 0.0)
 
 
-# What of a body lies in a region
+# Parts of bodies in a region
 
 
 @pytest.mark.parametrize('seed', SEEDS)
