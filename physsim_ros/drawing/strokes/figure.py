@@ -25,6 +25,7 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.forms import sign_forms
 from physsim_ros.drawing.strokes.geometry import few_points, middle_half, size_of
 from physsim_ros.drawing.strokes.joining import (
+    are_sides,
     connected,
     joined_arrow,
     joined_strokes,
@@ -244,7 +245,8 @@ def _contexts_together(
         each.is_line or _is_side(last, each, settings) or (each.is_arrow and len(each.strokes) > 1)
         for each in before
     ):
-        yield in_scene(_joined(joined_strokes(strokes)), scene, settings), _JOINED
+        meanings = _JOINED if are_sides(strokes) else _JOINED - CLOSED
+        yield in_scene(_joined(joined_strokes(strokes)), scene, settings), meanings
 
 
 def crossing_in(
