@@ -88,6 +88,7 @@ class Sketchpad:
             self._autosave,
             results,
             self._server.list_worlds,
+            self._server.ask_to_leave,
         )
         # Whether an autosave waits for its turn among the requests, or is under way.
         self._is_saving = False
