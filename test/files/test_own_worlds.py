@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 import errno
+from functools import partial
 import itertools
 import os
 from pathlib import Path
@@ -128,14 +129,14 @@ def refusing(patches: pytest.MonkeyPatch, number: int) -> Iterator[int]:
     :return: the numbers of the next calls
     """
     numbers = itertools.count(1)
+
+    def call(real: Callable[..., Any], *words: Any, **options: Any) -> Any:
+        if next(numbers) == number:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return real(*words, **options)
+
     for name in ('open', 'mkdir', 'fchmod', 'fsync', 'link', 'rename', 'replace'):
-
-        def call(*words: Any, real: Any = getattr(os, name), **options: Any) -> Any:
-            if next(numbers) == number:
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-            return real(*words, **options)
-
-        patches.setattr(os, name, call)
+        patches.setattr(os, name, partial(call, getattr(os, name)))
     return numbers
 
 
