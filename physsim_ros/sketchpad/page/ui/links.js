@@ -13,7 +13,7 @@ import {LARGEST} from './files.js';
 
 /** @import {Parts} from '../types.js' */
 
-const WORLD = /^#world=(.+)/, LESSON = /[#?&]lesson=([^&]+)/, MOMENT = /[#?&]t=(\d+(?:\.\d+)?)/;
+const WORLD = /^#world=(.+)/;
 const LONGEST = 16000; // characters
 
 export class Links {
@@ -79,10 +79,10 @@ export class Links {
 
   /** Offer the lesson, and the moment, that the address names. */
   #offerPlace() {
-    const {lessons, dialog, notes, people: {viewOnly}, world} = this.parts, address = location.hash || location.search;
-    const name = decodeURIComponent(LESSON.exec(address)?.[1] ?? ''), moment = MOMENT.exec(address)?.[1];
+    const {lessons, dialog, notes, people: {viewOnly}, world} = this.parts, address = new URLSearchParams(location.hash.slice(1) || location.search);
+    const name = address.get('lesson') ?? '', moment = Number(address.get('t') || NaN), hasMoment = moment >= 0;
     const lesson = lessons.list.find((each) => each.name === name);
-    if (!name && !moment || viewOnly) return;
+    if (!name && !hasMoment || viewOnly) return;
     history.replaceState(null, '', location.pathname);
     if (name && !lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
     else if (lesson && lesson.title !== world.scene.lesson?.title) {
@@ -90,11 +90,11 @@ export class Links {
         inRow(textButton(t('Open the lesson'), async () => {
           await lessons.open(lesson);
           // Its timeline is to come.
-          if (moment) this.#playTo(Number(moment));
+          if (hasMoment) this.#playTo(moment);
         })));
-    } else if (moment) dialog.show(t('This link leads to a moment: {time} s', {time: Number(moment)}), inRow(textButton(t('Go there'), () => {
+    } else if (hasMoment) dialog.show(t('This link leads to a moment: {time} s', {time: moment}), inRow(textButton(t('Go there'), () => {
       dialog.close();
-      this.#goTo(Number(moment));
+      this.#goTo(moment);
     })));
   }
 
