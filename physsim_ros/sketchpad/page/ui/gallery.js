@@ -61,8 +61,10 @@ export class Gallery {
    * @param {string} to
    */
   async #rename(name, to) {
-    if (!(await this.parts.connection.ask('rename', {name, to})).ok) return;
-    this.parts.notes.offer(t('Renamed to {name}', {name: to}), t('Undo'), () => this.parts.connection.send('rename', {name: to, to: name}));
+    const {connection, files, notes} = this.parts;
+    if (!(await connection.ask('rename', {name, to})).ok) return;
+    if (files.name === name) files.name = to;
+    notes.offer(t('Renamed to {name}', {name: to}), t('Undo'), () => this.#rename(to, name));
   }
 
   /** @param {string} name */

@@ -42,7 +42,8 @@ export class SceneView {
     addEventListener('beforeprint', () => this.draw());
     this.#resize();
     const loop = () => {
-      if (this.dirty || this.drawn !== world.version) this.draw();
+      // A picture that is not shown has no width.
+      if (camera.width && (this.dirty || this.drawn !== world.version)) this.draw();
       requestAnimationFrame(loop);
     };
     requestAnimationFrame(loop);
