@@ -480,6 +480,7 @@ def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
     color = name.evaluate('each => getComputedStyle(each).color')
     assert min(int(each) for each in re.findall(r'\d+', color)) > 128, color
     boss.press('Close')
+    boss.page.emulate_media(color_scheme='light')
     boss.page.evaluate(COUNT_PICTURES)
     boss.page.locator('#seats li').first.get_by_role('button', name='More').click()
     boss.press('Show this run to all')
