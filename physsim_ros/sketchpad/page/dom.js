@@ -228,7 +228,7 @@ export function soon(show, pause) {
  * @param {Node[]} children
  */
 export function replaceContent(element, ...children) {
-  const controls = () => /** @type {HTMLElement[]} */ ([...element.querySelectorAll('a, button, input, select, summary, textarea')]);
+  const controls = () => /** @type {HTMLElement[]} */ ([...element.querySelectorAll('button, input, select, summary, textarea')]);
   const place = controls().findIndex((each) => each === document.activeElement);
   element.replaceChildren(...children);
   controls()[place]?.focus({preventScroll: true});

@@ -9,8 +9,8 @@ import {personWord} from '../people.js';
 /** @import {Answer, Parts, Point, SceneView} from '../types.js' */
 
 const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
-/** Answers that are not shown: the clock and the hand show the same. */
-export const SILENT = /^at [\d.]+ s$|^following |^grabbed |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
+/** Answers that are not shown: the clock, the hand and the tool show the same. */
+export const SILENT = /^at [\d.]+ s$|^(following|grabbed|dropped) |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
 const REST = /^and \d+ more answers$/; // of a frame, to a page that did not ask
 const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
 
