@@ -102,7 +102,7 @@ export class Classroom {
       return createElement('li', {}, dot(color), `${shown}${you}${teaches}`,
         ...raised ? [createElement('strong', {}, t('hand raised')),
           ...teacher ? [textButton(t('Lower the hand'), () => connection.send('lower_hand', {page}))] : []] : [],
-        ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
+        ...teacher && answered ? [createElement('span', {}, `${answered.answer} ${answered.right ? '✓' : '✗'}`)] : [],
         ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
     }));
     parts.dialog.show(TITLE, ...parts.people.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
