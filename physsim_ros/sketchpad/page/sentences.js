@@ -75,7 +75,6 @@ export const SENTENCES = [
   [/^on course \d+, at .*/, t('Back on the other course')],
   [/^course \d+ begins at .*/, t('A new course begins here')],
   [/^speed (.+)/, t('Speed $1×')],
-  [/^dropped what was unfinished$/, t('Begun anew')],
   [/(?<=; next: )a point on the rim$/, t('a point on the rim')],
   [/(?<=; next: )(its|the) other end$/, t('the other end')],
   [/(?<=; next: )its other end, beyond the bodies$/, t('the other end, beyond the bodies')],
