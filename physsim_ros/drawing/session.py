@@ -184,8 +184,6 @@ class DrawingSession:
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
         requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
         figure.requests = requests
-        if not figure.is_solid:
-            return replace(reading, requests=requests)
         earlier = [each for each in self._figures if each is not figure]
         message, also = reading.message, []
         for (stroke, *_), over in readings_over(figure, earlier, self.settings):

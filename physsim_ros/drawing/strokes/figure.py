@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, replace
 import itertools
+import math
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
@@ -333,13 +334,22 @@ def _groups(
 
 
 def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
-    return 0.0 < settings.regroup >= later.began - figure.ended
+    return 0.0 < settings.regroup >= pause_between(figure, later)
+
+
+def pause_between(figure: Figure, later: Figure) -> float:
+    """
+    Return the pause between two strokes, < 0 where they overlap [s].
+
+    It is infinite where the later one began earlier: the times are of two clocks.
+    """
+    return later.began - figure.ended if later.began >= figure.began else math.inf
 
 
 def _follows_slowly(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
     """Return whether two strokes, later than `regroup`, may still be a sign on a body."""
     part = figure.is_line and settings.regroup > 0.0
-    return part and later.began - figure.ended <= max(SLOWLY, settings.regroup)
+    return part and pause_between(figure, later) <= max(SLOWLY, settings.regroup)
 
 
 def _is_hatching(figures: Sequence[Figure]) -> bool:
