@@ -24,25 +24,14 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
-from physsim_ros.drawing.strokes.figure import (
-    arrow_in,
-    crossing_in,
-    Figure,
-    lies_within,
-    mark_reading,
-    pause_between,
-    SLOWLY,
-)
+from physsim_ros.drawing.strokes.choice import guesses_of, is_likely, reading_of
+from physsim_ros.drawing.strokes.figure import Figure
 from physsim_ros.drawing.strokes.geometry import few_points, middle_half, point_of
+from physsim_ros.drawing.strokes.grouping import arrow_in, crossing_in, pause_between, SLOWLY
 from physsim_ros.drawing.strokes.joining import joined_strokes
-from physsim_ros.drawing.strokes.meanings import Context, GRAVITY
-from physsim_ros.drawing.strokes.reading import (
-    guesses_of,
-    in_scene,
-    is_likely,
-    Reading,
-    reading_of,
-)
+from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
+from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.stages import Context, GRAVITY, Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
@@ -99,7 +88,7 @@ def _motor(
         if figure.meaning not in _BY_AXLE or figure.requests:
             continue
         stroke = resample_stroke(joined_strokes(figure.strokes))
-        reading = _likely_reading(in_scene(stroke, scene, settings), _BY_AXLE)
+        reading = _likely_reading(stroke_in_scene(stroke, scene, settings), _BY_AXLE)
         if reading is not None:
             yield (figure,), reading
             return
@@ -210,7 +199,7 @@ def _reading_over(
     path = joined_strokes(strokes)
     context = crossing_in(scene, strokes, settings) or arrow_in(scene, strokes, settings)
     if context is None and len(group) == 1:
-        context = in_scene(resample_stroke(path), scene, settings)
+        context = stroke_in_scene(resample_stroke(path), scene, settings)
     reading = None if context is None else _likely_reading(context, _BY_BODIES)
     if reading is None:
         return None
