@@ -7,7 +7,16 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated
 
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, VELOCITY, Whole, Within
+from physsim_ros.model.checks import (
+    HEAVIEST,
+    LIGHTEST,
+    Row,
+    shown,
+    Vector,
+    VELOCITY,
+    Whole,
+    Within,
+)
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.media import DRAG, FLUID_DENSITY, GUST_TIME, GUSTS, Medium, VISCOSITY
@@ -213,11 +222,11 @@ class WorldSettings(Checked):
         )
 
 
-def check_setting(name: str) -> None:
+def check_setting(name: object) -> None:
     """
     Refuse a name that is no setting.
 
     :raises BadProperty: it is not
     """
     if name not in WorldSettings.FIELDS:
-        raise BadProperty(f'the world has no setting {name!r}', field=name)
+        raise BadProperty(f'the world has no setting {shown(name)}', field=str(name))
