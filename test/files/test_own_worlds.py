@@ -78,3 +78,12 @@ def test_what_is_no_plain_name_is_refused(directory: Path, name: str) -> None:
             act(name)
     with pytest.raises(BadWorldFile):
         own.rename('mine', name)
+
+
+@pytest.mark.parametrize('name', ['\U0001f600' * 64, '\U0001f600' * 61])
+def test_a_name_that_no_file_can_have_is_refused(directory: Path, name: str) -> None:
+    own = OwnWorlds(directory)
+
+    for act in (own.check_free, own.delete, own.put_back, own.keep):
+        with pytest.raises(BadWorldFile):
+            act(name)
