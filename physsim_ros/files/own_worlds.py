@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from physsim_ros.files.regular_file import make_directory
+from physsim_ros.files.regular_file import make_directory, write_file
 from physsim_ros.files.resources import is_plain
 from physsim_ros.files.world_file import is_shipped, user_lessons
 from physsim_ros.model.errors import BadWorldFile, Exists
 
-# Length of a name [characters], and that of its file [bytes], which systems limit with its suffix.
+# Length of a name [characters], and in UTF-8 [bytes]: with its longest suffix here, 249 of the 255
+# that the name of a file may have.
 LONGEST_NAME, LONGEST_FILE = 64, 240
 # Directories below that of the worlds: files that were deleted or written over, and pictures.
 _KEPT, _PICTURES = '.kept', '.pictures'
@@ -73,9 +74,15 @@ class OwnWorlds:
         path = self._path(name)
         if path.is_file():
             kept = self._kept(name)
-            kept.unlink(missing_ok=True)
-            # Files are written anew and never changed, so that both names may share one.
-            kept.hardlink_to(path)
+            copy = kept.with_suffix('.copy')
+            copy.unlink(missing_ok=True)
+            try:
+                # Files are written anew and never changed, so that both names may share one.
+                copy.hardlink_to(path)
+            except OSError:
+                # Some file systems have one name for a file.
+                write_file(copy, path.read_bytes())
+            copy.replace(kept)
 
     def rename(self, name: str, to: str) -> str:
         """
@@ -86,9 +93,11 @@ class OwnWorlds:
         check_world_name(to)
         self.check_free(to)
         self._existing(name).rename(self._path(to))
-        picture = self.picture(name)
+        picture, new = self.picture(name), self.picture(to)
+        # That of a world which had the name before.
+        new.unlink(missing_ok=True)
         if picture.is_file():
-            picture.rename(self.picture(to))
+            picture.rename(new)
         return f'renamed {name} to {to}'
 
     def delete(self, name: str) -> str:
@@ -113,7 +122,11 @@ class OwnWorlds:
             raise BadWorldFile(f'nothing of {name} is kept', field='name')
         put_back = kept.with_suffix('.put_back')
         kept.replace(put_back)
-        self.keep(name)
+        try:
+            self.keep(name)
+        except OSError:
+            put_back.replace(kept)
+            raise
         put_back.replace(path)
         return f'put back the world {name}'
 

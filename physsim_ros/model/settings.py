@@ -34,7 +34,7 @@ STRONGEST = 1e4
 MOST_JOINTS_ON_BODY = 1000
 # Greatest number of hands that drag at once [1], each 12 µs a step: one for each page.
 MOST_HANDS = 64
-# Greatest number of topics of all robots [1]: those of 500 TurtleBots. Fast DDS takes a second to
+# Greatest number of topics of all robots [1]: those of 440 TurtleBots. Fast DDS takes a second to
 # make them, and 15 s for 2,000 TurtleBots.
 MOST_ROBOT_TOPICS = 4000
 # A note of a setting that protects the node, and that no world file changes.

@@ -83,6 +83,8 @@ class RobotPaths:
     def send(self, batch: FrameBatch, change: Change) -> None:
         """Send the paths of a batch."""
         count = len(batch.scene.robots)
+        if not count:
+            self._frames, self._places = {}, {}
         rows = [row for row, number in enumerate(batch.numbers) if number % PERIOD == 0]
         if not count or not rows:
             return

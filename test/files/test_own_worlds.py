@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from physsim_ros.files import check_world_name, OwnWorlds
+from physsim_ros.files import check_world_name, own_worlds, OwnWorlds
 from physsim_ros.model.errors import BadWorldFile, Exists
 import pytest
 
@@ -87,3 +87,50 @@ def test_a_name_that_no_file_can_have_is_refused(directory: Path, name: str) -> 
     for act in (own.check_free, own.delete, own.put_back, own.keep):
         with pytest.raises(BadWorldFile):
             act(name)
+
+
+def without_links(*_: object) -> None:
+    raise PermissionError('this file system has no hard links')
+
+
+def test_a_world_is_kept_where_a_file_has_one_name(
+    directory: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Path, 'hardlink_to', without_links)
+    own = OwnWorlds(directory)
+    own.keep('mine')
+    (directory / 'mine.yaml').write_text('second')
+    for text in ('first', 'second', 'first'):
+        own.put_back('mine')
+        assert (directory / 'mine.yaml').read_text() == text
+
+
+def test_a_kept_world_stays_where_another_cannot_be_kept(
+    directory: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = OwnWorlds(directory)
+    own.delete('mine')
+    (directory / 'mine.yaml').write_text('second')
+    monkeypatch.setattr(Path, 'hardlink_to', without_links)
+    monkeypatch.setattr(own_worlds, 'write_file', without_links)
+    for act in (own.keep, own.put_back):
+        with pytest.raises(OSError, match='hard links'):
+            act('mine')
+    monkeypatch.undo()
+
+    own.put_back('mine')
+
+    assert (directory / 'mine.yaml').read_text() == 'first'
+
+
+def test_a_renamed_world_has_its_own_picture_or_none(directory: Path) -> None:
+    own = OwnWorlds(directory)
+    own.picture('ours').parent.mkdir()
+    own.picture('ours').write_bytes(b'of a world that is gone')
+
+    own.rename('mine', 'ours')
+
+    assert not own.picture('ours').exists()
+    own.picture('ours').write_bytes(b'its own')
+    own.rename('ours', 'mine')
+    assert own.picture('mine').read_bytes() == b'its own'
