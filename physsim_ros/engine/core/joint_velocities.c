@@ -25,8 +25,8 @@
 // rope does, also gets the curvature term if that loads it more.
 // Cost: that of `joint_solver.c`.
 
-#include "impact_propagation.h"
 #include "joint_velocities.h"
+#include "impact_propagation.h"
 #include "mixed_lcp.h"
 #include "stages.h"
 #include <string.h>
