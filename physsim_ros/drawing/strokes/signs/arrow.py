@@ -11,7 +11,6 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import regularisation
-from physsim_ros.drawing.strokes.bodies_under import bodies_near
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import segment_distances
 from physsim_ros.drawing.strokes.geometry import point_of
@@ -124,7 +123,8 @@ def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a velocity where the tail is at a body that can move, else a turn of gravity."""
     points, scene = form.points, context.scene
     tail = point_of(points[0])
-    near = bodies_near(tail, scene, context.settings.snap)
+    under = scene.bodies_at(tail)
+    near = under or scene.bodies_at(tail, context.settings.snap)
     moving = next((name for name in near if not scene.body(name).anchored), None)
     if moving is not None:
         yield Meaning(
@@ -133,7 +133,7 @@ def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
             build=partial(_set_velocity, moving, points, context),
         )
         return
-    free = not scene.bodies_at(tail)
+    free = not under
     yield Meaning(
         name=GRAVITY,
         weight=form.weight * (1.0 if free else MISPLACED),
