@@ -40,6 +40,8 @@ export const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, t('Saved as $1$2')],
   [/^loaded 0 bodies$/, t('An empty world')],
   [/^discarded the unsaved world$/, t('Unsaved world discarded')],
+  [/^what was drawn is not autosaved: .*/, t('The unsaved world cannot be kept: save it')],
+  [/^what was drawn is autosaved again$/, t('The unsaved world is kept again')],
   [/^deleted the world (.+)/, t('World $1 deleted')],
   [/^put back the world (.+)/, t('World $1 is back')],
   [/^renamed .* to (.+)/, t('Renamed to $1')],
