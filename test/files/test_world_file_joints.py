@@ -238,3 +238,14 @@ def test_what_does_not_move_a_body_leaves_its_joints_where_they_were(
 def test_a_joint_that_is_none_is_refused_by_name(folder: Path, joint: str, field: str) -> None:
     text = f'format: 1\nbodies: [{{name: b/0, circle: {{radius: 1}}}}]\njoints: [{joint}]\n'
     assert refusal_of(text, folder).field == field
+
+
+@pytest.mark.parametrize('over', [None, ()])
+def test_a_rope_that_passes_nothing_is_saved_as_it_was_asked_for(over: Any, tmp_path: Path):
+    world = World()
+    spawn(world, 'a/0', DISC)
+    properties = JointProperties(over=over)
+    points = ((0.0, 0.0), (0.0, 3.0))
+    world.apply(Join(name='r/0', kind=JointKind.ROPE, points=points, properties=properties))
+
+    assert_round_trip(world, tmp_path)
