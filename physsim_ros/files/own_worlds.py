@@ -9,17 +9,19 @@ Law: the last world of each name that was deleted or written over is kept, and c
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
-from physsim_ros.files.regular_file import make_directory
+from physsim_ros.files.regular_file import make_directory, move_and_keep
 from physsim_ros.files.resources import is_plain
-from physsim_ros.files.world_file import is_shipped, user_lessons
+from physsim_ros.files.world_file import is_shipped, kept_path, user_lessons
 from physsim_ros.model.errors import BadWorldFile, Exists
 
-# Length of a name [characters].
-LONGEST_NAME = 64
-# Directories below that of the worlds: files that were deleted or written over, and pictures.
-_KEPT, _PICTURES = '.kept', '.pictures'
+# Length of a name [characters], and in UTF-8 [bytes]: below the 255 of the name of a file, which has
+# a suffix.
+LONGEST_NAME, LONGEST_FILE = 64, 240
+# Directory of pictures, below that of the worlds.
+_PICTURES = '.pictures'
 
 
 def check_world_name(name: str) -> str:
@@ -34,6 +36,8 @@ def check_world_name(name: str) -> str:
         raise BadWorldFile(f'a name has at most {LONGEST_NAME} characters', field='name')
     if not is_plain(name) or '.' in name or '\\' in name or not name.isprintable():
         raise BadWorldFile(f'{name!r} cannot be a name: it has no "/" and no "."', field='name')
+    if len(name.encode()) > LONGEST_FILE:
+        raise BadWorldFile(f'a name has at most {LONGEST_FILE} bytes in UTF-8', field='name')
     return name
 
 
@@ -57,21 +61,14 @@ class OwnWorlds:
         Refuse a name that is taken.
 
         :param replace: whether an own world may have it
+        :raises BadWorldFile: it cannot be one
         :raises Exists: an own world has it, or a shipped one
         """
+        path = self._path(name)
         if is_shipped(name):
             raise Exists(f'{name} is the name of a world that ships with physsim', field='name')
-        if not replace and self._path(name).exists():
+        if not replace and path.exists():
             raise Exists(f'there is a world {name} already', field='name')
-
-    def keep(self, name: str) -> None:
-        """Keep a copy of a world that is to be written over."""
-        path = self._path(name)
-        if path.is_file():
-            kept = self._kept(name)
-            kept.unlink(missing_ok=True)
-            # Files are written anew and never changed, so that both names may share one.
-            kept.hardlink_to(path)
 
     def rename(self, name: str, to: str) -> str:
         """
@@ -82,9 +79,11 @@ class OwnWorlds:
         check_world_name(to)
         self.check_free(to)
         self._existing(name).rename(self._path(to))
-        picture = self.picture(name)
-        if picture.is_file():
-            picture.rename(self.picture(to))
+        # One that stays behind is drawn anew.
+        with suppress(OSError):
+            # That of a world which had the name before.
+            self.picture(to).unlink(missing_ok=True)
+            self.picture(name).rename(self.picture(to))
         return f'renamed {name} to {to}'
 
     def delete(self, name: str) -> str:
@@ -93,7 +92,9 @@ class OwnWorlds:
 
         :raises BadWorldFile: there is no such world
         """
-        self._existing(name).replace(self._kept(name))
+        path, kept = self._existing(name), self._kept(name)
+        make_directory(kept.parent)
+        path.replace(kept)
         return f'deleted the world {name}'
 
     def put_back(self, name: str) -> str:
@@ -104,13 +105,10 @@ class OwnWorlds:
 
         :raises BadWorldFile: none is kept
         """
-        kept, path = self._kept(name), self._path(name)
+        kept = self._kept(name)
         if not kept.is_file():
             raise BadWorldFile(f'nothing of {name} is kept', field='name')
-        put_back = kept.with_suffix('.put_back')
-        kept.replace(put_back)
-        self.keep(name)
-        put_back.replace(path)
+        move_and_keep(kept, self._path(name), kept)
         return f'put back the world {name}'
 
     def picture(self, name: str) -> Path:
@@ -127,6 +125,4 @@ class OwnWorlds:
         return self.directory / f'{check_world_name(name)}.yaml'
 
     def _kept(self, name: str) -> Path:
-        directory = self.directory / _KEPT
-        make_directory(directory)
-        return directory / self._path(name).name
+        return kept_path(self._path(name))

@@ -7,8 +7,8 @@ Autosave: the world that pages draw in is written to a file, which the next star
 A world with a lesson is kept as soon as a page opens it.
 
 Law: it takes at most a hundredth of the world's time and one file; a world that is too large, or a
-full disk, stops nothing. What the disk did not take is tried again. The file begins with a comment
-that names the people who drew in it.
+full disk, stops nothing, and people are told. What the disk did not take is tried again. The file
+begins with a comment that names the people who drew in it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from physsim_ros.files import make_directory, on_thread, read_bytes, write_file
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.snapshot import Answer, Frame
 
 # Least time from one autosave to the next while bodies move and while nothing does [s], and its
 # least ratio to the time of an autosave.
@@ -38,6 +38,8 @@ _BY, MOST_NAMES, _MOST_BY = '# drawn by: ', 12, 2**12
 # Topics of requests after which the world is as it was loaded.
 _FROM_FILE = frozenset({'~/load_world', '~/reset'})
 _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
+# Of its events.
+_TOPIC = 'autosave'
 
 
 class Autosave:
@@ -48,6 +50,8 @@ class Autosave:
     :param text: returns a function that, on any thread, returns the world of now as text, or
         raises WorldFull beyond a length [characters]
     :param people: returns the names that people who draw have chosen
+
+    :ivar failure: event that what was drawn could not be saved; None where it is saved
     """
 
     def __init__(
@@ -58,6 +62,7 @@ class Autosave:
     ) -> None:
         self._file, self._unsaved = directory / _NOW, directory / _BEFORE
         self._text, self._people = text, people
+        self.failure: Answer | None = None
         self._scene: Scene | None = None
         self._changed = False
         self._due = self._due_still = 0.0
@@ -113,13 +118,13 @@ class Autosave:
         self._still = not frame.speed or np.array_equal(poses, self._poses)
         if any(answer.topic in _FROM_FILE and not answer.code for answer in frame.answers):
             # Nobody has drawn yet in what is a file already; a lesson is resumed as it was.
-            self._changed = drawn and scene.lesson is not None
+            self._changed, self.failure = drawn and scene.lesson is not None, None
         else:
             self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
 
     def note_saved(self) -> None:
         """Note that somebody has saved the world."""
-        self._changed = False
+        self._changed, self.failure = False, None
         with suppress(OSError):
             self._file.unlink(missing_ok=True)
 
@@ -131,33 +136,45 @@ class Autosave:
         """
         return self._changed and now >= (self._due_still if self._still else self._due)
 
-    async def save(self) -> None:
-        """Save the world, on a thread."""
+    async def save(self) -> tuple[Answer, ...]:
+        """Save the world, on a thread; return an event if that fails, or does so no longer."""
         self._changed = False
         write = partial(self._write, self._text(), self._people()[:MOST_NAMES])
-        is_written, took = await on_thread(write, finishes=True)
-        self._changed |= not is_written
+        error, took = await on_thread(write, finishes=True)
+        # A world that is too large stays so until it changes.
+        self._changed |= isinstance(error, OSError)
         now = time.monotonic()
         self._due = now + max(PERIOD, SHARE * took)
         self._due_still = now + max(STILL_PERIOD, SHARE * took)
+        before, self.failure = self.failure, None if error is None else _failure(error)
+        if self.failure == before:
+            return ()
+        return (self.failure or Answer(topic=_TOPIC, message='what was drawn is autosaved again'),)
 
-    def _write(self, text: Callable[[int], str], names: Sequence[str]) -> tuple[bool, float]:
+    def _write(
+        self, text: Callable[[int], str], names: Sequence[str]
+    ) -> tuple[OSError | WorldFull | None, float]:
         """
         Write a world and the names of people.
 
-        :return: whether the file system took it, and the time that it took [s]
+        :return: why that failed, None where it did not, and the time that it took [s]
         """
         began = time.thread_time()
-        is_written = True
+        failed: OSError | WorldFull | None = None
         try:
             content = text(LONGEST)
             if names:
                 content = f'{_BY}{json.dumps(names)}\n{content}'
             make_directory(self._file.parent)
             write_file(self._file, content.encode())
-        except WorldFull:
-            # It stays too large until it changes.
-            pass
-        except OSError:
-            is_written = False
-        return is_written, time.thread_time() - began
+        except (OSError, WorldFull) as error:
+            failed = error
+        return failed, time.thread_time() - began
+
+
+def _failure(error: OSError | WorldFull) -> Answer:
+    """Return the event of a failure."""
+    # The path is nobody's business on a page.
+    reason = error.strerror if isinstance(error, OSError) else error
+    message = f'what was drawn is not autosaved: {reason}'
+    return Answer(topic=_TOPIC, message=message, code='autosave_failed')
