@@ -21,13 +21,13 @@ from physsim_ros.drawing import (
     SceneQuery,
     submit_reading,
 )
-from physsim_ros.drawing.strokes.evidence import group_confidence
+from physsim_ros.drawing.strokes.choice import group_confidence
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.geometry import path_length, unit_vector
 from physsim_ros.drawing.strokes.joining import joined_arrow
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
 from physsim_ros.drawing.strokes.signs.swings import SCRIBBLE
-from physsim_ros.drawing.strokes.signs.x import CROSS
+from physsim_ros.drawing.strokes.signs.x import CROSS, of_lines
 from physsim_ros.drawing.strokes.stages import Sign
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
@@ -36,7 +36,6 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Delete, Join, Spawn
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
-from physsim_ros.model.transform import norms
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -443,7 +442,7 @@ LIMITS: dict[
         'round_arrow._STRIDE round_arrow._TURN', TURNING, one_barb, (1.103, 1.119), ('', 'wall'),
     ),
     'length of a zigzag of five lines': (
-        'plain_forms._SWINGING evidence._UNEXPLAINED', [], partial(loose, count=5),
+        'plain_forms._SWINGING choice._UNEXPLAINED', [], partial(loose, count=5),
         (0.706, 0.7165), ('', 'wall'),
     ),
     'angle of a rhomb': (
@@ -491,7 +490,7 @@ LIMITS: dict[
         partial(loose, count=9), (2.376, 2.395), ('', 'hatching'),
     ),
     'length of a scribble over nothing': (
-        'stages.MISPLACED evidence._GROUP_SLOPE', [], partial(loose, count=9), (2.267, 2.286),
+        'stages.MISPLACED choice._GROUP_SLOPE', [], partial(loose, count=9), (2.267, 2.286),
         ('', 'wall'),
     ),
     'shift of a square that is drawn twice': (
@@ -605,12 +604,6 @@ FIGURES: dict[
         lambda it: ([[(-1.5, 0), (it, 0)], [(0, 1.0), (0, -1.0)]], 0.4), (0.2748, 0.282),
         ('hatching', 'anchor'),
     ),
-    'angle of the lines of an x': (
-        'geometry.LEAST_SINE', [spawning('a/0', Box(width=6.0, height=4.0))],
-        lambda it: ([[(-1, 0), (1, 0)], [(-math.cos(it), -math.sin(it)),
-                                         (math.cos(it), math.sin(it))]], 0.4), (0.2985, 0.304),
-        ('hatching', 'anchor'),
-    ),
     'gap between a shaft and its head': (
         'joining._BEYOND', [], lambda it: ([arrow(shaft=3.0 - it)[0], arrow()[1]], 0.4),
         (0.692, 0.7023), ('gravity', 'wall'),
@@ -626,13 +619,6 @@ def hooked(angle: float) -> float:
     """Return the length that is read of a line of 2 m with a hook of 0.15 m at its start [m]."""
     hook = (-0.15 * math.cos(angle), 0.15 * math.sin(angle))
     return round(resample_stroke(sampled([hook, (0.0, 0.0), (2.0, 0.0)])).length, 1)
-
-
-def arc_of(count: float) -> bool:
-    """Return whether a stroke of a number of samples on a quarter of a circle is round."""
-    turn = np.linspace(0.0, math.pi / 2, int(count))
-    arc = resample_stroke(np.column_stack((np.cos(turn), np.sin(turn))))
-    return bool(np.ptp(norms(arc.points)) < 0.05)
 
 
 def rounds_of_square(rounds: float) -> float:
@@ -674,6 +660,13 @@ def far_head(gap: float) -> bool:
     """Return whether a shaft of 1 m and a head before it, after a gap [m], are an arrow."""
     x = 1.0 + gap
     return is_arrow([[(0, 0), (1, 0)], [(x - 0.5, 0.4), (x, 0), (x - 0.5, -0.4)]])
+
+
+def are_x(angle: float) -> bool:
+    """Return whether two lines with an angle between them are an x."""
+    x, y = math.cos(angle), math.sin(angle)
+    lines = [(-1, 0), (1, 0)], [(-x, -y), (x, y)]
+    return of_lines([resample_stroke(sampled(each)).points for each in lines]) is not None
 
 
 def uneven_head(share: float) -> bool:
@@ -741,7 +734,6 @@ STAGES: dict[
     'angle of a hook that is no part of a line': (
         'stroke.SHARP', hooked, (1.1, 1.3), (2.1, 2.0),
     ),
-    'samples of an arc': ('stroke._FEWEST', arc_of, (3, 4), (False, True)),
     'rounds of a square': ('stroke.ROUNDS', rounds_of_square, (0.95, 1.5), (8.0, 8.0)),
     'distance of the last barb of an arrow from its tail': (
         'arrow._LEAST_CHORD', returning, (0.15, 0.16), (0, 2),
@@ -764,7 +756,7 @@ STAGES: dict[
         'evidence.LEAST', guesses, (0.265, 0.2692), ('axle', 'axle disc'),
     ),
     'weight of a group that is read': (
-        'evidence._GROUP_BIAS evidence._DOUBT',
+        'choice._GROUP_BIAS choice._DOUBT',
         lambda it: group_confidence(it, 1.0) >= 0.6, (0.614, 0.619), (False, True),
     ),
     'slope of a rod, instead of which a wall is offered': (
@@ -772,6 +764,9 @@ STAGES: dict[
     ),
     'length of the lines of an x beyond its crossing': (
         'x._BEYOND', bends_beyond, (0.08, 0.09), (True, False),
+    ),
+    'angle of the lines of an x': (
+        'geometry.LEAST_SINE', are_x, (0.295, 0.31), (False, True),
     ),
     'lines of hatching': ('open_lines._HEAVIER', heavier, (1, 2), (1.25, 1.5625)),
     'height of one tooth above the others': (
@@ -782,7 +777,7 @@ STAGES: dict[
 
 # Numbers of points between which readings do not differ, and what words and work are limited to.
 RESOLUTION = {
-    'fitting._ROUNDS', 'arrow._ALONG',
+    'stroke._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG',
     'geometry.COUNT', 'geometry.ARM', 'geometry._FEW', 'geometry._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',
