@@ -30,6 +30,23 @@ def test_many_that_land_at_once_cost_what_their_count_says():
     assert growth(landing, 1500) < MOST
 
 
+def struck(count: int) -> Callable[[], object]:
+    """Return the step in which elastic boxes hit a plate, each faster than the one before."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0), elasticity=1.0))
+    for number in range(count):
+        pose, speed = (0.2 * number, 0.0505, 0.0), 1.0 + number / count
+        spawn(world, f'box/{number}', Box(width=0.1, height=0.1), pose, velocity=(0.0, -speed))
+    plate = Box(width=0.2 * count + 1.0, height=1.0)
+    spawn(world, 'plate/0', plate, (0.1 * count, -0.5, 0.0), mass=1e6)
+    # Makes the table.
+    world.snapshot()
+    return lambda: world.step(1)
+
+
+def test_elastic_impacts_on_one_body_cost_what_their_count_says():
+    assert growth(struck, 700) < MOST
+
+
 def cornered(count: int) -> Callable[[], object]:
     """Return the step in which discs meet the corners of boxes at once."""
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
