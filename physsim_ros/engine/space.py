@@ -55,6 +55,8 @@ class Space:
     :ivar grips: of hands on them
     :ivar broken: joints that have broken, with the force at which each did [N]; its reader empties
         it
+    :ivar joined: bodies whose joints were added, replaced or removed, by name; its reader empties
+        it
     """
 
     def __init__(
@@ -76,6 +78,7 @@ class Space:
         self.joints = JointSet(self.pm_space, self.bodies.by_name, self._core, dt)
         self.commands = Commands(self.bodies, self.joints, dt)
         self.broken: list[tuple[str, float]] = []
+        self.joined: set[str] = set()
         self._changes = self._age = 0
         self._table: BodyTable | None = None
         # Row of the background in the last table; -1 if there was none.
@@ -332,6 +335,9 @@ class Space:
         """Add a joint; it replaces one of that name in its place."""
         self._drop_table()
         self._changes += 1
+        if (old := self.joints.by_name.get(joint.name)) is not None:
+            self.joined.update(old.joint.bodies)
+        self.joined.update(joint.bodies)
         self.joints.add(joint)
         self.joints.check([joint.name])
 
@@ -340,6 +346,7 @@ class Space:
         self._drop_table()
         self._changes += 1
         joint, bodies = self.joints.by_name[name].joint, self.bodies.by_name
+        self.joined.update(joint.bodies)
         self.joints.remove(name)
         self._release(bodies[end] for end in joint.bodies if end in bodies)
 
