@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 import math
+from typing import Any
 
 from physsim_ros.model.requests import Delete
 from physsim_ros.model.settings import WorldSettings
@@ -12,7 +13,7 @@ from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 
 from .costs import growth, MOST
-from ..building import spawn
+from ..building import command, spawn
 
 
 def landing(count: int) -> Callable[[], object]:
@@ -69,3 +70,64 @@ def under_way(count: int) -> Callable[[], object]:
 
 def test_actors_under_way_do_not_look_at_their_gates():
     assert growth(under_way, 300) < MOST
+
+
+def around_hub(count: int, **more: Any) -> World:
+    """Return a world of boxes that touch a large disc all around, at rest and without gravity."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    side, reach = 0.05, 0.02 * count
+    spawn(world, 'hub/0', Disc(radius=reach), (0.0, 0.0, 0.0), **more)
+    # So little overlap is not pushed out.
+    distance = reach + side / 2 - 1e-4
+    for number in range(count):
+        angle = math.tau * number / count
+        pose = distance * math.cos(angle), distance * math.sin(angle), angle
+        spawn(world, f'box/{number}', Box(width=side, height=side), pose, **more)
+    return world
+
+
+def struck(count: int) -> Callable[[], object]:
+    """Return the step in which a large elastic disc strikes those around it, at any angle."""
+    world = around_hub(count, elasticity=1.0)
+    world.step(1)
+    command(world, 'hub/0', twist=(1.0, 0.0, 0.0))
+    # Makes the table.
+    world.snapshot()
+    return lambda: world.step(1)
+
+
+def test_elastic_impacts_beside_an_impact_cost_what_their_count_says():
+    assert growth(struck, 1000) < MOST
+
+
+def released(count: int) -> Callable[[], object]:
+    """Return the look at a large disc from which what it touched was removed."""
+    world = around_hub(count)
+    rest = Box(width=1.0, height=1.0)
+    spawn(world, 'rest/0', rest, (0.0, 0.0, 0.0), anchored=True)
+    world.step(1)
+    world.apply(Delete(name='rest/0'))
+    # Makes the table.
+    _ = world.scene
+    return world.snapshot
+
+
+def test_the_contacts_of_a_released_body_cost_what_their_count_says():
+    assert growth(released, 1000) < MOST
+
+
+def afloat(count: int) -> Callable[[], object]:
+    """Return a step of bodies each in a medium of its own."""
+    world = World(settings=WorldSettings(gravity=(0.0, -9.81)))
+    medium = {'anchored': True, 'sensor': True, 'medium': {'density': 2.0}}
+    for number in range(count):
+        pose = *(float(each) for each in divmod(number, 100)), 0.0
+        spawn(world, f'pool/{number}', Disc(radius=0.2), pose, **medium)
+        spawn(world, f'disc/{number}', Disc(radius=0.1), pose)
+    # Makes the table.
+    world.snapshot()
+    return lambda: world.step(1)
+
+
+def test_media_cost_what_their_count_says():
+    assert growth(afloat, 1000) < MOST

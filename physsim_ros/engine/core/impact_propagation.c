@@ -22,6 +22,7 @@
 #include "impact_propagation.h"
 #include "joint_rows.h"
 #include "stages.h"
+#include <stdlib.h>
 
 // Restitution from which an impact is passed on, rather than taken together: below it, more than 7 / 16 of the energy
 // of an impact is lost anyway.
@@ -36,9 +37,8 @@ static const double load_share = 0.05;
 
 // Two bodies whose contacts are next to a faster impact.
 typedef struct Weaker {
-    const cpBody *one, *other; // the first is dynamic
-    int a, b;                  // their places, the lesser first
-    double impact;             // approach velocity of the impact [m/s]
+    int a, b;      // their places, the lesser first
+    double impact; // approach velocity of the impact [m/s]
 } Weaker;
 
 static double depth_of(const cpArbiter *arbiter) {
@@ -116,12 +116,15 @@ static void defer(cpArbiter *arbiter, double impact) {
     }
 }
 
-static int by_pair_and_impact(const void *one, const void *other) {
+static int by_pair(const void *one, const void *other) {
     const Weaker *x = one, *y = other;
-    if (x->a != y->a || x->b != y->b) {
-        return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->b > y->b) - (x->b < y->b);
-    }
-    return (x->impact > y->impact) - (x->impact < y->impact);
+    return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->b > y->b) - (x->b < y->b);
+}
+
+// The bodies of a contact, with the fastest impact in which one of them is.
+static Weaker weaker_of(const World *world, const cpArbiter *arbiter, const double *impacts) {
+    int a = place_of(world, arbiter->body_a), b = place_of(world, arbiter->body_b);
+    return (Weaker){a < b ? a : b, a < b ? b : a, greatest(impacts[a], impacts[b])};
 }
 
 static int find_weaker(World *world, const double *impacts, Weaker *found) {
@@ -131,15 +134,11 @@ static int find_weaker(World *world, const double *impacts, Weaker *found) {
         if (!is_elastic(each)) {
             continue;
         }
-        int a = place_of(world, each->body_a), b = place_of(world, each->body_b);
-        double approach = approach_of(each);
-        double impact = greatest(impacts[a], impacts[b]);
+        Weaker pair = weaker_of(world, each, impacts);
         // One that is deeper than two steps of the impact take it is solved with the others.
-        double deepest = slop_of(each) + 2.0 * impact * world->dt;
-        if (approach < alike * impact && depth_of(each) < deepest) {
-            bool first = each->body_a->m_inv > 0.0;
-            found[count++] = (Weaker){first ? each->body_a : each->body_b, first ? each->body_b : each->body_a,
-                                      a < b ? a : b, a < b ? b : a, impact};
+        double deepest = slop_of(each) + 2.0 * pair.impact * world->dt;
+        if (approach_of(each) < alike * pair.impact && depth_of(each) < deepest) {
+            found[count++] = pair;
         }
     }
     return count;
@@ -149,19 +148,16 @@ void defer_contacts(World *world) {
     if (!has_stage(world, STAGE_PROPAGATION)) {
         return;
     }
+    const double *impacts = fastest_impacts(world);
     Weaker *found = TAKE(&world->own->arena, Weaker, arbiter_count(world));
-    int count = find_weaker(world, fastest_impacts(world), found);
-    // Two bodies may touch in several contacts: the least impact counts for all of them.
-    sort(found, count, sizeof(Weaker), by_pair_and_impact);
-    for (int number = 0; number < count; number++) {
-        const Weaker *pair = found + number;
-        if (number > 0 && pair->a == pair[-1].a && pair->b == pair[-1].b) {
-            continue;
-        }
-        for (cpArbiter *each = pair->one->arbiterList; each != NULL; each = next_of(each, pair->one)) {
-            if (each->body_a == pair->other || each->body_b == pair->other) {
-                defer(each, pair->impact);
-            }
+    int count = find_weaker(world, impacts, found);
+    // Two bodies may touch in several contacts: where one is weaker than the impact, so are the others, or equally fast.
+    sort(found, count, sizeof(Weaker), by_pair);
+    for (int number = 0; number < arbiter_count(world) && count > 0; number++) {
+        cpArbiter *each = arbiter_at(world, number);
+        Weaker pair = weaker_of(world, each, impacts);
+        if (bsearch(&pair, found, (size_t)count, sizeof(Weaker), by_pair) != NULL) {
+            defer(each, pair.impact);
         }
     }
 }
