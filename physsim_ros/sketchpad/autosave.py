@@ -6,14 +6,15 @@ Autosave: the world that pages draw in is written to a file, which the next star
 
 A world with a lesson is kept as soon as a page opens it.
 
-Law: it takes at most a hundredth of the world's time and one file; a world that is too large, or a
-full disk, stops nothing. What the disk did not take is tried again. The file begins with a comment
-that names the people who drew in it.
+Law: it takes at most a hundredth of the world's time and one file, and no request waits for it; a
+world that is too large, or a full disk, stops nothing. What the disk did not take is tried again.
+The file begins with a comment that names the people who drew in it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Future
 from contextlib import suppress
 from functools import partial
 import json
@@ -21,7 +22,7 @@ from pathlib import Path
 import time
 
 import numpy as np
-from physsim_ros.files import make_directory, on_thread, read_bytes, write_file
+from physsim_ros.files import begin_on_thread, make_directory, read_bytes, write_file
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
@@ -64,6 +65,10 @@ class Autosave:
         self._poses: Floats = np.empty((0, 3))
         # Whether nothing moves.
         self._still = False
+        # The save under way, which ends with whether the file system took it and its duration [s].
+        self._writing: Future[tuple[bool, float]] | None = None
+        # Count of saves by people: what was under way meanwhile is not kept.
+        self._saves = 0
         with suppress(OSError):
             self._file.replace(self._unsaved)
 
@@ -120,31 +125,48 @@ class Autosave:
     def note_saved(self) -> None:
         """Note that somebody has saved the world."""
         self._changed = False
+        self._saves += 1
+        self._forget()
+
+    def _forget(self) -> None:
+        """Delete the file."""
         with suppress(OSError):
             self._file.unlink(missing_ok=True)
 
     def is_due(self, now: float) -> bool:
         """
-        Return whether the world is to be saved.
+        Return whether the world is to be saved, and no save is under way.
 
         :param now: steady time [s]
         """
-        return self._changed and now >= (self._due_still if self._still else self._due)
+        if self._writing is not None and self._writing.done():
+            self._note_written(self._writing)
+        due = self._due_still if self._still else self._due
+        return self._changed and self._writing is None and now >= due
 
-    async def save(self) -> None:
-        """Save the world, on a thread."""
+    def save(self) -> Future[tuple[bool, float]]:
+        """Begin to save the world of now on a thread, for whose end nothing waits."""
         self._changed = False
-        write = partial(self._write, self._text(), self._people()[:MOST_NAMES])
-        is_written, took = await on_thread(write, finishes=True)
+        write = partial(self._write, self._text(), self._people()[:MOST_NAMES], self._saves)
+        self._writing = begin_on_thread(write, finishes=True)
+        return self._writing
+
+    def _note_written(self, writing: Future[tuple[bool, float]]) -> None:
+        """Note how a save has ended."""
+        self._writing = None
+        is_written, took = writing.result()
         self._changed |= not is_written
         now = time.monotonic()
         self._due = now + max(PERIOD, SHARE * took)
         self._due_still = now + max(STILL_PERIOD, SHARE * took)
 
-    def _write(self, text: Callable[[int], str], names: Sequence[str]) -> tuple[bool, float]:
+    def _write(
+        self, text: Callable[[int], str], names: Sequence[str], saves: int
+    ) -> tuple[bool, float]:
         """
-        Write a world and the names of people.
+        Write a world and the names of people, unless somebody saves it meanwhile.
 
+        :param saves: count of saves by people before it
         :return: whether the file system took it, and the time that it took [s]
         """
         began = time.thread_time()
@@ -155,6 +177,8 @@ class Autosave:
                 content = f'{_BY}{json.dumps(names)}\n{content}'
             make_directory(self._file.parent)
             write_file(self._file, content.encode())
+            if self._saves != saves:
+                self._forget()
         except WorldFull:
             # It stays too large until it changes.
             pass
