@@ -228,17 +228,19 @@ class Space:
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
 
-    def remove(self, name: str) -> None:
-        """Remove a body and its joints for good."""
-        rigid = self.bodies.by_name[name]
-        touching = self.bodies.touching(rigid.pm_body)
-        for joint in self.joints.names_on(name):
-            self.unjoin(joint)
-        self._take_out(rigid)
-        self.grips.remove_from(name)
-        self.commands.coming.put(name, ())
-        del self.bodies.by_name[name]
-        self._release(touching)
+    def remove(self, names: Iterable[str]) -> None:
+        """Remove bodies and their joints for good."""
+        rigids = [self.bodies.by_name[name] for name in names]
+        for rigid in rigids:
+            for joint in self.joints.names_on(rigid.body.name):
+                self.unjoin(joint)
+        self._core.remove_shapes([rigid.address for rigid in rigids])
+        for rigid in rigids:
+            name = rigid.body.name
+            self._take_out(rigid)
+            self.grips.remove_from(name)
+            self.commands.coming.put(name, ())
+            del self.bodies.by_name[name]
 
     def extract_last(self) -> RigidBody:
         """Remove and return the last body, in a space without joints that is not used any more."""
@@ -383,8 +385,7 @@ class Space:
         lost = table.lost() if core.has_lost else []
         # In a fixed order: the engine solves its constraints in an order that removals change.
         expired = table.columns.expiries.get(number + made, ())
-        for name in dict.fromkeys((*lost, *expired)):
-            self.remove(name)
+        self.remove(dict.fromkeys((*lost, *expired)))
         return made, lost
 
     @property

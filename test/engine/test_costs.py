@@ -7,7 +7,7 @@ from collections.abc import Callable
 import math
 from typing import Any
 
-from physsim_ros.model.requests import Delete
+from physsim_ros.model.requests import Delete, DeleteBodies
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
@@ -131,3 +131,17 @@ def afloat(count: int) -> Callable[[], object]:
 
 def test_media_cost_what_their_count_says():
     assert growth(afloat, 1000) < MOST
+
+
+def deleted(count: int) -> Callable[[], object]:
+    """Return the deletion of every other one of the discs in a row, which touch."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    for number in range(count):
+        spawn(world, f'disc/{number}', Disc(radius=0.05), (0.0999 * number, 0.0, 0.0))
+    world.step(1)
+    names = world.scene.names[::2]
+    return lambda: world.apply(DeleteBodies(names=names))
+
+
+def test_bodies_that_are_deleted_together_cost_what_their_count_says():
+    assert growth(deleted, 500) < MOST
