@@ -151,7 +151,7 @@ void defer_contacts(World *world) {
     const double *impacts = fastest_impacts(world);
     Weaker *found = TAKE(&world->own->arena, Weaker, arbiter_count(world));
     int count = find_weaker(world, impacts, found);
-    // Two bodies may touch in several contacts: where one is weaker than the impact, so are the others, or equally fast.
+    // Two bodies may touch in several contacts: none of them is faster than the impact.
     sort(found, count, sizeof(Weaker), by_pair);
     for (int number = 0; number < arbiter_count(world) && count > 0; number++) {
         cpArbiter *each = arbiter_at(world, number);

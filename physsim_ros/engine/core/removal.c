@@ -22,12 +22,13 @@ typedef struct Removal {
 } Removal;
 
 static int by_address(const void *one, const void *other) {
-    uintptr_t x = (uintptr_t) * (cpBody *const *)one, y = (uintptr_t) * (cpBody *const *)other;
+    uintptr_t x = (uintptr_t)*(cpBody *const *)one, y = (uintptr_t)*(cpBody *const *)other;
     return (x > y) - (x < y);
 }
 
 static bool is_removed(const Removal *removal, const cpBody *body) {
-    return bsearch(&body, removal->bodies, (size_t)removal->count, sizeof(cpBody *), by_address) != NULL;
+    size_t count = (size_t)removal->count;
+    return bsearch((const void *)&body, (const void *)removal->bodies, count, sizeof(cpBody *), by_address) != NULL;
 }
 
 static cpArbiterThread *thread_of(cpArbiter *arbiter, const cpBody *body) {
@@ -82,9 +83,11 @@ static void remove_shapes(World *world, cpBody **bodies, int count, const cpShap
 void core_remove_shapes(World *world, cpBody **bodies, int32_t count) {
     cpSpace *space = world->space;
     arena_reset(&world->own->arena);
-    Removal removal = {arena_copy(&world->own->arena, bodies, (size_t)count, sizeof(cpBody *)), count,
-                       bodies[0]->shapeList};
-    sort(removal.bodies, count, sizeof(cpBody *), by_address);
+    Removal removal = {TAKE(&world->own->arena, cpBody *, count), count, bodies[0]->shapeList};
+    for (int number = 0; number < count; number++) {
+        removal.bodies[number] = bodies[number];
+    }
+    sort((void *)removal.bodies, count, sizeof(cpBody *), by_address);
     for (int number = 0; number < count; number++) {
         release_around(world, bodies[number]);
     }
