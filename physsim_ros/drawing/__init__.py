@@ -13,7 +13,7 @@ from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.session import DrawingSession, submit_reading
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.reading import Reading
+from physsim_ros.drawing.strokes.stages import Reading
 
 __all__ = [
     'DrawingSession',

@@ -15,7 +15,7 @@ from itertools import islice, pairwise
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests
+from physsim_ros.drawing import new_bodies
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.geometry import path_length, point_of, spaced
@@ -100,4 +100,4 @@ def _link(name: str, start: Point, end: Point, settings: DrawingSettings) -> Spa
     (x, y), (dx, dy) = start, (end[0] - start[0], end[1] - start[1])
     pose = x + dx / 2, y + dy / 2, math.atan2(dy, dx)
     width, height = math.hypot(dx, dy), settings.wall_thickness
-    return replace(body_requests.rectangle(name, pose, width, height, settings), whole='chain')
+    return replace(new_bodies.rectangle(name, pose, width, height, settings), whole='chain')

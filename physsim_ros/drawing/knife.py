@@ -20,7 +20,7 @@ import math
 from typing import Any
 
 import numpy as np
-from physsim_ros.drawing import body_requests
+from physsim_ros.drawing import copies
 from physsim_ros.drawing.cut_shape import check_count, cut_shape
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.bodies_under import nearest_points
@@ -179,7 +179,7 @@ def _requests_of(
             # Without the body of before there is nothing to cut.
             yield ChangeBody(name=name, shape=shape, properties=Properties(**said))
             continue
-        piece = body_requests.copy_of(each, body, pose)
+        piece = copies.copy_of(each, body, pose)
         properties = replace(piece.properties, label='', **said)
         yield replace(piece, shape=shape, properties=properties)
 

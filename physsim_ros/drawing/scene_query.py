@@ -19,9 +19,10 @@ import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadProperty, no_frame
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import split_name
+from physsim_ros.model.names import split_name, WORLD
+from physsim_ros.model.requests import Join
 from physsim_ros.model.robots import part_name, whole_of
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Body, Joint, Seat
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contain_each, contains_each, extent_of
 from physsim_ros.model.snapshot import Snapshot
@@ -231,6 +232,31 @@ class SceneQuery:
         )
         _, free = split_name(next(islice(self.new_joints(), joints, None)))
         return SceneQuery(changed, first=self._first, first_joint=free)
+
+    def with_axles(self, axles: Iterable[Join]) -> SceneQuery:
+        """
+        Return queries on a snapshot with more axles.
+
+        :param axles: with the names of their bodies, in the frame of the world
+        """
+        scene = self.snapshot.scene
+        joints = *scene.joints, *map(self._axle, axles)
+        changed = replace(self.snapshot, scene=replace(scene, joints=joints))
+        return SceneQuery(changed, first=self._first, first_joint=self._first_joint)
+
+    def _axle(self, request: Join) -> Joint:
+        """Return the description of an axle."""
+        (point,) = request.points
+        on_a = self.local(request.a, point)
+        on_b = point if request.b == WORLD else self.local(request.b, point)
+        return Joint(
+            name=request.name,
+            kind=request.kind,
+            a=request.a,
+            b=request.b,
+            seat=Seat(*on_a, *on_b, ux=0.0, uy=0.0, phase=0.0, length=0.0),
+            properties=request.properties,
+        )
 
     def gravity_strength(self) -> float:
         """

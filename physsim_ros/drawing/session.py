@@ -15,27 +15,20 @@ from dataclasses import replace
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests
-from physsim_ros.drawing.body_requests import requests_with_waiting_joints
+from physsim_ros.drawing import copies
 from physsim_ros.drawing.click import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.figure import (
-    Figure,
-    likeliest_group,
-    mark_reading,
-    marked_solid,
-    MOST_STROKES,
-)
-from physsim_ros.drawing.strokes.reading import (
-    in_scene,
-    not_recognised,
-    Reading,
-    reading_of,
-)
+from physsim_ros.drawing.strokes.choice import not_recognised, reading_of
+from physsim_ros.drawing.strokes.figure import Figure
+from physsim_ros.drawing.strokes.grouping import likeliest_group, MOST_STROKES
+from physsim_ros.drawing.strokes.marks import mark_reading, marked_solid
+from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.strokes.waiting import readings_over
 from physsim_ros.drawing.tools import Gesture
+from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.names import split_name
@@ -132,7 +125,7 @@ class DrawingSession:
         placed = _in_world(samples, frame, scene)
         drawn = resample_stroke(placed)
         figure = Figure.read(
-            in_scene(drawn, scene, self.settings),
+            stroke_in_scene(drawn, scene, self.settings),
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
@@ -184,8 +177,6 @@ class DrawingSession:
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
         requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
         figure.requests = requests
-        if not figure.is_solid:
-            return replace(reading, requests=requests)
         earlier = [each for each in self._figures if each is not figure]
         message, also = reading.message, []
         for (stroke, *_), over in readings_over(figure, earlier, self.settings):
@@ -214,7 +205,7 @@ class DrawingSession:
         :param snapshot: of the world
         :raises UnknownBody: there is no such body
         """
-        requests = body_requests.copy(name, position, self._query(snapshot))
+        requests = copies.copy(name, position, self._query(snapshot))
         self._reserve_names(requests)
         return requests
 
@@ -230,7 +221,7 @@ class DrawingSession:
         :raises UnknownBody: there is no such body
         :raises Malformed: one is named twice
         """
-        requests = body_requests.copy_machine(names, by, self._query(snapshot))
+        requests = copies.copy_machine(names, by, self._query(snapshot))
         self._reserve_names(requests)
         return requests
 

@@ -16,7 +16,7 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests, chains, knife
+from physsim_ros.drawing import chains, knife, new_bodies
 from physsim_ros.drawing.click import (
     checked_distance,
     checked_length,
@@ -62,7 +62,7 @@ def circle(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
         return _next_click('the centre is set', 'a point on the rim')
     center, rim = _points(clicks)
     radius = checked_distance(center, rim, settings, 'the radius')
-    return _finished(body_requests.disc(scene.next_body(), center, radius, settings))
+    return _finished(new_bodies.disc(scene.next_body(), center, radius, settings))
 
 
 def circle_diameter(
@@ -73,7 +73,7 @@ def circle_diameter(
         return _next_click('an end of a diameter is set', 'the other end')
     start, end = _points(clicks)
     radius = checked_distance(start, end, settings, 'the diameter') / 2
-    return _finished(body_requests.disc(scene.next_body(), _middle(start, end), radius, settings))
+    return _finished(new_bodies.disc(scene.next_body(), _middle(start, end), radius, settings))
 
 
 def rectangle(
@@ -94,7 +94,7 @@ def rectangle(
     center = x - along[1] * height / 2, y + along[0] * height / 2
     yaw = math.atan2(along[1], along[0])
     name = scene.next_body()
-    return _finished(body_requests.rectangle(name, (*center, yaw), width, abs(height), settings))
+    return _finished(new_bodies.rectangle(name, (*center, yaw), width, abs(height), settings))
 
 
 def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
@@ -102,7 +102,7 @@ def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
     points = _points(clicks)
     if len(points) > 1 and math.dist(points[0], points[-1]) <= settings.snap:
         corners = without_repeats(points[:-1], settings)
-        return _finished(body_requests.polygon(scene.next_body(), corners, settings))
+        return _finished(new_bodies.polygon(scene.next_body(), corners, settings))
     if len(points) > MOST_POINTS:
         # No polygon of more corners could be closed, and each click looks at all points.
         raise BadOutline(f'a polygon has at most {MOST_POINTS} corners', field='point')
@@ -117,7 +117,7 @@ def wall(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) 
         return _next_click('an end is set', 'the other end')
     start, end = _points(clicks)
     checked_distance(start, end, settings, 'the wall')
-    return _finished(body_requests.wall(scene.next_body(), (start, end), settings))
+    return _finished(new_bodies.wall(scene.next_body(), (start, end), settings))
 
 
 def delete(clicks: Sequence[Click], scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:

@@ -117,7 +117,7 @@ class CoreWorld:
         """
         Have the core use tables, each in place of the one of its name.
 
-        :param tables: `grips`, `motors` in the order of their joints, and in that of their bodies
+        :param tables: `motors` in the order of their joints, and in that of their bodies `grips`,
             `forces`, `regions`, `attractors`, `robots` and `actors`; of the structs of `_STRUCTS`
         """
         for name, table in tables.items():

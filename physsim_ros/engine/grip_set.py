@@ -54,12 +54,13 @@ class GripSet:
 
     def records(self, rigids: Mapping[str, RigidBody]) -> Table:
         """
-        Return the grips as the core has them, (n,) `Grip`.
+        Return the grips as the core has them, (n,) `Grip`, in the order of their bodies.
 
         :param rigids: bodies by name
         """
         records = np.zeros(len(self), _GRIP)
-        for record, grip in zip(records, self, strict=True):
+        in_order = sorted(self, key=lambda grip: rigids[grip.body].row)
+        for record, grip in zip(records, in_order, strict=True):
             rigid = rigids[grip.body]
             (x, y), offset = grip.anchor, rigid.offset
             record['body'], record['target'] = rigid.row, grip.target

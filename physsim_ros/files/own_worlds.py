@@ -9,17 +9,18 @@ Law: the last world of each name that was deleted or written over is kept, and c
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
-from physsim_ros.files.regular_file import make_directory
+from physsim_ros.files.regular_file import make_directory, move_and_keep
 from physsim_ros.files.resources import is_plain
-from physsim_ros.files.world_file import is_shipped, user_lessons
+from physsim_ros.files.world_file import is_shipped, kept_path, user_lessons
 from physsim_ros.model.errors import BadWorldFile, Exists
 
 # Length of a name [characters].
 LONGEST_NAME = 64
-# Directories below that of the worlds: files that were deleted or written over, and pictures.
-_KEPT, _PICTURES = '.kept', '.pictures'
+# Directory of pictures, below that of the worlds.
+_PICTURES = '.pictures'
 
 
 def check_world_name(name: str) -> str:
@@ -64,15 +65,6 @@ class OwnWorlds:
         if not replace and self._path(name).exists():
             raise Exists(f'there is a world {name} already', field='name')
 
-    def keep(self, name: str) -> None:
-        """Keep a copy of a world that is to be written over."""
-        path = self._path(name)
-        if path.is_file():
-            kept = self._kept(name)
-            kept.unlink(missing_ok=True)
-            # Files are written anew and never changed, so that both names may share one.
-            kept.hardlink_to(path)
-
     def rename(self, name: str, to: str) -> str:
         """
         Give a world another name, and return a message about it.
@@ -82,9 +74,9 @@ class OwnWorlds:
         check_world_name(to)
         self.check_free(to)
         self._existing(name).rename(self._path(to))
-        picture = self.picture(name)
-        if picture.is_file():
-            picture.rename(self.picture(to))
+        # One that stays behind is drawn anew.
+        with suppress(OSError):
+            self.picture(name).rename(self.picture(to))
         return f'renamed {name} to {to}'
 
     def delete(self, name: str) -> str:
@@ -93,7 +85,9 @@ class OwnWorlds:
 
         :raises BadWorldFile: there is no such world
         """
-        self._existing(name).replace(self._kept(name))
+        path, kept = self._existing(name), self._kept(name)
+        make_directory(kept.parent)
+        path.replace(kept)
         return f'deleted the world {name}'
 
     def put_back(self, name: str) -> str:
@@ -104,13 +98,10 @@ class OwnWorlds:
 
         :raises BadWorldFile: none is kept
         """
-        kept, path = self._kept(name), self._path(name)
+        kept = self._kept(name)
         if not kept.is_file():
             raise BadWorldFile(f'nothing of {name} is kept', field='name')
-        put_back = kept.with_suffix('.put_back')
-        kept.replace(put_back)
-        self.keep(name)
-        put_back.replace(path)
+        move_and_keep(kept, self._path(name), kept)
         return f'put back the world {name}'
 
     def picture(self, name: str) -> Path:
@@ -127,6 +118,4 @@ class OwnWorlds:
         return self.directory / f'{check_world_name(name)}.yaml'
 
     def _kept(self, name: str) -> Path:
-        directory = self.directory / _KEPT
-        make_directory(directory)
-        return directory / self._path(name).name
+        return kept_path(self._path(name))

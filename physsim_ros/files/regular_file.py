@@ -78,17 +78,20 @@ def make_directory(path: Path) -> None:
         path.mkdir(mode=0o700, exist_ok=True)
 
 
-def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
+def write_file(
+    path: Path, data: bytes, *, mode: int | None = None, kept: Path | None = None
+) -> None:
     """
     Write a file whole or not at all.
 
     :param path: of the file, without symbolic links
     :param data: that it has then
     :param mode: that it has then; None is that of the file that is there, or 0600
-    :raises OSError: it cannot be written, and is as it was
+    :param kept: path at which the file that is there is kept, in place of what is there; None is
+        nowhere
+    :raises OSError: it cannot be written, and both files are as they were
     """
-    # Short, since the name of a file has 255 bytes at most.
-    temporary = path.parent / f'.{secrets.token_hex(8)}.tmp'
+    temporary = _temporary_in(path.parent)
     if mode is None:
         mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else 0o600
     descriptor, is_named = _open_temporary(temporary)
@@ -103,10 +106,47 @@ def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
                 # follows the link of the descriptor.
                 unnamed = _DESCRIPTORS / str(descriptor)
                 os.link(unnamed, temporary, src_dir_fd=descriptor)
-        temporary.replace(path)
+        if kept is None:
+            temporary.replace(path)
+        else:
+            move_and_keep(temporary, path, kept)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def move_and_keep(file: Path, path: Path, kept: Path) -> None:
+    """
+    Move a file to a path, and the one that is there to a path where it is kept.
+
+    :param file: that is moved; it may be the one that is kept
+    :param path: of it then
+    :param kept: path at which the file that was there is kept, in place of what is there
+    :raises OSError: a file cannot be moved, and all are as they were
+    """
+    if not path.is_file():
+        file.replace(path)
+        return
+    make_directory(kept.parent)
+    before = _temporary_in(kept.parent)
+    # Files are written anew and never changed, so that two names may share one.
+    before.hardlink_to(path)
+    try:
+        file.replace(path)
+        try:
+            before.replace(kept)
+        except OSError:
+            path.replace(file)
+            before.replace(path)
+            raise
+    finally:
+        # It is there if a file could not be moved, or if it is the one that is kept already.
+        before.unlink(missing_ok=True)
+
+
+def _temporary_in(directory: Path) -> Path:
+    """Return the path of a new file, short, since the name of a file has 255 bytes at most."""
+    return directory / f'.{secrets.token_hex(8)}.tmp'
 
 
 def _open_temporary(path: Path) -> tuple[int, bool]:

@@ -38,6 +38,8 @@ from physsim_ros.model.texts import nearest_name
 
 # Suffix of world files.
 _SUFFIX = '.yaml'
+# Directory beside world files, of those that were deleted or written over last.
+_KEPT = '.kept'
 # Greatest size of a world file [bytes]: 100,000 bodies have 30 MB.
 MOST_BYTES = 64 * 2**20
 
@@ -200,7 +202,7 @@ def save_world(
     state: WorldState, name: str, *, world_dir: str | Path, physics_rate: float
 ) -> Path:
     """
-    Write a world, whole or not at all.
+    Write a world, whole or not at all; the file that is there is kept.
 
     :param state: of the world
     :param name: a path below the world directory, or a world's plain name
@@ -222,7 +224,7 @@ def save_world(
             )
         text = text_of(state, physics_rate)
         make_directory(world_dir)
-        write_file(path, text.encode())
+        write_file(path, text.encode(), kept=kept_path(path))
     except OSError as error:
         reason = error.strerror or error
         raise BadWorldFile(f'cannot write {name}: {reason}', field='world_file') from error
@@ -230,6 +232,11 @@ def save_world(
         # A loop of symbolic links, or a NUL character.
         raise BadWorldFile(f'{name!r} is not a path: {error}', field='world_file') from error
     return path
+
+
+def kept_path(path: Path) -> Path:
+    """Return the path at which the file of a world is kept that was deleted or written over."""
+    return path.parent / _KEPT / path.name
 
 
 def hides_shipped(path: Path, *, world_dir: Path) -> bool:

@@ -185,6 +185,9 @@ class Diagnostics:
             yield 'a subscriber of ~/events has stopped and loses answers: end it'
         if failure := self._outputs.viewer.failure:
             yield f'{failure}: set parameter viewer to open it again'
+        sketchpad = self._outputs.sketchpad
+        if sketchpad is not None and (unsaved := sketchpad.autosave_failure) is not None:
+            yield f'{unsaved.message}: make room in world_dir, or save the world by name'
 
     def _new_namesakes(self) -> list[Answer]:
         """Return an event if there are more nodes of this name than at the last count."""

@@ -7,8 +7,8 @@ Autosave: the world that pages draw in is written to a file, which the next star
 A world with a lesson is kept as soon as a page opens it.
 
 Law: it takes at most a hundredth of the world's time and one file, and no request waits for it; a
-world that is too large, or a full disk, stops nothing. What the disk did not take is tried again.
-The file begins with a comment that names the people who drew in it.
+world that is too large, or a full disk, stops nothing, and people are told. What the disk did not
+take is tried again. The file begins with a comment that names the people who drew in it.
 """
 
 from __future__ import annotations
@@ -20,13 +20,14 @@ from functools import partial
 import json
 from pathlib import Path
 import time
+from typing import TypeAlias
 
 import numpy as np
 from physsim_ros.files import begin_on_thread, make_directory, read_bytes, write_file
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.snapshot import Answer, Frame
 
 # Least time from one autosave to the next while bodies move and while nothing does [s], and its
 # least ratio to the time of an autosave.
@@ -39,6 +40,10 @@ _BY, MOST_NAMES, _MOST_BY = '# drawn by: ', 12, 2**12
 # Topics of requests after which the world is as it was loaded.
 _FROM_FILE = frozenset({'~/load_world', '~/reset'})
 _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
+# Of its events.
+_TOPIC = 'autosave'
+# Why a save has failed, None where it has not, and the time that it took [s].
+_Written: TypeAlias = tuple[OSError | WorldFull | None, float]
 
 
 class Autosave:
@@ -49,6 +54,8 @@ class Autosave:
     :param text: returns a function that, on any thread, returns the world of now as text, or
         raises WorldFull beyond a length [characters]
     :param people: returns the names that people who draw have chosen
+
+    :ivar failure: event that what was drawn could not be saved; None where it is saved
     """
 
     def __init__(
@@ -59,14 +66,15 @@ class Autosave:
     ) -> None:
         self._file, self._unsaved = directory / _NOW, directory / _BEFORE
         self._text, self._people = text, people
+        self.failure: Answer | None = None
         self._scene: Scene | None = None
         self._changed = False
         self._due = self._due_still = 0.0
         self._poses: Floats = np.empty((0, 3))
         # Whether nothing moves.
         self._still = False
-        # The save under way, which ends with whether the file system took it and its duration [s].
-        self._writing: Future[tuple[bool, float]] | None = None
+        # The save under way, which ends with why it failed, or None, and its duration [s].
+        self._writing: Future[_Written] | None = None
         # Count of saves by people: what was under way meanwhile is not kept.
         self._saves = 0
         with suppress(OSError):
@@ -118,13 +126,13 @@ class Autosave:
         self._still = not frame.speed or np.array_equal(poses, self._poses)
         if any(answer.topic in _FROM_FILE and not answer.code for answer in frame.answers):
             # Nobody has drawn yet in what is a file already; a lesson is resumed as it was.
-            self._changed = drawn and scene.lesson is not None
+            self._changed, self.failure = drawn and scene.lesson is not None, None
         else:
             self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
 
     def note_saved(self) -> None:
         """Note that somebody has saved the world."""
-        self._changed = False
+        self._changed, self.failure = False, None
         self._saves += 1
         self._forget()
 
@@ -139,38 +147,42 @@ class Autosave:
 
         :param now: steady time [s]
         """
-        if self._writing is not None and self._writing.done():
-            self._note_written(self._writing)
         due = self._due_still if self._still else self._due
         return self._changed and self._writing is None and now >= due
 
-    def save(self) -> Future[tuple[bool, float]]:
+    def save(self) -> Future[_Written]:
         """Begin to save the world of now on a thread, for whose end nothing waits."""
         self._changed = False
         write = partial(self._write, self._text(), self._people()[:MOST_NAMES], self._saves)
         self._writing = begin_on_thread(write, finishes=True)
         return self._writing
 
-    def _note_written(self, writing: Future[tuple[bool, float]]) -> None:
-        """Note how a save has ended."""
+    def note_end(self) -> Answer | None:
+        """Note the end of the save; return an event if it has failed, or does so no longer."""
+        writing = self._writing
+        if writing is None or not writing.done():
+            return None
         self._writing = None
-        is_written, took = writing.result()
-        self._changed |= not is_written
+        error, took = writing.result()
+        # A world that is too large stays so until it changes.
+        self._changed |= isinstance(error, OSError)
         now = time.monotonic()
         self._due = now + max(PERIOD, SHARE * took)
         self._due_still = now + max(STILL_PERIOD, SHARE * took)
+        before, self.failure = self.failure, None if error is None else _failure(error)
+        if self.failure == before:
+            return None
+        return self.failure or Answer(topic=_TOPIC, message='what was drawn is autosaved again')
 
-    def _write(
-        self, text: Callable[[int], str], names: Sequence[str], saves: int
-    ) -> tuple[bool, float]:
+    def _write(self, text: Callable[[int], str], names: Sequence[str], saves: int) -> _Written:
         """
         Write a world and the names of people, unless somebody saves it meanwhile.
 
         :param saves: count of saves by people before it
-        :return: whether the file system took it, and the time that it took [s]
+        :return: why that failed, None where it did not, and the time that it took [s]
         """
         began = time.thread_time()
-        is_written = True
+        failed: OSError | WorldFull | None = None
         try:
             content = text(LONGEST)
             if names:
@@ -179,9 +191,14 @@ class Autosave:
             write_file(self._file, content.encode())
             if self._saves != saves:
                 self._forget()
-        except WorldFull:
-            # It stays too large until it changes.
-            pass
-        except OSError:
-            is_written = False
-        return is_written, time.thread_time() - began
+        except (OSError, WorldFull) as error:
+            failed = error
+        return failed, time.thread_time() - began
+
+
+def _failure(error: OSError | WorldFull) -> Answer:
+    """Return the event of a failure."""
+    # The path is nobody's business on a page.
+    reason = error.strerror if isinstance(error, OSError) else error
+    message = f'what was drawn is not autosaved: {reason}'
+    return Answer(topic=_TOPIC, message=message, code='autosave_failed')

@@ -63,6 +63,7 @@ class Shared(NamedTuple):
     :ivar autosave: of the world
     :ivar results: of lessons in the world
     :ivar list_worlds: sends the list of worlds to the page of a number, or to all
+    :ivar ask_to_leave: asks the pupils who have come until now to leave
     """
 
     world: WorldControl
@@ -73,6 +74,7 @@ class Shared(NamedTuple):
     autosave: Autosave
     results: Results
     list_worlds: Callable[[int | None], None]
+    ask_to_leave: Callable[[], None]
 
 
 class PageSession:

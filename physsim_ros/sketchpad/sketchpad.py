@@ -24,7 +24,7 @@ from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
-from physsim_ros.sketchpad.message import asker_key, Message
+from physsim_ros.sketchpad.message import answer_content, asker_key, Message
 from physsim_ros.sketchpad.page_session import answers_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts, timeline_content, TimelineReport
 from physsim_ros.sketchpad.results import Results, results_file
@@ -88,6 +88,7 @@ class Sketchpad:
             self._autosave,
             results,
             self._server.list_worlds,
+            self._server.ask_to_leave,
         )
         self._sessions: dict[int, PageSession] = {}
         # Numbers of the colours of people, by name.
@@ -105,6 +106,11 @@ class Sketchpad:
     def is_read(self) -> bool:
         """Whether a page is open."""
         return bool(self._sessions)
+
+    @property
+    def autosave_failure(self) -> Answer | None:
+        """Return the event that what was drawn could not be saved; None where it is saved."""
+        return self._autosave.failure
 
     @property
     def wants_contacts(self) -> bool:
@@ -177,6 +183,8 @@ class Sketchpad:
         self._shared.pasts.send_due(now)
         self._shared.past_contacts.send_due()
         with self._boundary.output('autosave'):
+            if (event := self._autosave.note_end()) is not None:
+                self._simulation.requests.tell(event)
             if self._autosave.is_due(now) and self._simulation.playback.is_there:
                 self._autosave.save()
         if self._world.recording_address != self._sent_recording:
@@ -285,6 +293,8 @@ class Sketchpad:
         # To all: what is not sent again is what all pages have got.
         self._server.send(timeline_content(self._timeline.read_status(time.monotonic())))
         self._server.list_worlds(number)
+        if (failure := self.autosave_failure) is not None:
+            self._server.send(answer_content(failure, ''), number)
         if self._frame is not None:
             frame = replace(self._frame, answers=())
             self._server.show(frame, self._timeline.ghost(frame.snapshot))

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.tools import Tool
+from physsim_ros.drawing.click import Tool
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import Box

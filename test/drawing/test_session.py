@@ -26,6 +26,7 @@ from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
+from .strokes.ways import round_arrow
 from ..building import spawning
 
 Way = Sequence[tuple[float, float]]
@@ -518,6 +519,38 @@ def test_one_axle_goes_through_all_movable_bodies_at_its_place() -> None:
     assert [(each.a, each.b) for each in desk.scene.joints] == [
         ('drawn/2', 'drawn/1'), ('drawn/1', 'drawn/0'),
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize('order', list(itertools.permutations(range(3))))
+def test_wheel_axle_and_round_arrow_are_a_driven_wheel_in_any_order(order: Sequence[int]) -> None:
+    ways = circle(0.0, 0.0, 1.0), circle(0.0, 0.0, 0.12), round_arrow(0.0, 0.0, 0.5, 4.5)
+    desk = Desk()
+    for number in order:
+        with suppress(NothingThere):
+            desk.draw(ways[number], after=20.0)
+    (wheel,) = desk.scene.bodies
+    axle, motor = desk.scene.joints
+    assert (axle.kind, motor.kind) == (JointKind.AXLE, JointKind.MOTOR)
+    assert {axle.a, motor.a} == {wheel.name}
+    assert math.isclose(motor.number('rate'), 4.5, rel_tol=0.05)
+
+
+def test_a_round_arrow_drives_no_axle_outside_it() -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', PLATE))
+    with pytest.raises(NothingThere):
+        desk.draw(round_arrow(-1.5, 0.0, 0.5, 4.5))
+    desk.draw(circle(1.5, 0.0, 0.12))
+    assert [each.kind for each in desk.scene.joints] == [JointKind.AXLE]
+
+
+@pytest.mark.parametrize('other', [1e9, -1e9])
+def test_strokes_that_began_by_two_clocks_are_no_thing_of_several_strokes(other: float) -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', PLATE))
+    desk.draw([(-0.5, -0.5), (0.5, 0.5)])
+    desk.now += other
+    assert desk.draw([(-0.5, 0.5), (0.5, -0.5)]).meaning == 'hatching'
 
 
 def test_an_axle_drawn_before_its_wheel_waits_for_it() -> None:

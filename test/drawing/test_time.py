@@ -10,7 +10,7 @@ from typing import Any
 
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.tools import Tool
+from physsim_ros.drawing.click import Tool
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc

@@ -14,7 +14,7 @@ import tracemalloc
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, knife
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.figure import MOST_STROKES, MOST_TIME
+from physsim_ros.drawing.strokes.grouping import MOST_STROKES, MOST_TIME
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Malformed, WorldFull

@@ -276,7 +276,7 @@ def test_a_failing_write_leaves_the_old_file_and_nothing_else(
         with pytest.raises(BadWorldFile, match='No space left'):
             save(world, folder)
 
-    assert list(folder.iterdir()) == [path]
+    assert [each for each in folder.rglob('*') if each.is_file()] == [path]
     assert path.read_text() == old
 
 
@@ -288,4 +288,6 @@ def test_saving_replaces_what_was_there(folder: Path) -> None:
     path = save(world, folder)
 
     assert load(path) == world.save()
-    assert list(folder.iterdir()) == [path]
+    # What it replaced is kept, and nothing else is there.
+    assert {each.name for each in folder.iterdir()} == {path.name, '.kept'}
+    assert len(load(folder / '.kept' / path.name).bodies) == 0

@@ -3,12 +3,15 @@
 
 """Law 50: a sensor reports each body that crosses it, however fast."""
 
+import math
+
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
 from .scenes import DT, NOWHERE, simulation, spawn
 
 CROSSINGS = 20
+SUB_STEP = DT / 4
 SHAPES = {'disc': Disc(radius=0.02), 'box': Box(width=0.03, height=0.05)}
 
 
@@ -100,3 +103,30 @@ def test_a_fast_sensor_reports_what_it_crosses(report):
     begun = sum(len(sim.advance_frame().contacts.begun) for _ in range(4))
 
     report.check(50, 'gate of 300 m/s, reports of a crossing', begun, 1, 0, 'reports')
+
+
+def grazes(phase, *, beside):
+    """
+    Return how many times a gate reports a disc that passes its corner, a tenth of a mm inside.
+
+    :param phase: as in `reports`
+    :param beside: whether a fast gate moves far away
+    """
+    sim = simulation(gravity=NOWHERE)
+    sim.reports_contacts = True
+    turned = (0.0, -math.sqrt(0.5), math.pi / 4)
+    spawn(sim, 'gate/0', Box(width=1.0, height=1.0), turned, anchored=True, sensor=True)
+    start = -0.5 + phase * 19.0 * SUB_STEP
+    spawn(sim, 'disc/0', Disc(radius=0.1), (start, 0.0999, 0.0), velocity=(19.0, 0.0))
+    if beside:
+        gate = Box(width=0.1, height=0.1)
+        spawn(sim, 'gate/1', gate, (50.0, 50.0, 0.0), sensor=True, velocity=(50.0, 0.0))
+    return sum(len(sim.advance_frame().contacts.begun) for _ in range(6))
+
+
+def test_a_fast_gate_far_away_changes_no_report(report):
+    phases = [number / CROSSINGS for number in range(CROSSINGS)]
+    alone, beside = ([grazes(phase, beside=fast) for phase in phases] for fast in (False, True))
+
+    differing = sum(a != b for a, b in zip(alone, beside, strict=True))
+    report.check(29, 'grazes of a gate that another far away changes', differing, 0, 0, 'grazes')

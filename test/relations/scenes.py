@@ -122,6 +122,17 @@ def meetings():
     return sim
 
 
+def quick_meetings():
+    """Return discs that meet at some 30 m/s, each by up to its safe depth in a sub-step."""
+    sim = simulation(gravity=NOWHERE, elasticity=0.5)
+    for number in range(12):
+        for side in (-1, 1):
+            pose = (side * (0.3 + 0.001 * number), number + 0.015 * side, 0.0)
+            said = {'velocity': (side * -(13.0 + number), 0.0)}
+            spawn(sim, f'disc/{2 * number + (side > 0)}', Disc(radius=0.1), pose, **said)
+    return sim
+
+
 def pair(kinds, seed):
     sim, _ = pair_in_flight(random.Random(seed), kinds)
     return sim
@@ -788,6 +799,7 @@ def _laws():
         'head-on, elastic': Scene(build=partial(head_on, 1.0)),
         'head-on, clay': Scene(build=partial(head_on, 0.0)),
         'pairs that meet': Scene(build=meetings),
+        'discs that meet fast': Scene(build=quick_meetings),
         'walls, thin ones too': Scene(build=on_walls, seconds=0.75),
         'disc bounces': Scene(build=partial(bounce, disc, 0.8)),
         'box falls flat': Scene(build=partial(bounce, box, 0.5)),

@@ -16,6 +16,16 @@ from ..outside import Outside
 BACKGROUND = """name => getComputedStyle(
     document.querySelector(`button[aria-label="${name}"]`)).backgroundColor"""
 
+# The colours of a part without words of the page, and of the dialog in which it is shown.
+STICK = '<div class=stick><i></i></div>'
+COLOURS = """html => {
+    const dialog = document.querySelector('dialog');
+    dialog.innerHTML = html;
+    dialog.showModal();
+    return [dialog.querySelector('i'), dialog]
+        .map((each) => getComputedStyle(each).backgroundColor);
+}"""
+
 # The ends of the lines of a grid at a place of the world [m], as they are asked of a canvas [px].
 GRID_LINES = """async at => {
     const {drawGrid} = await import('/page/view/label_view.js'), lines = [];
@@ -109,6 +119,16 @@ def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
     sheet.press('Hand')
     hand, pen = (sheet.page.evaluate(BACKGROUND, name) for name in ('Hand', 'Pen'))
     assert hand != pen
+    sheet.close()
+
+
+def test_what_is_told_by_a_colour_keeps_it_in_the_colours_of_the_reader(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address, forced_colors='active')
+    for html in ('<ul class=histogram><li><span><i class=right></i></span></ul>', STICK):
+        bar, paper = sheet.page.evaluate(COLOURS, html)
+        assert bar != paper
     sheet.close()
 
 

@@ -7,20 +7,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import wait
+import errno
+import os
 from pathlib import Path
 from threading import Event
 import time
+from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.files import load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave as module
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 import pytest
 
-from .browser import Browser
+from .browser import Browser, Page
 from ..building import BOX, spawning
+from ..client import Client
 from ..worlds.film import state_of
 
 
@@ -45,10 +51,10 @@ def drawn(simulation: Simulation, autosave: Autosave, name: str) -> None:
     autosave.note_frame(simulation.advance_frame(), drawn=True)
 
 
-def end_save(autosave: Autosave) -> None:
-    """Save the world, wait for the end, and have it noted."""
+def end_save(autosave: Autosave) -> Answer | None:
+    """Save the world, wait for the end, and return the event."""
     wait((autosave.save(),))
-    autosave.is_due(time.monotonic())
+    return autosave.note_end()
 
 
 def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> None:
@@ -158,11 +164,18 @@ def test_what_a_full_disk_did_not_take_is_written_when_there_is_room(tmp_path: P
     directory.write_text('')
     autosave = Autosave(directory, names_in(simulation))
     drawn(simulation, autosave, 'a/0')
-    end_save(autosave)
+    event = end_save(autosave)
+    assert event is not None
+    assert (event.topic, event.code) == ('autosave', 'autosave_failed')
+    # Not for each time that it is tried.
+    assert end_save(autosave) is None
     assert not autosave.is_due(time.monotonic())
     directory.unlink()
     assert autosave.is_due(time.monotonic() + 2 * PERIOD)
-    end_save(autosave)
+    event = end_save(autosave)
+    assert event is not None
+    assert (event.topic, event.code) == ('autosave', '')
+    assert end_save(autosave) is None
     assert (directory / '.autosave.yaml').read_text() == 'a/0'
     assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
 
@@ -179,6 +192,45 @@ def test_a_world_that_is_too_large_is_tried_again_when_it_changes(tmp_path: Path
         assert autosave.is_due(time.monotonic() + 2 * PERIOD)
         end_save(autosave)
         assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
+    assert autosave.failure is not None
+    assert autosave.failure.message.endswith(': too large')
+    # A world that somebody has saved, or that is that of a file, lacks nothing.
+    autosave.note_saved()
+    assert autosave.failure is None
+
+
+def test_a_failure_is_told_on_all_pages_also_later_ones_in_events_and_diagnostics(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    node, client, page = browser.physsim.node, Client(browser.physsim), browser.open_page()
+    page.last('welcome')
+    told = client.listen(DiagnosticArray, '/diagnostics')
+
+    def refuse(*_: object) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(module, 'write_file', refuse)
+    node.start()
+
+    def event_on(page: Page) -> dict[str, Any] | None:
+        found = [each for each in page.of_type('answer') if each['topic'] == 'autosave']
+        return found[0] if found else None
+
+    def of(array: DiagnosticArray) -> str:
+        return str(array.status[0].message)
+
+    def tick() -> None:
+        node.tick(time.monotonic_ns())
+
+    node.simulation.perform(spawning('a/0', BOX))
+    browser.until(lambda: tick() or event_on(page))
+    (event,) = filter(None, [event_on(page)])
+    assert event['code'] == 'autosave_failed'
+    assert event['message'] == f'what was drawn is not autosaved: {os.strerror(errno.ENOSPC)}'
+    browser.until(lambda: any(each.name == 'autosave' for each in client.events))
+    browser.until(lambda: tick() or any(event['message'] in of(each) for each in told))
+    later = browser.open_page()
+    browser.until(lambda: tick() or event_on(later))
 
 
 def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(

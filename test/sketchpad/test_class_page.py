@@ -89,6 +89,24 @@ def test_a_teacher_freezes_a_pupil_and_sees_who_did_what(pages: tuple[Sheet, She
     teacher.page.get_by_role('listitem').get_by_text('Bea').wait_for()
 
 
+def test_a_teacher_works_by_keys_and_a_message_is_read_to_who_cannot_see_it(
+    pages: tuple[Sheet, Sheet],
+) -> None:
+    teacher, pupil = pages
+    teacher.press('People')
+    button = teacher.page.get_by_role('button', name='Freeze all pupils')
+    button.focus()
+    teacher.page.keyboard.press('Enter')
+    pupil.page.locator('[aria-live]').get_by_text('has frozen this world').wait_for()
+    # Where it was, there is the other one now.
+    other = teacher.page.get_by_role('button', name='Let them draw again')
+    other.wait_for()
+    assert other.evaluate('each => each === document.activeElement')
+    teacher.page.keyboard.press('Enter')
+    button.wait_for()
+    assert button.evaluate('each => each === document.activeElement')
+
+
 def test_each_undoes_what_is_its_own_while_time_goes_on(pages: tuple[Sheet, Sheet]) -> None:
     teacher, pupil = pages
     pupil.drag(*circle(-3.0, 4.0, 0.8))

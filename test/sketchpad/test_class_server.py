@@ -29,6 +29,20 @@ from .chromium import circle, Sheet
 from ..outside import Outside, PATIENCE, Program
 
 # Colours of a picture.
+# What the cards of seats say of them, one after the other.
+STATES = """window.states = '';
+new MutationObserver(() => {
+    for (const each of document.querySelectorAll('.state')) states += `${each.textContent}; `;
+}).observe(document, {childList: true, subtree: true});"""
+# Counts the pictures that are drawn of seats, and of all together.
+COUNT_PICTURES = """() => {
+    window.pictures = {together: 0, seats: 0};
+    const fill = CanvasRenderingContext2D.prototype.fillRect;
+    CanvasRenderingContext2D.prototype.fillRect = function (...box) {
+        pictures[this.canvas.className || 'seats'] += 1;
+        fill.apply(this, box);
+    };
+}"""
 COLORS = """selector => {
     const canvas = document.querySelector(selector);
     const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -447,13 +461,27 @@ def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
     for sheet in (anna, ben):
         sheet.play_until(0.9)
 
-    boss = Sheet(chromium, teacher)
+    boss = Sheet(chromium, 'about:blank')
+    boss.page.add_init_script(STATES)
+    boss.page.goto(teacher)
     boss.page.get_by_text('2 of 2 here').wait_for()
+    # Nobody is said to be away, and no world to be silent, before anybody has looked.
+    assert not re.search('not here|not answer', boss.page.evaluate('states'))
     boss.press('All runs in one picture')
+    boss.page.locator('.together').wait_for()
     for color in ([30, 87, 143], [143, 30, 54]):
         seen = partial(boss.page.evaluate, COLORS, '.together')
         boss.until(lambda color=color, seen=seen: color in seen(), f'a way in {color}')
     boss.press('Close')
+    # On dark paper the colours are light ones.
+    boss.page.emulate_media(color_scheme='dark')
+    boss.press('All runs in one picture')
+    name = boss.page.get_by_role('dialog').get_by_role('button', name='Anna')
+    color = name.evaluate('each => getComputedStyle(each).color')
+    assert min(int(each) for each in re.findall(r'\d+', color)) > 128, color
+    boss.press('Close')
+    boss.page.emulate_media(color_scheme='light')
+    boss.page.evaluate(COUNT_PICTURES)
     boss.page.locator('#seats li').first.get_by_role('button', name='More').click()
     boss.press('Show this run to all')
     # Its beginning is that of Anna's run, and so it goes as that went.
@@ -465,6 +493,9 @@ def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
             sheet.seek(time)
         assert ben.pose('heavy/0') == anna.pose('heavy/0')
     assert ben.pose('heavy/0')[0] < 1.0
+    # A picture that is closed is drawn no more.
+    boss.wait('pictures.seats > 0')
+    assert boss.page.evaluate('pictures.together') == 0
     for sheet in (anna, ben, boss):
         sheet.close()
     assert program.interrupt() == 0

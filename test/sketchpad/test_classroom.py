@@ -429,6 +429,32 @@ def test_a_page_that_comes_again_with_its_key_is_the_same_person(browser: Browse
     assert last.ask('take_back')['code'] == 'view_only'
 
 
+def test_a_pupil_who_sleeps_while_the_seat_is_freed_does_not_come_back_into_the_world(
+    browser: Browser,
+) -> None:
+    boss, anna, ben = teacher(browser), browser.open_page(), browser.open_page()
+    keys = {page: quote(page.last('welcome')['person']) for page in (boss, anna, ben)}
+    anna.close()
+    assert boss.ask('leave')['ok']
+    boss.close()
+    ben.last('leave')
+    # Anna's page and the one of Ben, who does not obey, connect again.
+    for page in (anna, ben):
+        again = browser.open_page(f'/ws?person={keys[page]}')
+        again.until(lambda again=again: again.closed)
+        assert again.order == ['leave']
+    # Who comes anew, who watches, and who teaches is not meant.
+    for path, cookie in (
+        ('/ws', None),
+        (f'/ws?view&person={keys[anna]}', None),
+        (f'/ws?person={keys[boss]}', browser.cookie_of(Role.TEACH)),
+    ):
+        page = browser.open_page(path, cookie=cookie)
+        page.last('class')
+        assert not page.of_type('leave')
+    assert page.ask('leave')['ok']
+
+
 def test_an_undo_of_what_another_person_has_used_since_is_refused(browser: Browser) -> None:
     anna, ben = browser.open_page(), browser.open_page()
     assert anna.spawn('a/0')['ok']

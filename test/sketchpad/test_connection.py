@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import Any
 
@@ -12,6 +13,14 @@ import pytest
 
 from .chromium import circle, Sheet, started_world
 from ..outside import Outside
+
+# Notes what the line of answers says from now on.
+STATUSES = """() => {
+    const status = document.querySelector('[role=status]');
+    window.statuses = [];
+    new MutationObserver(() => statuses.push(status.textContent))
+        .observe(status, {childList: true});
+}"""
 
 
 def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
@@ -43,6 +52,76 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.page.reload()
     sheet.wait('heard.people')
     assert sheet.page.evaluate('heard.people') == people
+    sheet.close()
+
+
+def test_a_page_without_a_server_tells_what_was_done_alone_and_its_slider_comes_back(
+    chromium: Any, address: str
+) -> None:
+    other, sheet = Sheet(chromium, address), Sheet(chromium, 'about:blank')
+    sockets: list[Any] = []
+    cut = False
+
+    def pass_on(socket: Any) -> None:
+        sockets.append(socket)
+        if cut:
+            socket.close()
+        else:
+            socket.connect_to_server()
+
+    sheet.page.route_web_socket('**/ws*', pass_on)
+    sheet.page.goto(address)
+    sheet.begin()
+    sheet.play_until(0.3)
+    sheet.wait('heard.people.length > 1')
+    status = sheet.page.get_by_role('status')
+    told = status.inner_text()
+    cut = True
+    sockets[0].close()
+    alert = sheet.page.get_by_role('alert')
+    alert.wait_for(state='visible')
+    # Others would see where the pointer is; nobody has asked for that.
+    seen = len(sockets)
+    while len(sockets) < seen + 2:
+        for x in range(8):
+            sheet.page.mouse.move(*sheet.place(x / 4, 5.0))
+    assert status.inner_text() == told
+    for time in ('0.1', '0.2'):
+        sheet.page.get_by_role('slider', name='Time', exact=True).fill(time)
+    assert 'Not done' in status.inner_text()
+    cut = False
+    alert.wait_for(state='hidden')
+    sheet.play_until(0.5)
+    sheet.wait("document.querySelector('#slider').value > 0.5")
+    for each in (other, sheet):
+        each.close()
+
+
+def test_an_answer_is_told_once_though_its_body_comes_late_or_never(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    sockets: list[Any] = []
+
+    def pass_on(socket: Any) -> None:
+        sockets.append(socket)
+        socket.connect_to_server()
+
+    sheet.page.route_web_socket('**/ws*', pass_on)
+    sheet.page.goto(address)
+    sheet.begin()
+    answer = {'request': '0', 'ok': True, 'code': '', 'topic': '~/spawn', 'values': {}}
+    told = {'message': 'deleted drawn/99', 'subject': 'drawn/99'}
+    sockets[0].send(json.dumps({'type': 'answer'} | answer | told))
+    status = sheet.page.get_by_role('status')
+    status.get_by_text('Body deleted').wait_for()
+    sheet.page.evaluate(STATUSES)
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((1.0, 6.0), (1.5, 6.0))
+    sheet.wait_for_new(before)
+    status.get_by_text('Circle added').wait_for()
+    assert 'Body deleted' not in sheet.page.evaluate('statuses')
     sheet.close()
 
 

@@ -84,7 +84,7 @@ def test_a_message_that_is_read(doors: PageDoors) -> None:
     ('kind', 'fields', 'where', 'name'),
     [
         ('open', {'name': 'demo'}, world_files, 'find_world'),
-        ('save', {'name': 'mine'}, OwnWorlds, 'keep'),
+        ('save', {'name': 'mine'}, OwnWorlds, 'check_free'),
         ('rename', {'name': 'mine', 'to': 'his'}, OwnWorlds, 'rename'),
         ('remove', {'name': 'mine'}, OwnWorlds, 'delete'),
         ('put_back', {'name': 'mine'}, OwnWorlds, 'put_back'),

@@ -30,6 +30,16 @@ def test_bodies_are_copied_cut_pasted_and_all_selected_by_keys(sheet: Sheet) -> 
     sheet.wait('Object.keys(physsim.bodies).length === 5')
     keyboard.press('Control+a')
     sheet.page.get_by_role('heading', name='5 bodies').wait_for()
+    # Of another world nothing is pasted, though the names of its bodies are the same.
+    keyboard.press('Control+c')
+    sheet.press('Worlds')
+    sheet.press('Empty room')
+    sheet.wait('Object.keys(physsim.bodies).length === 0')
+    sheet.press('Undo')
+    sheet.wait('Object.keys(physsim.bodies).length === 5')
+    sheet.page.mouse.click(*sheet.place(0.0, 5.0), button='right')
+    sheet.page.get_by_role('menuitem', name='Select all').wait_for()
+    assert sheet.page.get_by_role('menuitem', name='Paste').count() == 0
 
 
 def test_the_right_button_opens_a_menu_of_the_body_there(sheet: Sheet) -> None:
@@ -52,6 +62,16 @@ def test_the_right_button_opens_a_menu_of_the_body_there(sheet: Sheet) -> None:
     sheet.page.mouse.up(button='right')
     assert sheet.place(0.0, 0.0) != before
     assert menu.is_hidden()
+
+
+def test_a_field_that_is_clicked_beside_the_menu_has_the_keys(sheet: Sheet) -> None:
+    sheet.page.mouse.click(*sheet.place(4.0, 0.5), button='right')
+    menu = sheet.page.get_by_role('menu')
+    menu.wait_for()
+    label = sheet.page.get_by_label('Label')
+    label.click()
+    assert menu.is_hidden()
+    assert label.evaluate('each => each === document.activeElement')
 
 
 def test_a_step_back_is_one_frame(sheet: Sheet) -> None:

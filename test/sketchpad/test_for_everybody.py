@@ -76,6 +76,18 @@ def test_a_toolbar_has_one_stop_also_where_its_buttons_come_and_go(sheet: Sheet)
     assert stops.count() == 1
 
 
+def test_a_button_that_is_pressed_by_a_key_keeps_the_focus(sheet: Sheet) -> None:
+    # What it stands in is made anew.
+    sheet.press('Show velocities')
+    sheet.press('Material')
+    for name in ('Momentum', 'Wood'):
+        button = sheet.page.get_by_role('button', name=name, exact=True)
+        button.focus()
+        sheet.page.keyboard.press('Enter')
+        sheet.wait('true')
+        assert button.evaluate('each => each === document.activeElement'), name
+
+
 def test_words_stand_at_icons_where_somebody_wants_them(sheet: Sheet) -> None:
     word = sheet.page.get_by_role('button', name='Spring', exact=True).get_by_text('Spring')
     assert not word.is_visible()

@@ -141,6 +141,16 @@ def test_a_link_opens_a_lesson(sheet: Sheet) -> None:
     page.get_by_role('status').get_by_text('no lesson alchemy').wait_for()
 
 
+@pytest.mark.parametrize('link', ['#name=%', '#class=%E4', '#lesson=%E4', '?t=%'])
+def test_a_link_that_is_broken_leaves_the_page_as_it_is(sheet: Sheet, link: str) -> None:
+    page = sheet.context.new_page()
+    page.on('pageerror', lambda error: sheet.errors.append(str(error)))
+    page.goto(sheet.page.evaluate('location.origin') + f'/{link}')
+    page.get_by_role('button', name='Worlds').click()
+    page.locator('.lessons').get_by_role('button', name='9. Pendulum').click()
+    page.locator('#lesson').get_by_text('9. Pendulum').wait_for()
+
+
 def test_a_link_leads_to_a_moment_of_a_lesson(sheet: Sheet) -> None:
     moment = sheet.play_until(0.7)
     sheet.page.evaluate("location.hash = '#t=0.5'")
@@ -204,6 +214,21 @@ def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) 
     sheet.page.mouse.click(*sheet.place(x, y))
     sheet.page.evaluate('window.written.clear()')
     sheet.wait('![...window.written].some((text) => /off by|predicted/.test(text))')
+
+
+def test_the_prediction_of_a_body_goes_with_it_and_comes_back(sheet: Sheet) -> None:
+    sheet.page.evaluate(WRITTEN)
+    sheet.press('Predict')
+    sheet.drag((0.0, 0.5), (2.0, 3.0))
+    sheet.wait('written.has("predicted")')
+    sheet.press('Delete')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.wait('!("ball/0" in physsim.bodies)')
+    sheet.page.evaluate('written.clear()')
+    sheet.page.mouse.move(*sheet.place(1.0, 5.0))
+    sheet.wait('written.size && !written.has("predicted")')
+    sheet.press('Undo')
+    sheet.wait('written.has("predicted")')
 
 
 # Rows of the histogram and cells of the table of some answers, as a page shows them.

@@ -108,6 +108,15 @@ def test_the_answer_to_a_lesson_is_in_sight(sheet: Sheet) -> None:
         assert box['y'] + box['height'] < y + height
 
 
+def test_the_title_of_a_lesson_that_is_solved_is_in_sight(sheet: Sheet) -> None:
+    sheet.page.get_by_role('textbox', name='Your answer').fill('4.9')
+    sheet.press('Check')
+    sheet.page.get_by_text('Right!').wait_for()
+    card, title = (sheet.page.locator(each).bounding_box() for each in ('#lesson', '#lesson h2'))
+    assert card['y'] <= title['y']
+    assert title['y'] + title['height'] <= card['y'] + card['height']
+
+
 def test_the_plot_stands_beside_the_world(sheet: Sheet) -> None:
     select(sheet)
     if sheet.page.locator('#panel.folded').count():

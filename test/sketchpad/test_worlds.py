@@ -112,12 +112,53 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     sheet.page.get_by_role('textbox', name='New name').fill('yours')
     sheet.press('Rename')
     sheet.page.locator('#dock .note').get_by_text('Renamed to yours').wait_for()
+    # It is the one that is shown.
+    sheet.press('Save')
+    assert sheet.page.get_by_role('textbox', name='Name of the world').input_value() == 'yours'
+    sheet.press('Close')
     open_own(sheet, 'yours')
     sheet.press('Worlds')
     sheet.page.locator('.own', has_text='yours').get_by_role('button', name='Delete').click()
     undone(sheet, 'yours is deleted')
     said(sheet, 'World yours is back')
     open_own(sheet, 'yours')
+
+
+def test_an_offer_stays_while_somebody_is_at_its_button(sheet: Sheet) -> None:
+    # Twenty times as fast.
+    sheet.page.add_init_script(
+        """const waits = setTimeout;
+        window.setTimeout = (call, pause) => waits(call, pause / 20);"""
+    )
+    sheet.page.reload()
+    save(sheet, 'mine')
+    sheet.press('Worlds')
+    sheet.page.locator('.own', has_text='mine').get_by_role('button', name='Delete').click()
+    undo = sheet.page.locator('#dock .note').get_by_role('button', name='Undo')
+    undo.focus()
+    sheet.page.evaluate('new Promise((done) => setTimeout(done, 15000))')
+    assert undo.is_visible()
+    undo.evaluate('each => each.blur()')
+    undo.wait_for(state='detached')
+
+
+def test_a_dialog_goes_by_a_press_beside_it_and_not_by_a_selection_that_ends_there(
+    sheet: Sheet,
+) -> None:
+    sheet.press('Save')
+    dialog, mouse = sheet.page.get_by_role('dialog'), sheet.page.mouse
+    box, name = dialog.bounding_box(), dialog.get_by_role('textbox').bounding_box()
+    x, y, beside = name['x'] + 40, name['y'] + name['height'] / 2, box['x'] - 30
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(beside, y, steps=3)
+    mouse.up()
+    # Its edge is of it, too.
+    mouse.click(box['x'] + 6, y)
+    sheet.wait('true')
+    assert dialog.is_visible()
+    mouse.click(beside, y)
+    dialog.wait_for(state='hidden')
 
 
 def test_a_name_that_cannot_be_is_refused_in_words(sheet: Sheet) -> None:

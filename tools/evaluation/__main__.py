@@ -23,7 +23,7 @@ import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.forms import forms_of
-from physsim_ros.drawing.strokes.meanings import DELETION, GRAVITY
+from physsim_ros.drawing.strokes.stages import DELETION, GRAVITY
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 

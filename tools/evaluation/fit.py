@@ -21,10 +21,11 @@ import sys
 
 import numpy as np
 from physsim_ros.drawing.strokes import evidence
-from physsim_ros.drawing.strokes.evidence import Candidate, CONSTANT, TABLE
+from physsim_ros.drawing.strokes.evidence import CONSTANT, TABLE
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
 from physsim_ros.drawing.strokes.signs import SIGNS
+from physsim_ros.drawing.strokes.stages import Candidate
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal

@@ -24,9 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
+from physsim_ros.drawing.strokes.choice import guesses_by_rules, is_likely, measures_of
 from physsim_ros.drawing.strokes.evidence import log_odds
 from physsim_ros.drawing.strokes.judge import Node, TABLE, Tree
-from physsim_ros.drawing.strokes.reading import guesses_by_rules, in_scene, is_likely, measures_of
+from physsim_ros.drawing.strokes.meanings import stroke_in_scene
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal
@@ -55,7 +56,7 @@ def examples(count: int, half: str) -> Iterator[Example]:
             stroke = resample_stroke(scene.samples)
         except Refusal:
             continue
-        context = in_scene(stroke, scene.view, settings)
+        context = stroke_in_scene(stroke, scene.view, settings)
         guesses = guesses_by_rules(context)
         if is_likely(guesses, settings):
             measures = measures_of(guesses, context)

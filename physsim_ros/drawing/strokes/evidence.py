@@ -23,11 +23,9 @@ from __future__ import annotations
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 import csv
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib.resources import files
 import math
-
-from physsim_ros.model.arrays import Floats
 
 # The file of the table, beside this one, and the name of the measure that is 0 for every stroke.
 TABLE, CONSTANT = 'evidence.csv', 'constant'
@@ -42,36 +40,6 @@ LEAST = 0.002
 # Width of a soft limit, in shares of it: with 0.1, the line of a rope up, over a wheel and down,
 # whose ends lie 14 % of its length apart, is too nearly an outline to be read.
 _SOFT = 0.075
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Candidate:
-    """
-    A stroke as a sign: with its tail at one of both ends, with one of its crossings.
-
-    :param measures: of the stroke by name, as the table of the sign has them
-    :param points: (n, 2) float64: the points that describe the sign, in the world [m]
-    """
-
-    measures: Mapping[str, float]
-    points: Floats
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Form:
-    """
-    A form that a stroke may have.
-
-    :param name: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
-    :param weight: how well the stroke fits the form, 0 .. 1
-    :param points: (n, 2) float64: the points that describe the form, in the world [m]
-    :param measures: of the fits to the stroke that the form was chosen by, by name
-    """
-
-    name: str
-    weight: float
-    points: Floats
-    measures: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from physsim_ros.drawing.strokes.evidence import evidence, Form, LEAST, probabilities
+from physsim_ros.drawing.strokes.evidence import evidence, LEAST, probabilities
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.meanings import Sign
 from physsim_ros.drawing.strokes.plain_forms import plain_forms
 from physsim_ros.drawing.strokes.signs import SIGNS
+from physsim_ros.drawing.strokes.stages import Form, Sign
 
 
 def forms_of(features: Features) -> tuple[Form, ...]:

@@ -19,7 +19,7 @@ from typing import Literal, TypeVar
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.transform import cross, dots, norms, Point
+from physsim_ros.model.transform import cross, dots, next_vertices, norms, Point
 
 # Rows of an array: points, or flags of points.
 _Rows = TypeVar('_Rows', Floats, Flags)
@@ -287,3 +287,14 @@ def point_of(row: Floats) -> Point:
     """Return a row of an array as a point."""
     x, y = row.tolist()
     return x, y
+
+
+def inside(points: Floats, outline: Floats) -> Flags:
+    """Return whether points lie in a closed polyline, by the crossings of a ray (even-odd)."""
+    start, end = outline, next_vertices(outline)
+    x, y = points[:, :1], points[:, 1:]
+    passes = (start[:, 1] > y) != (end[:, 1] > y)
+    height = np.where(end[:, 1] == start[:, 1], 1.0, end[:, 1] - start[:, 1])
+    at = start[:, 0] + (y - start[:, 1]) / height * (end[:, 0] - start[:, 0])
+    inside: Flags = np.count_nonzero(passes & (x < at), axis=1) % 2 == 1
+    return inside

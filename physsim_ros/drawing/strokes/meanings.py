@@ -2,123 +2,79 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Words of reading: a stroke has forms, a form has meanings in a scene, a meaning has an outcome.
+Meanings of the forms of a stroke in the scene that it was drawn over.
 
-Law: a meaning changes nothing; its outcome is a list of ordinary requests. An outcome that the
-world cannot have is refused when it is built, before any request is submitted.
+Law: the meanings of a form share its weight.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.evidence import Candidate, Form
-from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
+from physsim_ros.drawing.strokes import closed_shapes, open_lines
+from physsim_ros.drawing.strokes.bodies_under import joint_ends, wheels_passed
+from physsim_ros.drawing.strokes.evidence import LEAST
+from physsim_ros.drawing.strokes.features import Features, features_of
+from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.signs import SIGNS
+from physsim_ros.drawing.strokes.stages import (
+    BETWEEN,
+    Context,
+    DISC,
+    Form,
+    LINE,
+    Meaning,
+    OVAL,
+    POLYGON,
+    RECTANGLE,
+)
 from physsim_ros.drawing.strokes.stroke import Stroke
-from physsim_ros.model.arrays import Floats
-from physsim_ros.model.requests import Request
-from physsim_ros.model.transform import Point
 
-# Factor on the weight of a sign that was drawn where there is nothing that it could change: a
-# meaning that can be carried out is taken before it.
-MISPLACED = 0.5
-# Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
-BETWEEN = 0.98
-# Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
-# Every other meaning is a group of its own.
-CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
-OPEN = frozenset({'wall', 'rod', 'rope', 'chain', 'spring', 'hatching'})
-# Meanings that destroy what was drawn before, or change the whole world.
-DELETION, GRAVITY = 'deletion', 'gravity'
+# The function from each form to its meanings, by the form's name.
+_MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
+    **{sign.name: sign.meanings for sign in SIGNS},
+    LINE: open_lines.meanings,
+    DISC: closed_shapes.disc_meanings,
+    OVAL: closed_shapes.oval_meanings,
+    RECTANGLE: closed_shapes.rectangle_meanings,
+    POLYGON: closed_shapes.polygon_meanings,
+}
+# Forms that enclose an area.
+_OUTLINES = frozenset({DISC, OVAL, RECTANGLE, POLYGON})
 
 
-@dataclass(frozen=True, slots=True)
-class End:
-    """
-    An end of a joint.
-
-    :param point: in the world [m]
-    :param body: name of the body, or 'world' for the background
-    """
-
-    point: Point
-    body: str
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Context:
-    """
-    A stroke in the scene that it was drawn over.
-
-    :param features: of the stroke
-    :param forms: that it may have, by falling weight
-    :param scene: the world that it was drawn over
-    :param settings: of drawing
-    :param ends: of a joint between the bodies at its ends, the first on a dynamic body; None where
-        no joint can be there
-    :param wheels: that it runs around as a rope between these ends, in its order, and where [m]
-    """
-
-    features: Features
-    forms: Sequence[Form]
-    scene: SceneQuery
-    settings: DrawingSettings
-    ends: tuple[End, End] | None
-    wheels: Sequence[tuple[str, Point]]
-
-    @property
-    def drawn(self) -> Stroke:
-        """Return the stroke."""
-        return self.features.stroke
+def in_scene(
+    features: Features, forms: Sequence[Form], scene: SceneQuery, settings: DrawingSettings
+) -> Context:
+    """Return a stroke with its features and forms in the scene that it was drawn over."""
+    points = features.stroke.points
+    ends = joint_ends(points, scene, settings.snap)
+    return Context(
+        features=features,
+        forms=forms,
+        scene=scene,
+        settings=settings,
+        ends=ends,
+        wheels=wheels_passed(points, ends, scene, settings.snap) if ends else (),
+    )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Outcome:
-    """
-    The requests of a stroke, with words and a line that tell about them.
-
-    :param requests: to be submitted, in this order
-    :param subject: the body or joint concerned; '' where there is none or there are several
-    :param message: one sentence about the requests
-    :param outline: (n, 2) float64: the regularised stroke for the preview; the first point
-        repeated where it is closed [m]
-    """
-
-    requests: tuple[Request, ...]
-    subject: str
-    message: str
-    outline: Floats
+def stroke_in_scene(stroke: Stroke, scene: SceneQuery, settings: DrawingSettings) -> Context:
+    """Return a stroke in the scene that it was drawn over, with all forms that it may have."""
+    features = features_of(stroke)
+    return in_scene(features, forms_of(features), scene, settings)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Meaning:
-    """
-    A meaning that a stroke may have.
-
-    :param name: as `~/events` reports it: `disc`, `anchor` and so on
-    :param weight: likelihood, not yet normalised
-    :param build: returns the outcome, or raises a Refusal
-    """
-
-    name: str
-    weight: float
-    build: Callable[[], Outcome]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sign:
-    """
-    A sign: a form that is told from lines and outlines by evidence.
-
-    :param name: of the form, and of its rows in the table of evidence
-    :param candidates: yields what a stroke would be as this sign, with the measures of each
-    :param meanings: yields the meanings of the form; their weights add up to that of the form
-    """
-
-    name: str
-    candidates: Callable[[Features], Iterator[Candidate]]
-    meanings: Callable[[Form, Context], Iterator[Meaning]]
+def meanings_of(context: Context) -> Iterator[Meaning]:
+    """Yield the meanings of all forms of a stroke; several forms may have the same one."""
+    rope = open_lines.rope_around_wheels(context) if context.wheels else None
+    for form in context.forms:
+        found = _MEANINGS[form.name](form, context)
+        if rope is not None and form.name in _OUTLINES:
+            # A line from body to body that runs around a wheel encloses nothing.
+            yield replace(rope, weight=form.weight * BETWEEN)
+            found = (replace(each, weight=each.weight * (1.0 - BETWEEN)) for each in found)
+        yield from (each for each in found if each.weight >= LEAST)

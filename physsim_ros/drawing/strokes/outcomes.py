@@ -13,11 +13,11 @@ from collections.abc import Iterable, Iterator
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests, chains
+from physsim_ros.drawing import chains, new_bodies
 from physsim_ros.drawing.strokes import bodies_under, regularisation
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.geometry import circle_outline, point_of
-from physsim_ros.drawing.strokes.meanings import Context, End, Outcome
+from physsim_ros.drawing.strokes.stages import Context, End, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
@@ -30,7 +30,7 @@ def disc(points: Floats, context: Context) -> Outcome:
     center, radius = point_of(points[0]), math.dist(*points)
     name = context.scene.next_body()
     return Outcome(
-        requests=(body_requests.disc(name, center, radius, context.settings),),
+        requests=(new_bodies.disc(name, center, radius, context.settings),),
         subject=name,
         message=f'a disc of radius {radius:.3g} m',
         outline=circle_outline(center, radius),
@@ -49,7 +49,7 @@ def rectangle(points: Floats, context: Context) -> Outcome:
     across = np.array((-math.sin(yaw), math.cos(yaw))) * height / 2
     corners = np.array((-along - across, along - across, along + across, across - along))
     return Outcome(
-        requests=(body_requests.rectangle(name, pose, width, height, settings),),
+        requests=(new_bodies.rectangle(name, pose, width, height, settings),),
         subject=name,
         message=f'a rectangle of {width:.3g} m by {height:.3g} m',
         outline=_closed(np.array((x, y)) + corners),
@@ -67,7 +67,7 @@ def smooth_polygon(corners: Floats, context: Context) -> Outcome:
     """Return a polygon that is not regularised: its corners are points of a curve."""
     name = context.scene.next_body()
     return Outcome(
-        requests=(body_requests.polygon(name, list(map(point_of, corners)), context.settings),),
+        requests=(new_bodies.polygon(name, list(map(point_of, corners)), context.settings),),
         subject=name,
         message=f'a polygon of {len(corners)} corners',
         outline=_closed(corners),
@@ -88,7 +88,7 @@ def wall(points: Floats, context: Context) -> Outcome:
         corners[-1] = end
     length = sum(map(math.dist, corners, corners[1:]))
     return Outcome(
-        requests=(body_requests.wall(name, corners, settings),),
+        requests=(new_bodies.wall(name, corners, settings),),
         subject=name,
         message=f'a wall of {length:.3g} m',
         outline=np.array(corners),

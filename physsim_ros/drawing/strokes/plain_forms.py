@@ -17,7 +17,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.drawing.strokes.corner_detection import bends_of, outline_corners
-from physsim_ros.drawing.strokes.evidence import Form, LEAST, Limit, logistic
+from physsim_ros.drawing.strokes.evidence import LEAST, Limit, logistic
 from physsim_ros.drawing.strokes.features import Features, TREMOR
 from physsim_ros.drawing.strokes.fitting import rectangle, traced
 from physsim_ros.drawing.strokes.geometry import (
@@ -27,12 +27,11 @@ from physsim_ros.drawing.strokes.geometry import (
     widened,
 )
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
+from physsim_ros.drawing.strokes.stages import DISC, Form, LINE, OVAL, POLYGON, RECTANGLE
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
 from physsim_ros.model.transform import next_vertices, norms
 
-# Names of the forms.
-LINE, DISC, OVAL, RECTANGLE, POLYGON = 'line', 'disc', 'oval', 'rectangle', 'polygon'
 # The number of swings from which on a stroke is no plain line or outline.
 _SWINGING = Limit(5.5)
 # The greatest gap of a closed outline, in shares of its length, and how much it rises with the

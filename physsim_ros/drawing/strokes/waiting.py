@@ -8,12 +8,14 @@ Law: a joint, an x or an arrow that is drawn before its body is what it is when 
 stroke that has been a wall, a small solid or an x over nothing is read again, over the new body,
 and so is an arrow just before it, which turned gravity. A wall on which something lies, or whose
 end the new body only touches from above or beside, stays one. One within the new body is a mark,
-which has no effect; a second line may make an x of it.
+which has no effect; a second line may make an x of it. A round arrow that was drawn before the
+axle inside it is its motor.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import replace
 import itertools
 import math
@@ -22,24 +24,14 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
-from physsim_ros.drawing.strokes.figure import (
-    arrow_in,
-    crossing_in,
-    Figure,
-    lies_within,
-    mark_reading,
-    SLOWLY,
-)
+from physsim_ros.drawing.strokes.choice import guesses_of, is_likely, reading_of
+from physsim_ros.drawing.strokes.figure import Figure
 from physsim_ros.drawing.strokes.geometry import few_points, middle_half, point_of
+from physsim_ros.drawing.strokes.grouping import arrow_in, crossing_in, pause_between, SLOWLY
 from physsim_ros.drawing.strokes.joining import joined_strokes
-from physsim_ros.drawing.strokes.meanings import GRAVITY
-from physsim_ros.drawing.strokes.reading import (
-    guesses_of,
-    in_scene,
-    is_likely,
-    Reading,
-    reading_of,
-)
+from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
+from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.stages import Context, GRAVITY, Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
@@ -50,19 +42,62 @@ from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import Pose, rotated_each
 from physsim_ros.simulation.world.body_description import new_body
 
-# Meanings that a stroke has by the bodies under it.
+# Meanings that a stroke has by the bodies under it, and by an axle.
 _BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})
+_BY_AXLE = frozenset({'motor'})
 
 
 def readings_over(
-    solid: Figure, figures: Sequence[Figure], settings: DrawingSettings
+    figure: Figure, figures: Sequence[Figure], settings: DrawingSettings
 ) -> Iterator[tuple[tuple[Figure, ...], Reading]]:
     """
-    Yield earlier strokes and their readings over a new body, where those are others than before.
+    Yield earlier strokes and their readings over a new body or axle, where those are others.
 
-    :param solid: the new body
+    :param figure: the new body or axle
     :param figures: drawn before, the earliest first
     """
+    requests = list(figure.requests)
+    if figure.is_solid:
+        for group, reading in _readings_over_body(figure, figures, settings):
+            requests += reading.requests
+            yield group, reading
+    yield from _motor(requests, figures, figure.scene, settings)
+
+
+def _motor(
+    requests: Sequence[Request],
+    figures: Sequence[Figure],
+    scene: SceneQuery,
+    settings: DrawingSettings,
+) -> Iterator[tuple[tuple[Figure, ...], Reading]]:
+    """
+    Yield the last round arrow over nothing whose axle is made now, with its reading.
+
+    :param requests: of bodies and axles
+    :param scene: before these
+    """
+    axles = [each for each in requests if isinstance(each, Join) and each.kind is JointKind.AXLE]
+    if not axles:
+        return
+    for each in requests:
+        if isinstance(each, Spawn):
+            body, _ = new_body(each, scene.settings, None)
+            scene = scene.with_body(body, each.pose)
+    scene = scene.with_axles(axles)
+    for figure in reversed(figures):
+        if figure.meaning not in _BY_AXLE or figure.requests:
+            continue
+        stroke = resample_stroke(joined_strokes(figure.strokes))
+        reading = _likely_reading(stroke_in_scene(stroke, scene, settings), _BY_AXLE)
+        if reading is not None:
+            yield (figure,), reading
+            return
+
+
+def _readings_over_body(
+    solid: Figure, figures: Sequence[Figure], settings: DrawingSettings
+) -> Iterator[tuple[tuple[Figure, ...], Reading]]:
+    """Yield earlier strokes and their readings over a new body, where those are others."""
     scene = solid.scene
     spawn = next(each for each in solid.requests if isinstance(each, Spawn))
     body, _ = new_body(spawn, scene.settings, None)
@@ -108,7 +143,7 @@ def _is_no_body(figure: Figure, solid: Figure) -> bool:
             return figure.chosen is not None
         case (Configure(changes={'gravity': gravity}),):
             still = solid.scene.settings.gravity == gravity
-            return still and solid.began - figure.ended <= SLOWLY
+            return still and pause_between(figure, solid) <= SLOWLY
     return False
 
 
@@ -164,13 +199,9 @@ def _reading_over(
     path = joined_strokes(strokes)
     context = crossing_in(scene, strokes, settings) or arrow_in(scene, strokes, settings)
     if context is None and len(group) == 1:
-        context = in_scene(resample_stroke(path), scene, settings)
-    guesses = guesses_of(context) if context is not None else ()
-    if not is_likely(guesses, settings) or guesses[0].meaning not in _BY_BODIES:
-        return None
-    try:
-        reading = reading_of(guesses, 0)
-    except Refusal:
+        context = stroke_in_scene(resample_stroke(path), scene, settings)
+    reading = None if context is None else _likely_reading(context, _BY_BODIES)
+    if reading is None:
         return None
     ends = (point_of(each) for each in path[[0, -1]])
     within = (each for each in ends if name in scene.bodies_at(each))
@@ -183,3 +214,14 @@ def _reading_over(
         case _:
             held = reading.subject == name
     return reading if held else None
+
+
+def _likely_reading(context: Context, meanings: AbstractSet[str]) -> Reading | None:
+    """Return the likeliest reading of a stroke if it can be built and is one of some meanings."""
+    guesses = guesses_of(context)
+    if not is_likely(guesses, context.settings) or guesses[0].meaning not in meanings:
+        return None
+    try:
+        return reading_of(guesses, 0)
+    except Refusal:
+        return None

@@ -20,15 +20,13 @@
 // Up to this many fast bodies, boxes are compared first: it saves time, and changes no result.
 enum { FEW = 8 };
 
-// Whether a body could meet others in a step unseen by Chipmunk.
-static bool is_fast(const World *world, const Body *body) {
-    double distance = length(body->engine->v) + fabs(body->engine->w) * body->turning_radius;
-    return is_solid(body) && distance * world->dt > world->own->least_depth;
-}
-
 // The displacement of a body in the coming step.
 static Twist displacement_of(const World *world, const Body *body) {
     return twist_sum((Twist){0}, twist_of(body->engine), world->dt);
+}
+
+static bool is_fast(const World *world, const Body *body) {
+    return is_far(world, body, displacement_of(world, body));
 }
 
 static bool stop(int number, void *data) {

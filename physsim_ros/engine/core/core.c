@@ -45,13 +45,14 @@ void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *f
     world->statics_moved = true;
     Private *own = world->own;
     own->least_depth = INFINITY;
-    own->has_floor = own->has_one_way = own->has_belt = own->has_rolling = false;
+    own->has_floor = own->has_one_way = own->has_belt = own->has_rolling = own->has_sensor = false;
     free(own->pulls);
     own->pulls = NULL;
     for (int place = 0; place < count; place++) {
         Body *body = bodies + place;
         body->engine->userData = body;
-        own->least_depth = least(own->least_depth, body->safe_depth);
+        own->least_depth = body->sensor ? own->least_depth : least(own->least_depth, body->safe_depth);
+        own->has_sensor = own->has_sensor || body->sensor;
         own->has_floor = own->has_floor || body->braking > 0.0;
         own->has_one_way = own->has_one_way || is_one_way(body);
         own->has_belt = own->has_belt || body->belt != 0.0;
@@ -91,15 +92,15 @@ static void mark_sprung(World *world) {
     }
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
-        bool is_spring = joint->part_count > 0 && world->parts[joint->first_part].kind == PART_SPRING;
+        bool elastic = is_spring(world, joint);
         int ends[2] = {joint->a, joint->b};
         for (int end = 0; end < 2; end++) {
             Body *body = world->bodies + ends[end];
             if (body->dynamic) {
                 int root = root_of(parents, ends[end]);
                 hangs[root] = hangs[root] || !world->bodies[ends[1 - end]].dynamic;
-                swings[root] = swings[root] || is_spring;
-                body->on_spring = body->on_spring || is_spring;
+                swings[root] = swings[root] || elastic;
+                body->on_spring = body->on_spring || elastic;
             }
         }
     }

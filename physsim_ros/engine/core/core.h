@@ -443,9 +443,9 @@ typedef struct World {
     Joint *joints;
     Part *parts;
     Row *rows;
-    Motor *motors; // in the order of their joints
-    Guide *guides; // of rows
-    Grip *grips;
+    Motor *motors;         // in the order of their joints
+    Guide *guides;         // of rows
+    Grip *grips;           // in the order of their bodies
     AppliedForce *forces;  // in the order of their bodies
     Region *regions;       // in the order of their bodies; the air comes last
     Attractor *attractors; // in the order of their bodies

@@ -9,6 +9,11 @@
 // Where Chipmunk stores an impulse of a constraint; a pivot has two.
 double *impulse_at(const Part *part, int component);
 
+// Whether a joint is a spring between two points.
+static inline bool is_spring(const World *world, const Joint *joint) {
+    return joint->part_count > 0 && world->parts[joint->first_part].kind == PART_SPRING;
+}
+
 // Have springs with a greatest force obey it.
 void prepare_springs(World *world);
 

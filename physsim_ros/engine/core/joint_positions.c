@@ -8,8 +8,8 @@
 // Method: C(q) = 0 by Newton's method with the least mass-weighted displacement (fast projection: Goldenthal, Harmon,
 // Fattal, Bercovier and Grinspun, SIGGRAPH 2007). Contacts are rows too, so that what joints pull in and what contacts
 // push out is one system. An island makes only the share of a Newton step in which its rows are linear (trust region).
-// The displacement then changes velocities as far as their energy falls by it (the velocity update of position based
-// dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007).
+// The displacement then changes velocities as far as it takes energy from the bodies, seen from what holds them (the
+// velocity update of position based dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007).
 // Law: a gap never becomes energy.
 // Reports: the impulses of that change are reported, but the next step does not start from them. Where rows contradict
 // each other they are of any size and cancel in these poses alone; a step that started from them after a turn of its
@@ -192,7 +192,25 @@ static double trusted_share(const Solve *solve, const Twist *changes) {
     return turn > most_turn ? most_turn / turn : 1.0;
 }
 
-// Change velocities by a displacement, as far as their energy falls by it.
+// The work that bodies which forces do not move do by the impulses of a displacement [J]: kinematic ones, if they move.
+static double work_of_others(const Solve *solve, const Displacement *move, const double *impulses) {
+    const Island *island = solve->island;
+    Twist *momenta = TAKE(solve->arena, Twist, island->body_count);
+    for (int row = 0; row < island->row_count; row++) {
+        add_row_momenta(&solve->system, move->jacobians, row, impulses[row] / solve->dt, momenta);
+    }
+    double work = 0.0;
+    for (int body = 0; body < island->body_count; body++) {
+        if (island->inverses[body].mass == 0.0) {
+            Twist velocity = solve->velocities[body];
+            work -= dot(momenta[body].v, velocity.v) + momenta[body].w * velocity.w;
+        }
+    }
+    return work;
+}
+
+// Change velocities by a displacement, as far as that takes more energy than others give: the same share is made
+// however fast what holds an island moves.
 static void remove_velocity(Solve *solve, const Displacement *move, const double *impulses) {
     const Island *island = solve->island;
     Twist *changes = TAKE(solve->arena, Twist, island->body_count);
@@ -200,7 +218,7 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
         Twist moved = displacement(move->pushed[body], solve->poses[body]);
         changes[body] = (Twist){scaled(moved.v, 1.0 / solve->dt), moved.w / solve->dt};
     }
-    double lost = -mass_product(&solve->system, solve->velocities, changes);
+    double lost = work_of_others(solve, move, impulses) - mass_product(&solve->system, solve->velocities, changes);
     double share = paid_share(lost, mass_product(&solve->system, changes, changes));
     change_velocities(solve, changes, share);
     for (int row = 0; row < island->joint_row_count; row++) {

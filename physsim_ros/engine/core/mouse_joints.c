@@ -56,7 +56,7 @@ static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Ve
 }
 
 // Add the forces of all hands on one body; its weight and wrench act in the same step.
-static void pull_body(World *world, Body *body, const Grip **grips, int count) {
+static void pull_body(World *world, Body *body, const Grip *grips, int count) {
     Arena *arena = &world->own->arena;
     size_t mark = arena_mark(arena);
     Vec *impulses = TAKE(arena, Vec, count), *arms = TAKE(arena, Vec, count);
@@ -67,12 +67,12 @@ static void pull_body(World *world, Body *body, const Grip **grips, int count) {
     twist = twist_sum((Twist){scaled(twist.v, world->own->kept), twist.w * world->own->kept}, body->state.lead, 2.0);
     Rotation by = rotation(pose.yaw);
     for (int number = 0; number < count; number++) {
-        arms[number] = rotated(grips[number]->anchor, by);
+        arms[number] = rotated(grips[number].anchor, by);
     }
     int sweeps = count < world->space->iterations ? count : world->space->iterations;
     for (int sweep = 0; sweep < sweeps; sweep++) {
         for (int number = 0; number < count; number++) {
-            impulses[number] = solve_grip(world, body, grips[number], arms[number], pose, &twist, impulses[number]);
+            impulses[number] = solve_grip(world, body, grips + number, arms[number], pose, &twist, impulses[number]);
         }
     }
     for (int number = 0; number < count; number++) {
@@ -83,19 +83,15 @@ static void pull_body(World *world, Body *body, const Grip **grips, int count) {
 }
 
 void pull_grips(World *world) {
-    const Grip **grips = TAKE(&world->own->arena, const Grip *, world->grip_count);
-    for (int first = 0; first < world->grip_count; first++) {
-        int place = world->grips[first].body, count = 0;
-        bool done = false;
-        assert(place >= 0 && place < world->body_count);
-        for (int number = 0; number < world->grip_count; number++) {
-            if (world->grips[number].body == place) {
-                done = done || number < first;
-                grips[count++] = world->grips + number;
-            }
+    const Grip *grips = world->grips;
+    int last = 0;
+    for (int first = 0; first < world->grip_count; first = last) {
+        int place = grips[first].body;
+        assert(place >= 0 && place < world->body_count && (first == 0 || grips[first - 1].body < place));
+        for (last = first; last < world->grip_count && grips[last].body == place; last++) {
         }
-        if (!done && world->bodies[place].dynamic) {
-            pull_body(world, world->bodies + place, grips, count);
+        if (world->bodies[place].dynamic) {
+            pull_body(world, world->bodies + place, grips + first, last - first);
         }
     }
 }

@@ -17,7 +17,6 @@
 
 #include "one_way.h"
 #include "stages.h"
-#include <stdlib.h>
 
 // The cosine of the angle from the direction that others pass in, up to which a contact is on top of a body: 78°.
 static const double least_rise = 0.2;
@@ -28,23 +27,6 @@ bool is_one_way(const Body *body) {
 
 bool is_of_one_way(const cpArbiter *arbiter) {
     return is_one_way(body_of(arbiter->body_a)) || is_one_way(body_of(arbiter->body_b));
-}
-
-// The numbers of two shapes, or of two bodies, the lesser first.
-typedef struct Pair {
-    uintptr_t low, high;
-} Pair;
-
-static Pair pair_of(const cpShape *a, const cpShape *b) {
-    return a->hashid < b->hashid ? (Pair){a->hashid, b->hashid} : (Pair){b->hashid, a->hashid};
-}
-
-static int by_numbers(const void *one, const void *other) {
-    const Pair *a = one, *b = other;
-    if (a->low != b->low) {
-        return a->low < b->low ? -1 : 1;
-    }
-    return (a->high > b->high) - (a->high < b->high);
 }
 
 static bool has_load(const cpArbiter *arbiter) {
@@ -62,18 +44,14 @@ void find_loaded(World *world) {
     for (int number = 0; number < count; number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         if (is_of_one_way(arbiter) && has_load(arbiter)) {
-            world->own->loaded[world->own->loaded_count++] = pair_of(arbiter->a, arbiter->b);
+            world->own->loaded[world->own->loaded_count++] = pair_of(arbiter->a->hashid, arbiter->b->hashid);
         }
     }
-    sort(world->own->loaded, world->own->loaded_count, sizeof(Pair), by_numbers);
-}
-
-static bool is_listed(Pair pair, const Pair *list, int count) {
-    return count > 0 && bsearch(&pair, list, (size_t)count, sizeof(Pair), by_numbers) != NULL;
+    sort_pairs(world->own->loaded, world->own->loaded_count);
 }
 
 bool was_loaded(const World *world, const cpShape *a, const cpShape *b) {
-    return is_listed(pair_of(a, b), world->own->loaded, world->own->loaded_count);
+    return has_pair(world->own->loaded, world->own->loaded_count, pair_of(a->hashid, b->hashid));
 }
 
 // How far a normal leads in the direction in which others pass a body; 1 is along it.
@@ -119,12 +97,6 @@ static bool is_where_bodies_pass(const World *world, const cpArbiter *arbiter) {
     return rise < -least_rise || (are_closed_at(arbiter) && !comes_from_outside(world, arbiter));
 }
 
-// The numbers of the bodies of a contact.
-static Pair bodies_of(const World *world, const cpArbiter *arbiter) {
-    uintptr_t a = (uintptr_t)place_of(world, arbiter->body_a), b = (uintptr_t)place_of(world, arbiter->body_b);
-    return a < b ? (Pair){a, b} : (Pair){b, a};
-}
-
 void find_passing(World *world) {
     Private *own = world->own;
     int count = own->has_one_way ? arbiter_count(world) : 0;
@@ -136,7 +108,7 @@ void find_passing(World *world) {
             own->passing[own->passing_count++] = bodies_of(world, arbiter);
         }
     }
-    sort(own->passing, own->passing_count, sizeof(Pair), by_numbers);
+    sort_pairs(own->passing, own->passing_count);
 }
 
 bool passes(const World *world, const cpArbiter *arbiter) {
@@ -145,5 +117,5 @@ bool passes(const World *world, const cpArbiter *arbiter) {
         return false;
     }
     return !are_closed_at(arbiter) ||
-           (!carries_load(world, arbiter) && is_listed(bodies_of(world, arbiter), own->passing, own->passing_count));
+           (!carries_load(world, arbiter) && has_pair(own->passing, own->passing_count, bodies_of(world, arbiter)));
 }

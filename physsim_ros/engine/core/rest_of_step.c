@@ -141,49 +141,53 @@ static void find_remaining_moves(World *world) {
     }
 }
 
-// The remaining displacement of a body that could tunnel through the thinnest body of the world; else none.
-static Twist far_displacement(const World *world, const Body *body) {
-    Twist displacement = body->scratch.remaining_move;
-    bool is_far = length(displacement.v) + fabs(displacement.w) * body->turning_radius > world->own->least_depth;
-    return is_far && is_solid(body) ? displacement : (Twist){0};
+static Twist remaining_displacement(const World *world, const Body *body) {
+    (void)world;
+    return body->scratch.remaining_move;
 }
 
 static bool is_displaced(Twist displacement) {
     return displacement.v.x != 0.0 || displacement.v.y != 0.0 || displacement.w != 0.0;
 }
 
-void finish_moves(World *world) {
-    int count = 0;
-    find_remaining_moves(world);
-    for (int number = 0; number < active_count(world); number++) {
-        const Body *body = active_at(world, number);
-        Twist displacement = body->scratch.remaining_move;
-        if (is_displaced(far_displacement(world, body))) {
-            count++;
-        } else if (is_displaced(displacement)) {
-            set_pose(body->engine, moved(pose_of(body->engine), displacement, 1.0));
-        }
-    }
-    if (count == 0) {
-        return;
-    }
-    Sweep sweep = sweep_of(world, far_displacement);
-    int *far = TAKE(&world->own->arena, int, count), far_count = 0;
+// Have the remaining displacements of bodies end where they meet others.
+static void stop_remaining_moves(World *world) {
+    Sweep sweep = sweep_of(world, remaining_displacement);
+    int *far = TAKE(&world->own->arena, int, sweep.count), count = 0;
     for (int number = 0; number < sweep.count; number++) {
         Mover *mover = sweep.movers + number;
         mover->movable = is_displaced(mover->rate);
-        if (mover->movable) {
-            assert(far_count < count);
-            far[far_count++] = number;
+        if (is_far(world, mover->body, mover->body->scratch.remaining_move)) {
+            far[count++] = number;
         }
     }
-    join_impacts(&sweep, far, far_count);
-    for (int number = 0; number < far_count; number++) {
-        const Mover *mover = sweep.movers + far[number];
-        Vec pivot;
-        Pose pose = pose_at(mover, 1.0, &pivot);
-        // A disc turns by all of its rotation, whatever it meets (`mover_of`).
-        pose.yaw += mover->turning > 0.0 ? 0.0 : far_displacement(world, mover->body).w;
-        set_pose(mover->body->engine, pose);
+    join_impacts(&sweep, far, count);
+    for (int number = 0; number < sweep.count; number++) {
+        const Mover *mover = sweep.movers + number;
+        if (mover->met) {
+            Twist *move = &mover->body->scratch.remaining_move;
+            Pose begin = pose_of(mover->body->engine);
+            Vec pivot;
+            Pose end = pose_at(mover, 1.0, &pivot);
+            *move = (Twist){sub(end.p, begin.p), mover->turning > 0.0 ? end.yaw - begin.yaw : move->w};
+        }
+    }
+}
+
+void finish_moves(World *world) {
+    bool any_far = false;
+    find_remaining_moves(world);
+    for (int number = 0; number < active_count(world); number++) {
+        const Body *body = active_at(world, number);
+        any_far = any_far || is_far(world, body, body->scratch.remaining_move);
+    }
+    if (any_far) {
+        stop_remaining_moves(world);
+    }
+    for (int number = 0; number < active_count(world); number++) {
+        const Body *body = active_at(world, number);
+        if (is_displaced(body->scratch.remaining_move)) {
+            set_pose(body->engine, moved(pose_of(body->engine), body->scratch.remaining_move, 1.0));
+        }
     }
 }

@@ -24,6 +24,7 @@ static const double touching = 1e-3;
 typedef struct Search {
     World *world;
     const Mover *sensor, *movers;
+    bool is_far; // the sensor has moved further than it may be entered unseen
     Crossing *found;
 } Search;
 
@@ -52,13 +53,14 @@ double crossing_time(World *world, Body *body, Body *sensor) {
 }
 
 static bool has_moved_far(const Body *body, Twist displacement) {
-    return !body->anchored && length(displacement.v) + fabs(displacement.w) * body->turning_radius > body->safe_depth;
+    return !body->anchored && farthest_displaced(body, displacement) > body->safe_depth;
 }
 
 static bool find_crossing(int number, void *data) {
     const Search *search = data;
     const Mover *body = search->movers + number, *sensor = search->sensor;
-    if (may_meet(body->body, sensor->body) && meeting_of(search->world, body, sensor) <= 1.0) {
+    bool may_be_unseen = search->is_far || has_moved_far(body->body, body->rate);
+    if (may_be_unseen && may_meet(body->body, sensor->body) && meeting_of(search->world, body, sensor) <= 1.0) {
         search->found(search->world, body->body, sensor->body);
     }
     return true;
@@ -66,14 +68,13 @@ static bool find_crossing(int number, void *data) {
 
 void find_crossings(World *world, Crossing *found) {
     Arena *arena = &world->own->arena;
-    bool any = false, any_fast = false;
+    bool any_fast = false;
+    if (!world->own->has_sensor) {
+        return;
+    }
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
-        any = any || body->sensor;
         any_fast = any_fast || (body->sensor && has_moved_far(body, displacement_in_step(body)));
-    }
-    if (!any) {
-        return;
     }
     size_t mark = arena_mark(arena);
     Mover *movers = TAKE(arena, Mover, world->body_count);
@@ -92,7 +93,7 @@ void find_crossings(World *world, Crossing *found) {
         Body *body = world->bodies + place;
         if (body->sensor) {
             Mover sensor = mover_in_step(body);
-            Search search = {world, &sensor, movers, found};
+            Search search = {world, &sensor, movers, has_moved_far(body, sensor.rate), found};
             tree_query(&tree, sensor.box, find_crossing, &search);
         }
     }

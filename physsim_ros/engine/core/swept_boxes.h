@@ -38,6 +38,17 @@ static inline bool is_solid(const Body *body) {
     return !body->anchored && !body->sensor;
 }
 
+// The greatest distance by which a point of a body is displaced [m]; a disc covers the same ground however it turns.
+static inline double farthest_displaced(const Body *body, Twist displacement) {
+    return length(displacement.v) + fabs(displacement.w) * body->turning_radius;
+}
+
+// Whether a body could meet others on a displacement unseen by Chipmunk: of two that approach by more than the safe
+// depth of one, at least one is displaced by more than half of it.
+static inline bool is_far(const World *world, const Body *body, Twist displacement) {
+    return is_solid(body) && farthest_displaced(body, displacement) > world->own->least_depth / 2.0;
+}
+
 // A body that moves by a displacement in the step.
 Mover mover_of(Body *body, Twist displacement);
 

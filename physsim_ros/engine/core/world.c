@@ -18,6 +18,22 @@ void sort(void *list, int count, size_t size, int (*compare)(const void *, const
     }
 }
 
+static int by_numbers(const void *one, const void *other) {
+    const Pair *a = one, *b = other;
+    if (a->low != b->low) {
+        return a->low < b->low ? -1 : 1;
+    }
+    return (a->high > b->high) - (a->high < b->high);
+}
+
+void sort_pairs(Pair *list, int count) {
+    sort(list, count, sizeof(Pair), by_numbers);
+}
+
+bool has_pair(const Pair *list, int count, Pair pair) {
+    return count > 0 && bsearch(&pair, list, (size_t)count, sizeof(Pair), by_numbers) != NULL;
+}
+
 void set_pose(cpBody *body, Pose pose) {
     Rotation by = rotation(pose.yaw);
     body->p = pose.p;

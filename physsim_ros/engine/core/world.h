@@ -22,7 +22,7 @@ typedef struct Private {
     int jointed_count;
     double kept;        // share of its velocity that a body keeps in a sub-step
     double push;        // rate at which an overlap is pushed out [1/s]
-    double least_depth; // least safe depth of a body [m]
+    double least_depth; // least safe depth of a body that is no sensor [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
     struct Statics *statics;
@@ -42,8 +42,8 @@ typedef struct Private {
     int system_turn;
     int call_step;   // number of the step in this call
     bool all_active; // requests may have changed any body since the last sub-step
-    // Whether there is a body on which a floor acts; one-way, with a belt, with rolling resistance.
-    bool has_floor, has_one_way, has_belt, has_rolling;
+    // Whether there is a body on which a floor acts; one-way, with a belt, with rolling resistance; a sensor.
+    bool has_floor, has_one_way, has_belt, has_rolling, has_sensor;
     int sub_step;                // number of the sub-step in this step
     int next_actor;              // number of the actor whose velocity is chosen next
     bool choosing;               // velocities of actors are being chosen, before the first sub-step
@@ -134,6 +134,24 @@ static inline cpArbiter *arbiter_at(const World *world, int number) {
 
 // `qsort`, which in GNU's library takes time and memory for an empty list, too.
 void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *));
+
+// The numbers of two shapes, or the places of two bodies, the lesser first.
+typedef struct Pair {
+    uintptr_t low, high;
+} Pair;
+
+static inline Pair pair_of(uintptr_t a, uintptr_t b) {
+    return a < b ? (Pair){a, b} : (Pair){b, a};
+}
+
+// The places of the bodies of a contact.
+static inline Pair bodies_of(const World *world, const cpArbiter *arbiter) {
+    return pair_of((uintptr_t)place_of(world, arbiter->body_a), (uintptr_t)place_of(world, arbiter->body_b));
+}
+
+void sort_pairs(Pair *list, int count);
+// Whether a sorted list has a pair.
+bool has_pair(const Pair *list, int count, Pair pair);
 
 // The root of a set of bodies (union-find with path halving; Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
 // Algorithms", JACM 1984); the least of a set is its root.

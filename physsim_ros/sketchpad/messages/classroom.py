@@ -88,8 +88,8 @@ def lower_hand(session: PageSession, origin: Origin, page: int) -> None:
 
 @message('leave', 'page', Right.TEACH)
 def leave(page: PageSession, origin: Origin) -> None:
-    """Have the pages of pupils leave this world, as their seat is free."""
-    page.send_all({'type': 'leave'})
+    """Have the pupils who have come until now leave this world, as their seat is free."""
+    page.shared.ask_to_leave()
     page.answer_page(origin, 'pupils have left this world')
 
 

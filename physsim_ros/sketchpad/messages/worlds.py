@@ -135,7 +135,6 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     async def save() -> str:
         with reaching(name):
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
-            page.shared.own_worlds.keep(name)
         return await page.world.perform_on('save_world', name)
 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)

@@ -73,7 +73,7 @@ const sound = new Sound({connection, frames, world});
 const time = new TimeBar({connection, gestures, notes, people, view, words, world});
 const files = new Files({connection, dialog, notes, people, room, words});
 const lessons = new Lessons({connection, files, people, room, selection, time, words, world});
-const links = new Links({connection, dialog, files, lessons, notes, people, world});
+new Links({connection, dialog, files, lessons, notes, people, world});
 const plotting = new Plotting({connection, lessons, notes, records, room, selection, view, words, world});
 const plots = new Plots({connection, plotting, records, selection, view, world});
 const driving = new Driving({connection, people, selection, world});
@@ -95,7 +95,7 @@ gestures.on('menu', (page) => notes.load(import('./input/menu.js'), ({Menu}) => 
 }));
 new Keyboard({camera, cursor, dialog, driving, gestures, panel, people, plotting, readings, room, selection, settings, stopwatch,
   time, toolbar, view, world});
-new TopBar({arrows, camera, connection, dialog, files, lessons, links, notes, room, selection, settings, view});
+new TopBar({arrows, camera, connection, dialog, files, lessons, notes, room, selection, settings, view, world});
 new Classroom({camera, connection, dialog, lessons, notes, people, selection, view});
 new Narrator({connection, selection, settings, words, world});
 new Tips();

@@ -40,7 +40,7 @@ class Card {
     this.seated = ''; // name of the pupil who has the seat
     this.frozen = false;
     this.running = false;
-    this.reached = false; // whether the world answers
+    this.reached = true; // whether the world answers, as far as anybody knows
     this.raisedAt = 0; // [ms] when the hand was raised; 0 where it is down
     this.name = createElement('a', {target: '_blank', rel: 'noopener'});
     this.lesson = createElement('small');
@@ -55,15 +55,14 @@ class Card {
     this.view = new SceneView(canvas, this.world, camera);
     this.canvas = canvas;
     this.words = new Words(connection);
-    /** @type {Classmate | undefined} */
-    this.pupil = undefined;
+    /** @type {?Classmate | undefined} null until the world has told who is there */
+    this.pupil = null;
+    connection.on('scene', () => this.show());
     connection.on('frame', () => {
-      const {scene, paused} = this.world;
-      if (this.running === paused) {
-        this.running = !paused;
-        this.show();
-      }
-      if (!this.framed.startsWith(`${scene.epoch} `)) this.show();
+      const {paused} = this.world;
+      if (this.running !== paused) return;
+      this.running = !paused;
+      this.show();
     });
     this.view.overlays.push((view) => {
       const {scene: {bounds, epoch}, count} = this.world;
@@ -125,7 +124,7 @@ class Card {
     element.classList.toggle('away', !pupil);
     element.classList.toggle('raised', this.raisedAt > 0);
     this.hand.hidden = !this.raisedAt;
-    const here = this.reached ? person && !pupil && t('not here') : t('does not answer');
+    const here = this.reached ? person && pupil === undefined && t('not here') : t('does not answer');
     showText(this.state, [here, this.running ? '▶' : '❚❚', ...this.frozen ? [t('frozen')] : []].filter(Boolean).join(' · '));
     this.state.title = this.running ? t('playing') : t('paused');
     showText(this.lesson, lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson'));
@@ -257,7 +256,7 @@ function begin(count, pupils) {
     if (chosen) lessons.value = chosen;
   });
   // A lesson may have been written meanwhile.
-  lessons.onpointerdown = () => cards[0].connection.send('list');
+  lessons.onfocus = () => cards[0].connection.send('list');
   // No link: it would make a pupil of the teacher's browser.
   const showCode = () => dialog.show(t('Pupils come here'), createElement('img', {src: '/qr.svg', className: 'code', alt: t('QR code of the address of pupils')}),
     createElement('p', {id: 'pupils'}, pupils));

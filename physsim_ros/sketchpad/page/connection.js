@@ -24,7 +24,7 @@ const REACHED = 3000; // ms within which a server that is there answers a reques
 const AGAIN = ['stroke', 'spawn', 'change', 'change_joint', 'delete', 'unjoin', 'copy', 'copy_machine', 'move_bodies', 'place', 'answered', 'say'];
 const LASTING = 60000; // ms for which they do
 /** Messages that have no answer, or that nobody misses. */
-const PASSING = ['show', 'here', 'move', 'watch', 'drive', 'let_go', 'drop', 'list', 'ping', 'person', 'draw_with', 'raise_hand', 'grab', 'follow'];
+export const PASSING = ['show', 'here', 'move', 'watch', 'drive', 'let_go', 'drop', 'list', 'ping', 'person', 'draw_with', 'raise_hand', 'follow'];
 
 /**
  * Events: messages by their type in the protocol; frame, ghost_frame, open, silent, heard, closed, sent, unsent, again,
@@ -78,7 +78,7 @@ export class Connection extends Emitter {
    */
   send(type, fields = {}) {
     if (this.socket?.readyState !== WebSocket.OPEN) {
-      this.#tell('unsent', {type, ...fields});
+      if (!PASSING.includes(type)) this.#tell('unsent', {type, ...fields});
       return '';
     }
     const message = {id: String(++this.number), type, ...fields};

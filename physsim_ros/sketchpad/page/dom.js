@@ -222,6 +222,18 @@ export function soon(show, pause) {
   };
 }
 
+/**
+ * Replace what is in an element: where a control of it has the focus, the one that takes its place has it then.
+ * @param {HTMLElement} element
+ * @param {Node[]} children
+ */
+export function replaceContent(element, ...children) {
+  const controls = () => /** @type {HTMLElement[]} */ ([...element.querySelectorAll('button, input, select, summary, textarea')]);
+  const place = controls().findIndex((each) => each === document.activeElement);
+  element.replaceChildren(...children);
+  controls()[place]?.focus({preventScroll: true});
+}
+
 /** @param {Node[]} children beside each other */
 export function inRow(...children) {
   return createElement('div', {className: 'row'}, ...children);

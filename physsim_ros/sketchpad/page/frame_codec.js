@@ -28,7 +28,8 @@ export function decodeFrame(buffer) {
   const frame = {
     epoch: view.getUint32(4, true),
     time: view.getFloat64(8, true),
-    speed: view.getFloat32(16, true),
+    // As it was asked for: 0.1 is 0.10000000149 there.
+    speed: Number(view.getFloat32(16, true).toPrecision(7)),
     ghost: (flags & GHOST) > 0,
     x: column(), y: column(), yaw: column(),
   };

@@ -6,7 +6,7 @@ import {DEGREE} from './vectors.js';
 
 /** @param {number} value */
 export function threeDigits(value) {
-  return value < 1e4 ? digits(value, 3) : localized(value.toExponential(2));
+  return Math.abs(value) < 1e4 ? digits(value, 3) : localized(value.toExponential(2));
 }
 
 /**
@@ -47,7 +47,8 @@ export function degrees(angle, places = 1) {
  * @returns {number} NaN where it is none
  */
 export function numberOf(text) {
-  return text.trim() === '' ? NaN : Number(text.replace(',', '.').replace('−', '-'));
+  const value = text.trim() === '' ? NaN : Number(text.replace(',', '.').replaceAll('−', '-'));
+  return Number.isFinite(value) ? value : NaN;
 }
 
 /**

@@ -31,7 +31,6 @@ import type {Dialog} from './ui/dialog.js';
 import type {Files} from './ui/files.js';
 import type {Hints} from './ui/hints.js';
 import type {Lessons} from './ui/lessons.js';
-import type {Links} from './ui/links.js';
 import type {Sound} from './ui/narrator.js';
 import type {Notes} from './ui/notes.js';
 import type {Settings} from './ui/settings.js';
@@ -58,7 +57,6 @@ interface Page {
   gestures: Gestures;
   hints: Hints;
   lessons: Lessons;
-  links: Links;
   material: Material;
   meters: Meters;
   notes: Notes;

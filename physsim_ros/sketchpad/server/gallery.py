@@ -4,11 +4,14 @@
 """
 The gallery: the worlds and lessons that pages offer, those of the package and the user's own.
 
-Law: an own world or lesson comes before the shipped one of its name.
+Laws: an own world or lesson comes before the shipped one of its name. The files are read on a
+thread, one time after the other, however many pages ask.
 """
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Callable
 from contextlib import suppress
 from functools import lru_cache
 from itertools import islice
@@ -44,6 +47,49 @@ BY_DIFFICULTY = (
     'sorting',
     'bridge',
 )
+
+
+class Gallery:
+    """
+    The message of all worlds and lessons, for pages that ask; on the server's thread.
+
+    :param read: returns it, as the files are then; called on a thread of its own
+    :param send: sends a message to the page of a number, or to all for None
+    :param boundary: of the server
+    """
+
+    def __init__(
+        self,
+        read: Callable[[], dict[str, Any]],
+        send: Callable[[dict[str, Any], int | None], None],
+        boundary: ErrorBoundary,
+    ) -> None:
+        self._read = read
+        self._send = send
+        self._boundary = boundary
+        # Numbers of the pages that have asked since the files began to be read.
+        self._asking = dict[int | None, None]()
+        self._reading: asyncio.Task[None] | None = None
+
+    def send_to(self, page: int | None) -> None:
+        """Send the message to the page of a number, or to all for None, once it is read."""
+        self._asking[page] = None
+        if self._reading is None:
+            self._reading = asyncio.create_task(self._answer())
+
+    def close(self) -> None:
+        """Send nothing any more."""
+        if self._reading is not None:
+            self._reading.cancel()
+
+    async def _answer(self) -> None:
+        while self._asking:
+            asking, self._asking = self._asking, {}
+            with self._boundary.output('page'):
+                content = await asyncio.to_thread(self._read)
+                for page in asking:
+                    self._send(content, page)
+        self._reading = None
 
 
 def gallery_content(own_worlds: OwnWorlds, boundary: ErrorBoundary) -> dict[str, Any]:

@@ -35,6 +35,9 @@ MOST_ANSWERS_TO_OTHERS = 20
 # newest frame and its scenes, which have the size of the world, do not count.
 MOST_UNREAD = 16 * 2**20
 
+# Message that asks the pages of pupils to leave this world.
+LEAVE = compact({'type': 'leave'})
+
 
 class OpenPage:
     """
@@ -132,6 +135,8 @@ class OpenPages:
         self._loop = loop
         self._pages: dict[int, OpenPage] = {}
         self._last_number = 0
+        # Greatest number of the people who were asked to leave; 0 before.
+        self._left = 0
         # Points of cursors that moved and were not sent yet [m], by page.
         self._cursors: dict[int, Point] = {}
 
@@ -160,6 +165,15 @@ class OpenPages:
         page = OpenPage(socket, self._last_number, person or self._last_number, on_read)
         self._pages[page.number] = page
         return page
+
+    def ask_to_leave(self) -> None:
+        """Ask the pupils who have come until now to leave, also those whose pages are asleep."""
+        self._left = self._last_number
+        self.send(LEAVE)
+
+    def has_left(self, person: int | None) -> bool:
+        """Return whether a person was asked to leave; None is one who has not been here."""
+        return person is not None and person <= self._left
 
     def remove(self, page: OpenPage) -> None:
         """Remove a page that is closed."""

@@ -10,9 +10,6 @@ receives them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
@@ -23,8 +20,9 @@ from physsim_ros.sketchpad.messages import fields, read_message
 from physsim_ros.sketchpad.rights import Right, Role
 from physsim_ros.sketchpad.server.frame_codec import Show
 from physsim_ros.sketchpad.server.frame_feed import FrameFeed
+from physsim_ros.sketchpad.server.gallery import Gallery
 from physsim_ros.sketchpad.server.guarded import GuardedSocket
-from physsim_ros.sketchpad.server.open_pages import MOST_PAGES, OpenPage
+from physsim_ros.sketchpad.server.open_pages import LEAVE, MOST_PAGES, OpenPage
 from physsim_ros.sketchpad.server.scene_codec import compact
 
 # Time from one frame to the next of a teacher's page that watches a class [s].
@@ -35,14 +33,14 @@ class PageSocket(GuardedSocket):
     """The socket of a page."""
 
     def initialize(  # type: ignore[override]
-        self, feed: FrameFeed, inbox: Inbox, gallery: Callable[[], dict[str, Any]]
+        self, feed: FrameFeed, inbox: Inbox, gallery: Gallery
     ) -> None:
         """
         Set the receivers of its messages.
 
         :param feed: of frames to the open pages
         :param inbox: of the world's thread
-        :param gallery: returns the list of worlds and lessons, as their files are now
+        :param gallery: sends the list of worlds and lessons
         """
         super().initialize()
         self.feed = feed
@@ -63,7 +61,13 @@ class PageSocket(GuardedSocket):
             self.role = Role.VIEW
         # One that connects again sends the key of its person.
         key = self.request.arguments.get('person', [b''])[-1]
-        self._page = self.feed.add_page(self, self.access.person_of(key))
+        before = self.access.person_of(key)
+        if self.role is Role.DRAW and self.feed.pages.has_left(before):
+            # Nothing that was drawn meanwhile comes into the world of the next pupil.
+            self.write_message(LEAVE)
+            self.close()
+            return
+        self._page = self.feed.add_page(self, before)
         person = self._page.person
         watches = self.role is Role.TEACH and 'watch' in self.request.arguments
         self._page.period = WATCH_PERIOD if watches else 0.0
@@ -147,4 +151,4 @@ def _here(socket: PageSocket, page: OpenPage, *, point: Point) -> None:
 @server_message('list', Right.LOOK)
 def _list(socket: PageSocket, page: OpenPage) -> None:
     """Send this page the list of worlds and lessons as their files are now."""
-    page.send(compact(socket.gallery()))
+    socket.gallery.send_to(page.number)

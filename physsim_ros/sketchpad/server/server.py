@@ -24,7 +24,7 @@ from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.message import Content
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.frame_feed import FrameFeed
-from physsim_ros.sketchpad.server.gallery import gallery_content
+from physsim_ros.sketchpad.server.gallery import Gallery, gallery_content
 from physsim_ros.sketchpad.server.guarded import LEFT
 from physsim_ros.sketchpad.server.page_handlers import ResultList
 from physsim_ros.sketchpad.server.page_socket import PageSocket
@@ -73,7 +73,8 @@ class Server:
         boundary: ErrorBoundary,
     ) -> None:
         self._boundary = boundary
-        self._gallery = partial(gallery_content, own_worlds, boundary)
+        read = partial(gallery_content, own_worlds, boundary)
+        self._gallery = Gallery(read, self._send, boundary)
         self._site = Site(address, port)
         self._loop = asyncio.new_event_loop()
         self._feed = FrameFeed(self._loop)
@@ -140,7 +141,11 @@ class Server:
 
     def list_worlds(self, page: int | None = None) -> None:
         """Send the list of worlds to a page, or to all."""
-        self.send(self._gallery, page)
+        self._post(partial(self._gallery.send_to, page))
+
+    def ask_to_leave(self) -> None:
+        """Ask the pupils who have come until now to leave, also those whose pages are asleep."""
+        self._post(self._feed.pages.ask_to_leave)
 
     def close(self) -> None:
         """Close all pages, and end the thread."""
@@ -183,6 +188,7 @@ class Server:
         server.add_sockets(self._site.sockets)
         await self._ended.wait()
         server.stop()
+        self._gallery.close()
         for page in self._feed.pages:
             page.close(1001, 'the world has ended')
         await server.close_all_connections()

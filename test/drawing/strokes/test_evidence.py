@@ -10,7 +10,6 @@ import itertools
 import numpy as np
 from physsim_ros.drawing.strokes import evidence
 from physsim_ros.drawing.strokes.evidence import (
-    Candidate,
     CONSTANT,
     group_confidence,
     probabilities,
@@ -19,8 +18,8 @@ from physsim_ros.drawing.strokes.evidence import (
     terms_of,
 )
 from physsim_ros.drawing.strokes.features import features_of
-from physsim_ros.drawing.strokes.meanings import Sign
 from physsim_ros.drawing.strokes.signs import SIGNS
+from physsim_ros.drawing.strokes.stages import Candidate, Sign
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 import pytest
 from tools.evaluation import arrows, figures

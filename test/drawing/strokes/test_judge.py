@@ -9,15 +9,11 @@ from importlib.resources import files
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
+from physsim_ros.drawing.strokes.choice import guesses_by_rules, guesses_of, measures_of
 from physsim_ros.drawing.strokes.judge import judged, TABLE
-from physsim_ros.drawing.strokes.meanings import Context
-from physsim_ros.drawing.strokes.reading import (
-    guesses_by_rules,
-    guesses_of,
-    in_scene,
-    measures_of,
-)
+from physsim_ros.drawing.strokes.meanings import stroke_in_scene
 from physsim_ros.drawing.strokes.signs import SIGNS
+from physsim_ros.drawing.strokes.stages import Context
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 import pytest
 from tools.evaluation.judge import Example, fit, table
@@ -25,7 +21,7 @@ from tools.evaluation.scenes import Scene, scenes
 
 
 def context_of(scene: Scene) -> Context:
-    return in_scene(resample_stroke(scene.samples), scene.view, DrawingSettings())
+    return stroke_in_scene(resample_stroke(scene.samples), scene.view, DrawingSettings())
 
 
 @pytest.fixture(scope='module')

@@ -228,7 +228,7 @@ LIMITS: dict[
         (4, 5), ('rectangle', 'axle world'),
     ),
     'overhang of an axle over a second body': (
-        'bodies_under._ACROSS',
+        'closed_shapes._ACROSS',
         [spawning(f'a/{n}', Box(width=3.0, height=3.0), (3.0 * n, 0.0, 0.0)) for n in range(2)],
         lambda it: circle(1.5 - it, 0.0, 0.3), (0.219, 0.223), ('axle', 'axle world'),
     ),
@@ -318,12 +318,12 @@ LIMITS: dict[
         (0.1, 0.25), ('hatching', 'rod world'),
     ),
     'gap between a wheel and the body that carries it': (
-        'bodies_under._CARRIED',
+        'closed_shapes._CARRIED',
         lambda it: [spawning('a/0', Box(width=3.0, height=0.6), (0.0, 0.3 + it, 0.0)), WHEEL_TOP],
         lambda _: circle(0.0, 0.0, 0.15), (0.44, 0.455), ('axle', 'axle world'),
     ),
     'aspect of a wheel under the body that carries it': (
-        'bodies_under._ROUND',
+        'closed_shapes._ROUND',
         lambda it: [spawning('a/0', Box(width=3.0, height=0.6), (0.0, 0.6, 0.0)),
                     spawning('a/1', Polygon(outline=ring(12, 0.5, 0.5 * it)))],
         lambda _: circle(0.0, 0.0, 0.12), (0.77, 0.8), ('axle world', 'axle'),
@@ -417,7 +417,7 @@ LIMITS: dict[
         partial(loose, count=9), (2.376, 2.395), ('', 'hatching'),
     ),
     'length of a scribble over nothing': (
-        'meanings.MISPLACED evidence._GROUP_SLOPE', [], partial(loose, count=9), (2.267, 2.286),
+        'stages.MISPLACED evidence._GROUP_SLOPE', [], partial(loose, count=9), (2.267, 2.286),
         ('', 'wall'),
     ),
     'shift of a square that is drawn twice': (
@@ -485,17 +485,17 @@ FIGURES: dict[
     ],
 ] = {
     'lines of a polygon': (
-        'figure.MOST_STROKES', [],
+        'grouping.MOST_STROKES', [],
         lambda it: ([*itertools.pairwise([*ring(int(it)), (1.0, 0.0)])], 0.4), (8, 9),
         ('polygon', 'wall'),
     ),
     'pause within an x on a body': (
-        'figure.SLOWLY', [spawning('a/0', Box(width=6.0, height=4.0))],
+        'grouping.SLOWLY', [spawning('a/0', Box(width=6.0, height=4.0))],
         lambda it: ([[(-1, -0.9), (1.1, 0.8)], [(-0.8, 1), (0.7, -0.9)]], it), (9.9, 10.1),
         ('anchor', 'hatching'),
     ),
     'length of a line through a circle': (
-        'figure._ON_SOLID', [],
+        'figure.ON_SOLID', [],
         lambda it: ([circle(0.0, 0.0, 1.0), [(-it, 0.0), (it, 0.05)]], 0.4), (3.19, 3.32),
         ('mark', 'wall'),
     ),
@@ -530,7 +530,7 @@ RESOLUTION = {
     'geometry.COUNT', 'geometry.ARM', 'geometry._FEW', 'geometry._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',
-    'reading.MOST_GUESSES', 'figure.MOST_TIME',
+    'stages.MOST_GUESSES', 'grouping.MOST_TIME',
 }  # fmt: skip
 # Numbers of which no stroke is known that a third more and a third less both read otherwise: most
 # of them shape measures that the table of evidence weighs.
@@ -556,12 +556,12 @@ UNDECIDED = {
     'joining._STRAIGHT',
     'joining._TOUCHING',
     'joining._WIDEST',
-    'meanings.BETWEEN',
+    'stages.BETWEEN',
     'open_lines._HEAVIER',
     'outer_boundary._LEAST_LENGTH',
     'plain_forms._LOOP',
     'plain_forms._SWINGING',
-    'reading._SURE',
+    'choice._SURE',
     'round_arrow._STRIDE',
     'round_arrow._TURN',
     'stroke.ROUNDS',

@@ -13,7 +13,7 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
-from physsim_ros.drawing.strokes.reading import Reading
+from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.reading import Reading
+from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.simulation.world import World

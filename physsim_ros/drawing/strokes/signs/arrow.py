@@ -11,12 +11,13 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import regularisation
-from physsim_ros.drawing.strokes.evidence import Candidate, Form
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import segment_distances
 from physsim_ros.drawing.strokes.geometry import point_of
-from physsim_ros.drawing.strokes.meanings import (
+from physsim_ros.drawing.strokes.stages import (
+    Candidate,
     Context,
+    Form,
     GRAVITY,
     Meaning,
     MISPLACED,

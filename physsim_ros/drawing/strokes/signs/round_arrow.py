@@ -11,10 +11,17 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.evidence import Candidate, Form
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.geometry import angles, least_squares, point_of, smoothed
-from physsim_ros.drawing.strokes.meanings import Context, Meaning, MISPLACED, Outcome, Sign
+from physsim_ros.drawing.strokes.stages import (
+    Candidate,
+    Context,
+    Form,
+    Meaning,
+    MISPLACED,
+    Outcome,
+    Sign,
+)
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties

@@ -14,11 +14,13 @@ from functools import partial
 
 from physsim_ros.drawing.strokes import bodies_under, open_lines, outcomes
 from physsim_ros.drawing.strokes.corner_detection import bends_of
-from physsim_ros.drawing.strokes.evidence import Candidate, Form, Limit
+from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.features import Features, FEWEST, TREMOR
-from physsim_ros.drawing.strokes.meanings import (
+from physsim_ros.drawing.strokes.stages import (
+    Candidate,
     Context,
     DELETION,
+    Form,
     Meaning,
     MISPLACED,
     Outcome,

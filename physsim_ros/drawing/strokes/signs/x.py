@@ -9,7 +9,6 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 import math
 
-from physsim_ros.drawing.strokes.evidence import Candidate, Form
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.geometry import (
@@ -21,7 +20,15 @@ from physsim_ros.drawing.strokes.geometry import (
     point_of,
     straightness,
 )
-from physsim_ros.drawing.strokes.meanings import Context, Meaning, MISPLACED, Outcome, Sign
+from physsim_ros.drawing.strokes.stages import (
+    Candidate,
+    Context,
+    Form,
+    Meaning,
+    MISPLACED,
+    Outcome,
+    Sign,
+)
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.requests import Anchor

@@ -79,6 +79,8 @@ export class Gestures extends Emitter {
    * @param {{tool?: Tool, isPen?: boolean}} how
    */
   begin(pointer, at, {tool = this.handles?.isAt(at) ? this.handles : this.tool, isPen = false} = {}) {
+    // Of another pointer: the cursor of the keyboard, while the mouse draws.
+    this.cancel();
     this.emit('begin');
     const touch = tool.snap?.(at) ?? at;
     this.working = {pointer, isPen, tool};

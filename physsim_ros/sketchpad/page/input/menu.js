@@ -17,7 +17,8 @@ export class Menu {
     this.parts = parts;
     this.element = document.body.appendChild(createElement('div', {id: 'menu', role: 'menu', 'aria-label': t('Menu'), hidden: true}));
     parts.gestures.on('press', () => this.close());
-    this.element.addEventListener('focusout', ({relatedTarget}) => this.element.contains(/** @type {?Node} */ (relatedTarget)) || this.close());
+    // What has the focus then keeps it.
+    this.element.addEventListener('focusout', ({relatedTarget}) => { this.element.hidden ||= !this.element.contains(/** @type {?Node} */ (relatedTarget)); });
     this.element.addEventListener('keydown', (event) => this.#move(event));
   }
 

@@ -33,6 +33,8 @@ export class Selection extends Emitter {
     parts.view.overlays.push((view) => this.#draw(view));
     parts.gestures.on('press', () => this.#hover(null));
     parts.gestures.on('point', (touch) => this.#hover(touch));
+    // Of the same name, a body of another world is another body.
+    parts.connection.on('world', () => { this.kept.names = []; });
     parts.connection.on('scene', ({bodies}) => {
       const known = new Set(bodies.map((/** @type {Body} */ {name}) => name));
       for (const name of this.names) if (!known.has(name)) this.names.delete(name);

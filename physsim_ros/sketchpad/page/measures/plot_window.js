@@ -10,7 +10,7 @@ import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
-/** @import {Body, Palette, Parts, Sample} from '../types.js' */
+/** @import {Palette, Parts, Sample} from '../types.js' */
 /** @import {Curve, Scales} from './chart.js' */
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
@@ -207,14 +207,15 @@ export class PlotWindow {
 
   /**
    * @param {string[]} names of bodies
-   * @returns {string} CSV
+   * @returns {string} a table of all quantities (CSV), the bodies one below the other
    */
   #tableOf(names) {
-    const {world, records} = this.parts;
-    return tableOf(names.flatMap((name) => {
+    const {world, records} = this.parts, columns = Object.values(QUANTITIES);
+    const rows = names.flatMap((name) => {
       const body = world.body(name);
-      return body ? [{name, body, samples: records.samples(name)}] : [];
-    }), world.scene.gravity);
+      return body ? records.samples(name).map((sample) => [...columns.map(({of}) => cellOf(of(sample, body, world.scene.gravity))), name]) : [];
+    });
+    return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
   }
 
   /** @param {string[]} names of bodies */
@@ -303,16 +304,7 @@ function rangeOf(curves) {
   return most - least > 1e-6 ? [least, most] : [least - 0.5, most + 0.5];
 }
 
-/**
- * @param {{name: string, body: Body, samples: Sample[]}[]} records
- * @param {number[]} gravity
- * @returns {string} a table of all quantities (CSV), the bodies one below the other
- */
-function tableOf(records, gravity) {
-  const columns = Object.values(QUANTITIES);
-  // Spreadsheets read a hyphen as the minus.
-  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
-  const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
-    [...columns.map(({of}) => cell(of(sample, body, gravity))), name]));
-  return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
+/** @param {number} value as spreadsheets read it, whose minus is a hyphen */
+function cellOf(value) {
+  return Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
 }

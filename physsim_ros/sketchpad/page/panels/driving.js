@@ -119,8 +119,8 @@ export class Driving {
       // Another one was selected meanwhile, or it was deleted.
       if (world.row(this.name) >= 0) connection.send('drive', {name: this.name, velocity: [0, 0, 0]});
       this.name = '';
-      this.stick = [0, 0];
-      this.liftAll();
+      this.keys.clear();
+      this.#push([0, 0]);
       return;
     }
     if (!robot || !this.timer && !this.name) return;

@@ -7,7 +7,7 @@
  */
 
 import {bodyContent} from './body_panel.js';
-import {createElement, elementOf, foldButton, iconButton} from '../dom.js';
+import {createElement, elementOf, foldButton, iconButton, replaceContent} from '../dom.js';
 import {jointContent} from './joint_panel.js';
 import {severalContent} from './several_panel.js';
 import {isRoomy} from '../view/room.js';
@@ -45,7 +45,6 @@ export class Panel {
       this.#fold();
       parts.room.fit();
     });
-    this.rest = createElement('div', {className: 'rest'});
     const followSoon = () => queueMicrotask(() => this.#follow());
     parts.connection.on('scene', followSoon);
     parts.selection.on('change', () => this.#show());
@@ -86,10 +85,9 @@ export class Panel {
     const {title, name = '', first = [], rest, live = () => {}} = content;
     this.live = live;
     this.more.hidden = !first.length;
-    this.rest.replaceChildren(...rest);
-    element.replaceChildren(createElement('header', {},
+    replaceContent(element, createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {}, name)),
-      iconButton(t('Close'), 'close', () => this.close())), ...first, this.more, this.rest);
+      iconButton(t('Close'), 'close', () => this.close())), ...first, this.more, createElement('div', {className: 'rest'}, ...rest));
     live(parts.view);
     this.#fold();
   }

@@ -36,8 +36,13 @@ export class ClickTool extends Gesture {
     /** Where the pointer is, pressed or not. @type {?Touch} */
     this.pointed = null;
     this.begun = false; // whether the first point was clicked where the pointer was pressed
+    /** @type {string[]} of this gesture, or of the last one */
+    this.requests = [];
     parts.connection.on('answer', ({request, ok}) => {
-      if (!ok && request && request === this.request) this.points = [];
+      if (ok || !request || !this.requests.includes(request)) return;
+      // To the server, what was clicked meanwhile begins another gesture.
+      if (request !== this.requests.at(-1)) parts.connection.send('drop');
+      this.points = [];
     });
   }
 
@@ -64,6 +69,8 @@ export class ClickTool extends Gesture {
 
   /** @param {Touch} touch */
   end(touch) {
+    // Its first click was refused.
+    if (this.begun && !this.open) return;
     if (this.#isUpright(touch)) this.#click({...touch, at: [touch.at[0], this.points[0].at[1]]});
     if (!this.begun || !isTap(this.path[0], touch)) this.#click(touch);
   }
@@ -78,9 +85,15 @@ export class ClickTool extends Gesture {
    * @returns {boolean} whether there was one
    */
   finish() {
-    const polygon = this.id === 'polygon', open = this.clicks === Infinity && this.points.length > (polygon ? 2 : 1);
-    if (open) this.#click(this.points[polygon ? 0 : this.points.length - 1]);
-    return open;
+    const end = this.#end;
+    if (end) this.#click(end);
+    return end !== null;
+  }
+
+  /** @returns {?Touch} of a polygon its first point, of a rope its newest one: clicked again, it ends the gesture; null where that is too short */
+  get #end() {
+    const isPolygon = this.id === 'polygon';
+    return this.clicks === Infinity && this.points.length > (isPolygon ? 2 : 1) ? this.points.at(isPolygon ? 0 : -1) ?? null : null;
   }
 
   /**
@@ -117,16 +130,12 @@ export class ClickTool extends Gesture {
 
   /** @param {Touch} touch */
   #click(touch) {
-    const {parts, points} = this, end = points[this.id === 'polygon' ? 0 : points.length - 1];
-    const closing = this.clicks === Infinity && points.length > (this.id === 'polygon' ? 2 : 1) &&
-      distance(touch.page, end.page) < CLOSE;
-    this.request = parts.connection.send('click',
-      {tool: this.id, point: closing && this.id === 'polygon' ? end.at : this.#meant(closing ? end : touch)});
-    if (this.request) points.push(touch);
-    else this.points = [];
-    if (closing || touch === points[0] && points.length > 1 || points.length >= this.clicks) {
-      this.points = [];
-    }
+    const {parts: {camera, connection}, points} = this;
+    const end = this.#end && distance(touch.page, camera.toPage(...this.#end.at)) < CLOSE ? this.#end : null;
+    if (!this.open) this.requests = [];
+    const request = connection.send('click', {tool: this.id, point: end && this.id === 'polygon' ? end.at : this.#meant(end ?? touch)});
+    this.requests.push(request);
+    this.points = request && !end && points.length + 1 < this.clicks ? [...points, touch] : [];
   }
 
   /**

@@ -36,10 +36,10 @@ export class Prediction extends Gesture {
   }
 
   end() {
-    const {name, path, parts: {world}} = this;
-    if (!name) return;
+    const {name, path, parts: {world}} = this, row = world.row(name);
+    if (row < 0) return;
     // Its way begins at its centre of mass, as the one that it goes.
-    const centre = world.place(world.row(name), world.body(name)?.centroid ?? [0, 0]);
+    const centre = world.place(row, world.scene.bodies[row].centroid);
     if (this.isTap) this.ways.delete(name);
     else this.ways.set(name, {since: world.frame.time, way: [centre, ...path.slice(1).map(({at}) => at)]});
     this.#record();
@@ -58,6 +58,7 @@ export class Prediction extends Gesture {
   #drawAll(view) {
     const {world, records, camera} = this.parts, {palette} = view, now = world.frame.time + 1e-9;
     for (const [name, {since, way}] of this.ways) {
+      if (world.row(name) < 0) continue;
       view.line(way, palette.momentum, [8, 6]);
       const [x, y] = camera.toPage(...way[way.length - 1]);
       const gone = records.samples(name).filter(({time}) => time > since && time <= now);

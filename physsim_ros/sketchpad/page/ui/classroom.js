@@ -21,16 +21,14 @@ export class Classroom {
     this.raised = false; // the hand of this page
     /** @type {Map<number, {at: Point, until: number}>} */
     this.cursors = new Map();
-    this.thaw = () => {}; // takes the note away that says that the world is frozen
-    this.frozen = false; // whether it is there
+    /** @type {?(() => void)} takes the note away that says that the world is frozen; null where there is none */
+    this.thaw = null;
     const {connection, view} = parts;
     // The page of a class has asked for it.
-    const [, kind, given] = /^#(name|class)=(.*)/.exec(location.hash) ?? [];
-    if (kind) {
-      if (kind === 'name') localStorage.setItem(NAME, decodeURIComponent(given));
-      else sessionStorage.setItem(LOOKS_IN, decodeURIComponent(given));
-      history.replaceState(null, '', location.pathname + location.search);
-    }
+    const given = new URLSearchParams(location.hash.slice(1)), own = given.get('name'), whose = given.get('class');
+    if (own !== null) localStorage.setItem(NAME, own);
+    if (whose !== null) sessionStorage.setItem(LOOKS_IN, whose);
+    if ((own ?? whose) !== null) history.replaceState(null, '', location.pathname + location.search);
     connection.on('welcome', () => {
       this.#showWhose();
       const name = ownName();
@@ -76,9 +74,8 @@ export class Classroom {
     this.hand.hidden = teacher || viewOnly || !state.watched && state.people.every(({role}) => role !== 'teach');
     const frozen = state.frozen && !teacher && !viewOnly;
     document.body.classList.toggle('frozen', frozen);
-    if (frozen && !this.frozen) this.thaw = parts.notes.dock([t('Your teacher has frozen this world.')], 0);
-    else if (!frozen) this.thaw();
-    this.frozen = frozen;
+    if (!frozen) this.thaw?.();
+    this.thaw = frozen ? this.thaw ?? parts.notes.dock([t('Your teacher has frozen this world.')], 0) : null;
     parts.dialog.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
   }
 
@@ -105,7 +102,7 @@ export class Classroom {
       return createElement('li', {}, dot(color), `${shown}${you}${teaches}`,
         ...raised ? [createElement('strong', {}, t('hand raised')),
           ...teacher ? [textButton(t('Lower the hand'), () => connection.send('lower_hand', {page}))] : []] : [],
-        ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
+        ...teacher && answered ? [createElement('span', {}, `${answered.answer} ${answered.right ? '✓' : '✗'}`)] : [],
         ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
     }));
     parts.dialog.show(TITLE, ...parts.people.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
@@ -173,8 +170,9 @@ function dot(number) {
 
 /**
  * @param {number} number of the colour of a person
- * @returns {string} the same one on all pages; white is to be read on it
+ * @param {number} lightness [%]
+ * @returns {string} the same hue on all pages; white is to be read on it, unless it is lighter
  */
-export function colorOf(number) {
-  return `hsl(${210 + number * GOLDEN} 65% 34%)`;
+export function colorOf(number, lightness = 34) {
+  return `hsl(${210 + number * GOLDEN} 65% ${lightness}%)`;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The dialog over the page: worlds, help, people, a link. It shows one thing at a time, by its title. */
 
-import {createElement, elementOf, iconButton} from '../dom.js';
+import {createElement, elementOf, iconButton, replaceContent} from '../dom.js';
 import {t} from '../strings.js';
 
 const PRESSED = 200; // ms until it is looked again whether the dialog is still pressed
@@ -9,7 +9,12 @@ const PRESSED = 200; // ms until it is looked again whether the dialog is still 
 export class Dialog {
   constructor() {
     this.element = elementOf('dialog', HTMLDialogElement);
-    this.element.addEventListener('click', ({target}) => target === this.element && this.close());
+    let beside = false; // was pressed; a text in it may be selected beyond its edge
+    this.element.addEventListener('pointerdown', ({clientX, clientY}) => {
+      const {left, right, top, bottom} = this.element.getBoundingClientRect();
+      beside = clientX < left || clientX > right || clientY < top || clientY > bottom;
+    });
+    this.element.addEventListener('click', () => beside && this.close());
   }
 
   get isOpen() {
@@ -23,7 +28,7 @@ export class Dialog {
   show(title, ...content) {
     const {element} = this, top = this.#shows(title) ? element.scrollTop : 0;
     element.ariaLabel = title;
-    element.replaceChildren(createElement('header', {}, createElement('h2', {}, title),
+    replaceContent(element, createElement('header', {}, createElement('h2', {}, title),
       iconButton(t('Close'), 'close', () => this.close(), '')),
     ...content);
     if (!element.open) element.showModal();

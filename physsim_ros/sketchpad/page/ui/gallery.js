@@ -3,12 +3,13 @@
 
 import {createElement, download, fieldForm, inRow, textButton} from '../dom.js';
 import {t} from '../strings.js';
+import {showMomentLink, showWorldLink} from './link_dialog.js';
 import {headingOf} from '../words.js';
 
 /** @import {Parts} from '../types.js' */
 /** @import {World} from './files.js' */
 
-/** @typedef {Parts<'connection' | 'dialog' | 'files' | 'lessons' | 'links' | 'notes' | 'view'>} GalleryParts */
+/** @typedef {Parts<'connection' | 'dialog' | 'files' | 'lessons' | 'notes' | 'view' | 'world'>} GalleryParts */
 
 const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
@@ -61,8 +62,10 @@ export class Gallery {
    * @param {string} to
    */
   async #rename(name, to) {
-    if (!(await this.parts.connection.ask('rename', {name, to})).ok) return;
-    this.parts.notes.offer(t('Renamed to {name}', {name: to}), t('Undo'), () => this.parts.connection.send('rename', {name: to, to: name}));
+    const {connection, files, notes} = this.parts;
+    if (!(await connection.ask('rename', {name, to})).ok) return;
+    if (files.name === name) files.name = to;
+    notes.offer(t('Renamed to {name}', {name: to}), t('Undo'), () => this.#rename(to, name));
   }
 
   /** @param {string} name */
@@ -139,8 +142,8 @@ export class Gallery {
     const name = this.parts.files.name || this.#freeName(t('my world'));
     this.parts.dialog.show(t('Save'), this.#nameForm(t('Name of the world'), name, t('Save world'), (given) => this.#save(given)), inRow(
       textButton(t('Download file'), () => this.#download()),
-      textButton(t('Copy link'), () => this.parts.links.copy()),
-      textButton(t('Link to this moment'), () => this.parts.links.copyMoment()),
+      textButton(t('Copy link'), () => showWorldLink(this.parts)),
+      textButton(t('Link to this moment'), () => showMomentLink(this.parts)),
       textButton(t('Picture (PNG)'), () => this.parts.view.canvas.toBlob((png) => png && download('world.png', png)))));
   }
 

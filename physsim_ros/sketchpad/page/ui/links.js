@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Links: one that holds this world, one to this moment, and those with which the page was opened, to a world, a lesson
- * or a moment.
+ * Links with which the page was opened, to a world (link_dialog.js makes them), a lesson or a moment.
  *
- * Laws: these are offered only, since the link of a stranger does not replace the world of a class. A moment is the same
+ * Laws: they are offered only, since the link of a stranger does not replace the world of a class. A moment is the same
  * to the bit for everybody who goes to it.
  */
 
@@ -13,8 +12,7 @@ import {LARGEST} from './files.js';
 
 /** @import {Parts} from '../types.js' */
 
-const WORLD = /^#world=(.+)/, LESSON = /[#?&]lesson=([^&]+)/, MOMENT = /[#?&]t=(\d+(?:\.\d+)?)/;
-const LONGEST = 16000; // characters
+const WORLD = /^#world=(.+)/;
 
 export class Links {
   /** @param {Parts<'connection' | 'dialog' | 'files' | 'lessons' | 'notes' | 'people' | 'world'>} parts */
@@ -27,36 +25,6 @@ export class Links {
     parts.connection.on('worlds', () => this.#offerPlace());
     addEventListener('hashchange', () => this.#offerPlace());
     parts.connection.on('frame', () => this.#stopAt());
-  }
-
-  /** Show a link that holds the world as it is now, and copy it. */
-  async copy() {
-    const {files, notes} = this.parts, world = await files.text();
-    if (world === null) return;
-    const link = `${location.origin}/#world=${await packText(world)}`;
-    if (link.length > LONGEST) {
-      notes.showMessage(t('This world is too large for a link: download it as a file.'), {ok: false});
-      return;
-    }
-    await this.#show(t('A link that holds this world'), link);
-  }
-
-  /** Show a link to the moment that is shown, of the lesson that is open, and copy it. */
-  async copyMoment() {
-    const {lessons, world} = this.parts, lesson = lessons.list.find(({title}) => title === world.scene.lesson?.title);
-    const moment = `t=${Number(world.frame.time.toFixed(4))}`;
-    await this.#show(t('A link to this moment'), `${location.origin}/#${lesson ? `lesson=${encodeURIComponent(lesson.name)}&` : ''}${moment}`);
-  }
-
-  /**
-   * @param {string} title
-   * @param {string} link
-   */
-  async #show(title, link) {
-    const {dialog, notes} = this.parts, text = createElement('input', {value: link, readOnly: true, autofocus: true, 'aria-label': t('Link')});
-    dialog.show(title, text);
-    notes.showMessage(title);
-    await navigator.clipboard?.writeText(link).catch(() => {});
   }
 
   #offerWorld() {
@@ -79,10 +47,10 @@ export class Links {
 
   /** Offer the lesson, and the moment, that the address names. */
   #offerPlace() {
-    const {lessons, dialog, notes, people: {viewOnly}, world} = this.parts, address = location.hash || location.search;
-    const name = decodeURIComponent(LESSON.exec(address)?.[1] ?? ''), moment = MOMENT.exec(address)?.[1];
+    const {lessons, dialog, notes, people: {viewOnly}, world} = this.parts, address = new URLSearchParams(location.hash.slice(1) || location.search);
+    const name = address.get('lesson') ?? '', moment = Number(address.get('t') || NaN), hasMoment = moment >= 0;
     const lesson = lessons.list.find((each) => each.name === name);
-    if (!name && !moment || viewOnly) return;
+    if (!name && !hasMoment || viewOnly) return;
     history.replaceState(null, '', location.pathname);
     if (name && !lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
     else if (lesson && lesson.title !== world.scene.lesson?.title) {
@@ -90,11 +58,11 @@ export class Links {
         inRow(textButton(t('Open the lesson'), async () => {
           await lessons.open(lesson);
           // Its timeline is to come.
-          if (moment) this.#playTo(Number(moment));
+          if (hasMoment) this.#playTo(moment);
         })));
-    } else if (moment) dialog.show(t('This link leads to a moment: {time} s', {time: Number(moment)}), inRow(textButton(t('Go there'), () => {
+    } else if (hasMoment) dialog.show(t('This link leads to a moment: {time} s', {time: moment}), inRow(textButton(t('Go there'), () => {
       dialog.close();
-      this.#goTo(Number(moment));
+      this.#goTo(moment);
     })));
   }
 
@@ -124,17 +92,6 @@ export class Links {
     // It has gone on meanwhile.
     this.parts.connection.send('seek', {time: wanted});
   }
-}
-
-/**
- * @param {string} text
- * @returns {Promise<string>} for a link: deflated, then base64 for addresses (RFC 4648, section 5)
- */
-async function packText(text) {
-  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'));
-  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-  const binary = Array.from(bytes, (byte) => String.fromCharCode(byte)).join('');
-  return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
 }
 
 /** @param {string} packed */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Answers in a line above the world; notes at places of the world; refusals beside the body that they name, or where they were asked for. */
 
+import {PASSING} from '../connection.js';
 import {createElement, elementOf, textButton} from '../dom.js';
 import {t} from '../strings.js';
 import {personWord} from '../people.js';
@@ -8,8 +9,8 @@ import {personWord} from '../people.js';
 /** @import {Answer, Parts, Point, SceneView} from '../types.js' */
 
 const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
-/** Answers that are not shown: the clock and the hand show the same. */
-export const SILENT = /^at [\d.]+ s$|^following |^grabbed |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
+/** Answers that are not shown: the clock, the hand and the tool show the same. */
+export const SILENT = /^at [\d.]+ s$|^(following|grabbed|dropped) |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
 const REST = /^and \d+ more answers$/; // of a frame, to a page that did not ask
 const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
 
@@ -28,10 +29,7 @@ export class Notes {
     this.expected = () => {}; // shows an answer with the next scene
     parts.view.overlays.push(() => this.#place());
     parts.connection.on('answer', (answer) => this.#tell(answer));
-    parts.connection.on('scene', () => {
-      this.expected();
-      this.expected = () => {};
-    });
+    parts.connection.on('scene', () => this.expected());
   }
 
   /** @param {Answer} answer */
@@ -48,8 +46,10 @@ export class Notes {
       if (ok) return;
     }
     const who = own ? '' : personWord(this.parts.people.nameOf(answer.page));
-    const tell = () => this.showMessage(`${who}${who && ': '}${this.parts.words.tell(answer)}`, {ok, quiet: !own});
-    this.expected = () => {};
+    const tell = () => {
+      this.expected = () => {};
+      this.showMessage(`${who}${who && ': '}${this.parts.words.tell(answer)}`, {ok, quiet: !own});
+    };
     if (this.parts.words.knows(answer.subject)) tell();
     else {
       this.expected = tell;
@@ -136,8 +136,10 @@ export class Notes {
       note.remove();
       this.pinned.delete(note);
     };
+    // Who is at its button keeps it.
+    const end = () => note.matches(':hover, :focus-within') ? setTimeout(end, shown) : remove();
     parent.append(note);
-    if (shown) setTimeout(remove, shown);
+    if (shown) setTimeout(end, shown);
     return remove;
   }
 
@@ -158,8 +160,6 @@ export class Notes {
 
 const OUTLINED = 2500; // ms for which a body has an outline
 const KEPT = 100; // requests whose places are known: a stroke is answered by its reading, then by its requests
-/** Messages whose refusals are not shown: no reader has asked for them. */
-const QUIET = ['show', 'watch', 'move', 'let_go', 'drop', 'answered', 'list'];
 
 export class Refusals {
   /** @param {Parts<'connection' | 'notes' | 'view' | 'words' | 'world'>} parts */
@@ -172,9 +172,7 @@ export class Refusals {
     this.dismiss = () => {};
     const {connection} = parts;
     connection.on('sent', (message) => this.#note(message));
-    connection.on('unsent', (message) => {
-      if (!QUIET.includes(message.type)) this.#show(t('Not done: the server is not reachable'), placeOf(message));
-    });
+    connection.on('unsent', (message) => this.#show(t('Not done: the server is not reachable'), placeOf(message)));
     connection.on('answer', ({request, ok, code, message, subject, values}) => {
       const place = this.places.get(request) ?? {point: null, names: []};
       if (ok || code === 'not_recognised' || code === 'exists' || request === '') return;
@@ -187,7 +185,7 @@ export class Refusals {
 
   /** @param {any} message */
   #note(message) {
-    if (QUIET.includes(message.type)) return;
+    if (PASSING.includes(message.type)) return;
     this.places.set(message.id, placeOf(message));
     if (this.places.size > KEPT) this.places.delete([...this.places.keys()][0]);
   }

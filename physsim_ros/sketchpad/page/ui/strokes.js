@@ -104,7 +104,7 @@ export class Readings {
     parts.connection.on('reading', (reading) => this.#show(reading));
     parts.connection.on('answer', ({request, ok, code}) => {
       if (ok || code === 'not_recognised') return;
-      this.#forget(request);
+      this.strokes.delete(request);
       // Read, but not built.
       if (request === this.shown) this.dismiss();
     });
@@ -130,7 +130,7 @@ export class Readings {
     const at = /** @type {Point} */ ([
       stroke.reduce((sum, [x]) => sum + x, 0) / stroke.length, Math.max(...stroke.map(([, y]) => y))]);
     if (built) {
-      this.#forget(request);
+      this.strokes.delete(request);
       // A rope may be meant as a chain: no stroke tells them apart.
       const other = guesses.slice(1).filter(([guess, sure], i) => i ? guess === 'chain' : sure > LIKELY)
         .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: thingWord(guess)}), request, guess));
@@ -148,7 +148,7 @@ export class Readings {
     const remove = this.parts.notes.pin(() => at, [words, ...choices, close], 0);
     this.dismiss = () => {
       remove();
-      this.#forget(request);
+      this.strokes.delete(request);
     };
   }
 
@@ -161,13 +161,8 @@ export class Readings {
     return textButton(label, () => {
       this.parts.connection.send('instead', {meaning});
       this.dismiss();
-      this.#forget(request);
+      this.strokes.delete(request);
     });
-  }
-
-  /** @param {string} request */
-  #forget(request) {
-    this.strokes.delete(request);
   }
 }
 

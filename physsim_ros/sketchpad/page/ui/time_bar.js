@@ -47,24 +47,19 @@ export class TimeBar {
     this.slowSince = 0; // [ms]; 0 where it is not
     this.explained = false; // whether that was told in this world
     this.rate = 1; // of playing, as this page has chosen it
-    this.held = false; // by a finger or the mouse
     this.busy = false; // a seek is on its way
     this.asked = 0; // speeds that are on their way
     /** @type {?number} */
     this.wanted = null;
     this.slider.addEventListener('input', () => this.#slide());
-    this.slider.addEventListener('pointerdown', () => { this.held = true; });
-    this.slider.addEventListener('change', () => { this.held = false; });
     this.speed.addEventListener('click', () => this.#changeSpeed());
     for (const type of ['timeline', 'class']) parts.connection.on(type, () => this.#showTimeline());
     parts.connection.on('frame', () => this.#measurePace());
     parts.connection.on('world', () => { this.explained = false; });
-    parts.connection.on('open', () => {
-      this.busy = false;
-      this.asked = 0;
-    });
+    parts.connection.on('open', () => { [this.busy, this.wanted, this.asked] = [false, null, 0]; });
     parts.view.overlays.push(() => this.#showTime());
-    parts.gestures.on('begin', () => this.#endRewind());
+    // A world that runs back would go back beyond a change at once.
+    parts.gestures.on('begin', () => parts.world.frame.speed < 0 && this.callService('pause'));
   }
 
   /** @param {string} service */
@@ -87,11 +82,6 @@ export class TimeBar {
 
   toggle() {
     this.callService(this.parts.world.paused ? 'play' : 'pause');
-  }
-
-  /** Pause a world that runs back: it would go back beyond a change at once. */
-  #endRewind() {
-    if (this.parts.world.frame.speed < 0) this.callService('pause');
   }
 
   #slide() {
@@ -170,7 +160,7 @@ export class TimeBar {
   #showTime() {
     const {frame, timeline} = this.parts.world;
     this.clock.textContent = `${fixed(frame.time, 2)} s`;
-    if (!this.held && this.wanted === null && !this.busy) {
+    if (!this.slider.matches(':active') && this.wanted === null && !this.busy) {
       this.slider.max = String(Math.max(timeline.newest, frame.time));
       this.slider.min = String(Math.min(timeline.oldest, frame.time));
       this.slider.value = String(frame.time);

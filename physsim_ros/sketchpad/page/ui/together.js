@@ -19,7 +19,7 @@ import {unionOf} from '../view/body_path.js';
 /** @typedef {{person: string, connection: Connection, world: WorldState, words: Words}} Run of a pupil; person: '' where the seat is free */
 
 const GAP = 24, PERIOD = 1000; // px around the ways; ms between two looks at them
-const FAINT = 0.2; // opacity of the others, where one run is chosen
+const FAINT = 0.2, LIGHT = 72; // opacity of the others, where one run is chosen; % of the colours on dark paper
 const DASHES = [[], [10, 5], [2, 5], [12, 4, 2, 4]]; // px: of lines whose colours are alike
 const TITLE = t('All runs in one picture');
 
@@ -54,7 +54,7 @@ export class Together {
     if (!names.includes(this.name)) this.name = names[0] ?? '';
     const people = this.runs.map((run, i) => {
       const button = createElement('button', {type: 'button', textContent: run.person, hidden: !run.person});
-      button.style.color = colorOf(i);
+      button.style.color = inkOf(i);
       return toggling(button, () => this.chosen === run, () => {
         this.chosen = this.chosen === run ? null : run;
         for (const other of people) if (other !== button) other.setAttribute('aria-pressed', 'false');
@@ -83,15 +83,15 @@ export class Together {
       const {world, person} = run, row = world.row(this.name), way = this.ways.get(run);
       if (!person || row < 0) continue;
       ctx.globalAlpha = !this.chosen || run === this.chosen ? 1 : FAINT;
-      if (way) view.line(way, colorOf(i), DASHES[i % DASHES.length]);
+      if (way) view.line(way, inkOf(i), DASHES[i % DASHES.length]);
       ctx.save();
       view.bodies.setTransform(world.frame, row);
-      ctx.strokeStyle = colorOf(i);
+      ctx.strokeStyle = inkOf(i);
       ctx.lineWidth = 3 / camera.scale;
       ctx.stroke(view.bodies.appearance(world.scene.bodies[row]).path);
       ctx.restore();
       // Where the body is now; beside the page, at its edge.
-      view.number({text: person, color: colorOf(i), tip: camera.toPage(...world.place(row, world.scene.bodies[row].centroid)), along: [0, -1], named: run === this.chosen});
+      view.number({text: person, color: inkOf(i), tip: camera.toPage(...world.place(row, world.scene.bodies[row].centroid)), along: [0, -1], named: run === this.chosen});
       ctx.globalAlpha = 1;
     }
   }
@@ -108,4 +108,9 @@ export class Together {
     camera.fit(box, {left: GAP, top: GAP, right: GAP, bottom: GAP});
     view.dirty = true;
   }
+}
+
+/** @param {number} number of the colour of a person, to be read on the paper of the page */
+function inkOf(number) {
+  return colorOf(number, document.documentElement.dataset.theme === 'dark' ? LIGHT : undefined);
 }

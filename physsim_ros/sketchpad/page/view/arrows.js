@@ -8,7 +8,7 @@
  * that bears.
  */
 
-import {createElement, elementOf, foldButton, showText, textButton, toggling} from '../dom.js';
+import {createElement, elementOf, foldButton, replaceContent, showText, textButton, toggling} from '../dom.js';
 import {appliedTo, bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {digits, roundUp, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
@@ -130,7 +130,7 @@ export class Arrows {
     const {legend, off} = this;
     legend.hidden = !this.velocities && !this.forces;
     this.more.setAttribute('aria-expanded', String(legend.classList.toggle('unfolded', this.unfolded)));
-    legend.replaceChildren(
+    replaceContent(legend,
       ...this.velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
         this.momenta = !this.momenta;
         this.showLegend();

@@ -42,7 +42,8 @@ export class SceneView {
     addEventListener('beforeprint', () => this.draw());
     this.#resize();
     const loop = () => {
-      if (this.dirty || this.drawn !== world.version) this.draw();
+      // A picture that is not shown has no width.
+      if (camera.width && (this.dirty || this.drawn !== world.version)) this.draw();
       requestAnimationFrame(loop);
     };
     requestAnimationFrame(loop);
@@ -58,8 +59,9 @@ export class SceneView {
     this.ratio = devicePixelRatio;
     this.camera.width = this.canvas.clientWidth;
     this.camera.height = this.canvas.clientHeight;
-    this.canvas.width = Math.round(this.camera.width * this.ratio);
-    this.canvas.height = Math.round(this.camera.height * this.ratio);
+    // A canvas of no size, which is not shown, makes no pattern.
+    this.canvas.width = Math.max(Math.round(this.camera.width * this.ratio), 1);
+    this.canvas.height = Math.max(Math.round(this.camera.height * this.ratio), 1);
     this.dirty = true;
   }
 

@@ -1,0 +1,137 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The choice among the meanings of a stroke: its guesses, and the reading of one of them.
+
+Law: a guess changes nothing; the requests of its reading are to be submitted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.evidence import group_confidence
+from physsim_ros.drawing.strokes.judge import judged
+from physsim_ros.drawing.strokes.meanings import meanings_of
+from physsim_ros.drawing.strokes.stages import (
+    CLOSED,
+    Context,
+    DELETION,
+    GRAVITY,
+    Guess,
+    Meaning,
+    MOST_GUESSES,
+    OPEN,
+    Reading,
+    values_of,
+)
+from physsim_ros.model.errors import NotRecognised
+
+# The least confidence with which bodies are deleted, and gravity is turned.
+_SURE = 0.9
+
+
+def guesses_of(context: Context) -> tuple[Guess, ...]:
+    """
+    Return the most likely meanings of a stroke by the rules, and how sure the first one is.
+
+    The confidence in the first one is that of the judge; the others have no more, nor more than it
+    leaves.
+    """
+    guesses = guesses_by_rules(context)
+    if not guesses:
+        return ()
+    first, *others = guesses
+    sure = judged(first.confidence, measures_of(guesses, context))
+    most = min(sure, 1.0 - sure)
+    rest = (replace(each, confidence=min(each.confidence, most)) for each in others)
+    return replace(first, confidence=sure), *rest
+
+
+def measures_of(guesses: Sequence[Guess], context: Context) -> dict[str, float]:
+    """Return the measures of a reading by which the judge doubts it, by their names."""
+    return {
+        'confidence': guesses[0].confidence,
+        'group': guesses[0].group_confidence,
+        'second': guesses[1].confidence if len(guesses) > 1 else 0.0,
+        'bodies': float(bool(context.scene.names)),
+        f'read as {guesses[0].meaning}': 1.0,
+        **{f'form {form.name}': form.weight for form in context.forms},
+        **{name: value for form in context.forms for name, value in form.measures.items()},
+    }
+
+
+def guesses_by_rules(context: Context) -> tuple[Guess, ...]:
+    """Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first."""
+    weights: dict[str, float] = {}
+    # Of each meaning, the likeliest one.
+    best: dict[str, Meaning] = {}
+    for each in meanings_of(context):
+        weights[each.name] = weights.get(each.name, 0.0) + each.weight
+        if each.name not in best or each.weight > best[each.name].weight:
+            best[each.name] = each
+    total = sum(weights.values())
+    unexplained = max(1.0 - sum(form.weight for form in context.forms), 0.0)
+    guesses: list[Guess] = []
+    for meaning, weight in weights.items():
+        others = _group_of(meaning)
+        # In the order of the meanings: that of a set differs from process to process.
+        group = sum(share for each, share in weights.items() if each in others)
+        sure = group_confidence(group, total, unexplained)
+        guesses.append(
+            Guess(
+                meaning=meaning,
+                confidence=sure * weight / group,
+                group_confidence=sure,
+                # An outcome is built once, whoever needs it first.
+                build=cache(best[meaning].build),
+            )
+        )
+    guesses.sort(key=lambda each: (-each.group_confidence, -each.confidence))
+    return tuple(guesses[:MOST_GUESSES])
+
+
+def _group_of(meaning: str) -> frozenset[str]:
+    """Return the group of a meaning."""
+    return next((group for group in (CLOSED, OPEN) if meaning in group), frozenset({meaning}))
+
+
+def not_recognised(guesses: Sequence[Guess]) -> NotRecognised:
+    """Return the refusal of a stroke of which no guess is likely enough."""
+    words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
+    doubt = f'is not clear enough; it might be: {words}. Nothing was drawn'
+    message = f'the stroke {doubt if guesses else "looks like nothing that can be drawn"}'
+    return NotRecognised(message, field='poses', values=values_of(guesses))
+
+
+def reading_of(guesses: Sequence[Guess], number: int, *, amends: tuple[int, ...] = ()) -> Reading:
+    """
+    Return the reading of one of the guesses.
+
+    :param amends: numbers of earlier gestures that it replaces
+    :raises Refusal: the world cannot have its outcome
+    """
+    chosen = guesses[number]
+    outcome = chosen.build()
+    return Reading(
+        guesses=(chosen, *(guess for guess in guesses if guess is not chosen)),
+        amends=amends,
+        requests=outcome.requests,
+        subject=outcome.subject,
+        message=outcome.message,
+        outline=outcome.outline,
+    )
+
+
+def is_likely(guesses: Sequence[Guess], settings: DrawingSettings) -> bool:
+    """Tell whether the first of some guesses is likely enough to be built."""
+    if not guesses:
+        return False
+    guess = guesses[0]
+    if guess.meaning in {DELETION, GRAVITY} and guess.group_confidence < _SURE:
+        return False
+    return guess.group_confidence >= settings.sketch_confidence

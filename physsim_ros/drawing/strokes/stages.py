@@ -1,0 +1,240 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The stages of reading a stroke, and what each returns.
+
+Laws: a stage changes nothing, and its result depends on its arguments alone. A reading holds
+ordinary requests, to be submitted.
+
+=======================  ==================  ======================================================
+stage                    returns             which is
+=======================  ==================  ======================================================
+`stroke.resample_stroke` `Stroke`            samples cleaned, a path of evenly spaced points
+`features.features_of`   `Features`          its turns, swings and crossings
+`forms.forms_of`         `Form` of each kind its looks, each with a weight: signs by evidence for
+                                             their `Candidate`, lines and outlines by corners and
+                                             fits
+`meanings.in_scene`      `Context`           all that, over the bodies at its ends
+`meanings.meanings_of`   `Meaning`           of each form what it would be in this scene
+`choice.guesses_of`      `Guess`, at most 3  the likeliest meanings, and how sure the first one is
+`choice.reading_of`      `Reading`           the requests of one of them, and words about these
+=======================  ==================  ======================================================
+
+The scene divides the weight of a form among the meanings of the form. Meanings are chosen by
+group: closed outlines are one group, since circles, ovals and rounded polygons look alike; open
+lines are another; every sign is a group of its own. The likeliest group is chosen first, and then
+the likeliest meaning in it. A stroke is refused when the confidence in the group is too small.
+
+Several strokes may be one figure (`grouping`), and a new body may change what earlier strokes are
+(`waiting`, `marks`): these are read by the same stages again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.stroke import Stroke
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.requests import Request
+from physsim_ros.model.transform import Point
+
+# Names of the forms.
+LINE, DISC, OVAL, RECTANGLE, POLYGON = 'line', 'disc', 'oval', 'rectangle', 'polygon'
+# Factor on the weight of a sign that was drawn where there is nothing that it could change: a
+# meaning that can be carried out is taken before it.
+MISPLACED = 0.5
+# Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
+BETWEEN = 0.98
+# Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
+# Every other meaning is a group of its own.
+CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
+OPEN = frozenset({'wall', 'rod', 'rope', 'chain', 'spring', 'hatching'})
+# Meanings that destroy what was drawn before, or change the whole world.
+DELETION, GRAVITY = 'deletion', 'gravity'
+# The greatest number of guesses that a reading has.
+MOST_GUESSES = 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Candidate:
+    """
+    A stroke as a sign: with its tail at one of both ends, with one of its crossings.
+
+    :param measures: of the stroke by name, as the table of the sign has them
+    :param points: (n, 2) float64: the points that describe the sign, in the world [m]
+    """
+
+    measures: Mapping[str, float]
+    points: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Form:
+    """
+    A form that a stroke may have.
+
+    :param name: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
+    :param weight: how well the stroke fits the form, 0 .. 1
+    :param points: (n, 2) float64: the points that describe the form, in the world [m]
+    :param measures: of the fits to the stroke that the form was chosen by, by name
+    """
+
+    name: str
+    weight: float
+    points: Floats
+    measures: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """
+    An end of a joint.
+
+    :param point: in the world [m]
+    :param body: name of the body, or 'world' for the background
+    """
+
+    point: Point
+    body: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Context:
+    """
+    A stroke in the scene that it was drawn over.
+
+    :param features: of the stroke
+    :param forms: that it may have, by falling weight
+    :param scene: the world that it was drawn over
+    :param settings: of drawing
+    :param ends: of a joint between the bodies at its ends, the first on a dynamic body; None where
+        no joint can be there
+    :param wheels: that it runs around as a rope between these ends, in its order, and where [m]
+    """
+
+    features: Features
+    forms: Sequence[Form]
+    scene: SceneQuery
+    settings: DrawingSettings
+    ends: tuple[End, End] | None
+    wheels: Sequence[tuple[str, Point]]
+
+    @property
+    def drawn(self) -> Stroke:
+        """Return the stroke."""
+        return self.features.stroke
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Outcome:
+    """
+    The requests of a stroke, with words and a line that tell about them.
+
+    :param requests: to be submitted, in this order
+    :param subject: the body or joint concerned; '' where there is none or there are several
+    :param message: one sentence about the requests
+    :param outline: (n, 2) float64: the regularised stroke for the preview; the first point
+        repeated where it is closed [m]
+    """
+
+    requests: tuple[Request, ...]
+    subject: str
+    message: str
+    outline: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Meaning:
+    """
+    A meaning that a stroke may have.
+
+    :param name: as `~/events` reports it: `disc`, `anchor` and so on
+    :param weight: likelihood, not yet normalised
+    :param build: returns the outcome, or raises a Refusal
+    """
+
+    name: str
+    weight: float
+    build: Callable[[], Outcome]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sign:
+    """
+    A sign: a form that is told from lines and outlines by evidence.
+
+    :param name: of the form, and of its rows in the table of evidence
+    :param candidates: yields what a stroke would be as this sign, with the measures of each
+    :param meanings: yields the meanings of the form; their weights add up to that of the form
+    """
+
+    name: str
+    candidates: Callable[[Features], Iterator[Candidate]]
+    meanings: Callable[[Form, Context], Iterator[Meaning]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Guess:
+    """
+    A meaning that a stroke may have.
+
+    :param meaning: name of it, as `~/events` reports it: `disc`, `anchor` and so on
+    :param confidence: in the meaning: the share of such guesses that are right, 0 .. 1
+    :param group_confidence: in its group, 0 .. 1
+    :param build: returns the outcome, or raises a Refusal; changes nothing
+    """
+
+    meaning: str
+    confidence: float
+    group_confidence: float
+    build: Callable[[], Outcome]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Reading(Outcome):
+    """
+    The meaning that a stroke was read with, and its outcome.
+
+    :param guesses: one to three: first that of the reading, then the others, the likeliest first
+    :param amends: numbers of earlier gestures that the requests replace: the stroke was read
+        together with earlier ones, or anew
+    :param also: meanings that earlier strokes now have, over its new body
+    """
+
+    guesses: tuple[Guess, ...]
+    amends: tuple[int, ...] = ()
+    also: tuple[str, ...] = ()
+
+    @property
+    def meaning(self) -> str:
+        """Return the meaning: `disc`, `anchor` and so on."""
+        return self.guesses[0].meaning
+
+    @property
+    def confidence(self) -> float:
+        """Return the confidence in the meaning, 0 .. 1."""
+        return self.guesses[0].confidence
+
+    @property
+    def values(self) -> tuple[tuple[str, str], ...]:
+        """Return the guesses with their confidences, as pairs of key and value."""
+        return values_of(self.guesses)
+
+
+def values_of(guesses: Sequence[Guess]) -> tuple[tuple[str, str], ...]:
+    """Return meanings and confidences in them, the likeliest first, as pairs of key and value."""
+    keys = (
+        ('reading', 'confidence'),
+        ('runner_up', 'runner_up_confidence'),
+        ('third', 'third_confidence'),
+    )
+    return tuple(
+        pair
+        for (name, share), guess in zip(keys, guesses, strict=False)
+        for pair in ((name, guess.meaning), (share, f'{guess.confidence:.3f}'))
+    )
