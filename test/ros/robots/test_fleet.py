@@ -272,7 +272,7 @@ def test_topics_of_many_robots_are_made_and_taken_back_tick_by_tick(
     node.simulation.requests.apply_waiting()
 
     def counts_until(count: int) -> list[int]:
-        counts = []
+        counts: list[int] = []
         while not counts or counts[-1] != count:
             step = node.simulation.step
             node.tick(time.monotonic_ns())
