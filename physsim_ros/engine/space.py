@@ -35,6 +35,8 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
+# Bodies that leave at the end of a step in one call [1]: some 60 ms.
+_MOST_LEAVING = 2000
 # Of a space of Pymunk as it is made.
 _WITHOUT_GRAVITY = WorldSettings(gravity=(0.0, 0.0))
 
@@ -77,6 +79,8 @@ class Space:
         self.commands = Commands(self.bodies, self.joints, dt)
         self.broken: list[tuple[str, float]] = []
         self._changes = self._age = 0
+        # The bodies that are still to be removed at the end of the step.
+        self._leaving: list[str] = []
         self._table: BodyTable | None = None
         # Row of the background in the last table; -1 if there was none.
         self._background = -1
@@ -356,8 +360,11 @@ class Space:
         :param reports_contacts: whether contacts are reported
         :return: count of the steps that were made: fewer where something has to be done between
             two of them, or where they take long; and bodies that left the range of numbers, and
-            were removed
+            are removed
         """
+        if self._leaving:
+            self._remove_leaving()
+            return 0, []
         if self._wrenched:
             self._end_wrenches(number)
         if self.commands.are_coming:
@@ -385,13 +392,19 @@ class Space:
         lost = table.lost() if core.has_lost else []
         # In a fixed order: the engine solves its constraints in an order that removals change.
         expired = table.columns.expiries.get(number + made, ())
-        self.remove(dict.fromkeys((*lost, *expired)))
+        self._leaving = [*dict.fromkeys((*lost, *expired))]
+        self._remove_leaving()
         return made, lost
+
+    def _remove_leaving(self) -> None:
+        """Remove some of the bodies that leave at the end of the step."""
+        some, self._leaving = self._leaving[:_MOST_LEAVING], self._leaving[_MOST_LEAVING:]
+        self.remove(some)
 
     @property
     def is_within_step(self) -> bool:
         """Return whether a step is begun and not ended; nothing is read or changed until then."""
-        return self._core.is_within_step
+        return self._core.is_within_step or bool(self._leaving)
 
     def _end_wrenches(self, number: int) -> None:
         """End the wrenches that act up to a step."""

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from physsim_ros.engine import space
 from physsim_ros.model.requests import Delete, DeleteBodies
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
@@ -40,3 +41,26 @@ def test_bodies_removed_together_leave_the_bits_that_they_leave_one_by_one(steps
     for world in (one_by_one, together):
         world.step(200)
     assert together.digest() == one_by_one.digest()
+
+
+def expired(world: World) -> int:
+    """Make the step in which bodies expire, and return the number of its slices."""
+    for number in range(7):
+        spawn(world, f'short/{number}', Disc(radius=0.1), (3.0 + number, 1.0, 0.0), lifetime=0.1)
+    world.step(23)
+    slices = 1
+    for _ in world.slices_of_steps(1):
+        assert world.is_within_step
+        slices += 1
+    assert not any(name.startswith('short') for name in world.scene.names)
+    return slices
+
+
+def test_bodies_that_expire_at_once_leave_in_slices(monkeypatch: pytest.MonkeyPatch) -> None:
+    at_once, in_slices = pile(0), pile(0)
+    assert expired(at_once) == 1
+    monkeypatch.setattr(space, '_MOST_LEAVING', 3)
+    assert expired(in_slices) == 3
+    for world in (at_once, in_slices):
+        world.step(100)
+    assert in_slices.digest() == at_once.digest()
