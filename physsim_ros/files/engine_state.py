@@ -73,7 +73,8 @@ class _Coming(Checked):
 
     begins: Annotated[float, Within(0.0, LONGEST, 's'), 'until the drive obeys it']
     aim: Annotated[Pose, _POSE, 'commanded velocity'] = ORIGIN
-    seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until it ends'] = None
+    # Its way to the drive, and then the time for which it counts.
+    seconds: Annotated[float | None, Within(0.0, 2.0 * LONGEST, 's'), 'until it ends'] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -17,8 +17,9 @@ from physsim_ros.files.resources import is_plain
 from physsim_ros.files.world_file import is_shipped, kept_path, user_lessons
 from physsim_ros.model.errors import BadWorldFile, Exists
 
-# Length of a name [characters].
-LONGEST_NAME = 64
+# Length of a name [characters], and in UTF-8 [bytes]: below the 255 of the name of a file, which has
+# a suffix.
+LONGEST_NAME, LONGEST_FILE = 64, 240
 # Directory of pictures, below that of the worlds.
 _PICTURES = '.pictures'
 
@@ -35,6 +36,8 @@ def check_world_name(name: str) -> str:
         raise BadWorldFile(f'a name has at most {LONGEST_NAME} characters', field='name')
     if not is_plain(name) or '.' in name or '\\' in name or not name.isprintable():
         raise BadWorldFile(f'{name!r} cannot be a name: it has no "/" and no "."', field='name')
+    if len(name.encode()) > LONGEST_FILE:
+        raise BadWorldFile(f'a name has at most {LONGEST_FILE} bytes in UTF-8', field='name')
     return name
 
 
@@ -58,11 +61,13 @@ class OwnWorlds:
         Refuse a name that is taken.
 
         :param replace: whether an own world may have it
+        :raises BadWorldFile: it cannot be one
         :raises Exists: an own world has it, or a shipped one
         """
+        path = self._path(name)
         if is_shipped(name):
             raise Exists(f'{name} is the name of a world that ships with physsim', field='name')
-        if not replace and self._path(name).exists():
+        if not replace and path.exists():
             raise Exists(f'there is a world {name} already', field='name')
 
     def rename(self, name: str, to: str) -> str:
@@ -76,6 +81,8 @@ class OwnWorlds:
         self._existing(name).rename(self._path(to))
         # One that stays behind is drawn anew.
         with suppress(OSError):
+            # That of a world which had the name before.
+            self.picture(to).unlink(missing_ok=True)
             self.picture(name).rename(self.picture(to))
         return f'renamed {name} to {to}'
 

@@ -18,10 +18,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
+from itertools import takewhile
 import json
 import os
 from pathlib import Path
-import re
 import sys
 from typing import Any
 
@@ -37,8 +37,6 @@ from physsim_ros.model.texts import abbreviated, nearest_name
 
 # Start of a file in which its title is looked for [bytes].
 _TITLE_WITHIN = 400
-# A comment of YAML, and the first sentence of it.
-_COMMENT = re.compile(r'^#(.*?)\.\s', re.DOTALL | re.MULTILINE)
 
 
 def shipped(folder: str) -> Path:
@@ -101,10 +99,12 @@ def title_of(path: Path) -> str:
             start = file.read(_TITLE_WITHIN).decode(errors='ignore')
     except OSError:
         return path.stem
-    found = _COMMENT.search(start)
-    if found is None:
-        return path.stem
-    return ' '.join(word for word in found[1].split() if word != '#') or path.stem
+    comment = takewhile(lambda line: line.startswith('#'), start.splitlines())
+    words = ' '.join(' '.join(line.lstrip('#') for line in comment).split())
+    sentence, stop, _ = f'{words} '.partition('. ')
+    # A sentence that goes on after the start is none.
+    is_whole = stop or len(start) < _TITLE_WITHIN
+    return sentence.strip() or path.stem if is_whole else path.stem
 
 
 # Keys that exclude each other: one in an entry replaces all of the shipped robot.

@@ -105,7 +105,9 @@ def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
     points = joint.drawn_points(poses)
     entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
     entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
-    properties: dict[str, object] = joint.properties.entry()
+    # Also an empty list, which is not the same as none.
+    given = joint.properties.explicit()
+    properties: dict[str, object] = {name: entry_of(value) for name, value in given.items()}
     return entry | properties | {'seat': _seat_entry(joint)}
 
 

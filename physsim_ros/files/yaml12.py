@@ -41,7 +41,7 @@ class NotYaml(Malformed):
     :param line: of the text, from 1; None if it is unknown
     """
 
-    def __init__(self, message: str, *, field: str, line: int | None) -> None:
+    def __init__(self, message: str, *, field: str = '', line: int | None = None) -> None:
         super().__init__(message, field=field)
         self.line = line
 

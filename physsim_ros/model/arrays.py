@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Types of arrays, rows of three numbers, and a reduction that numpy has no single name for."""
+"""Types of arrays, read-only ones, and a reduction that numpy has no single name for."""
 
 from typing import Any
 
@@ -14,8 +14,15 @@ Singles = NDArray[np.float32]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
+
+def make_read_only(*arrays: NDArray[Any]) -> None:
+    """Have arrays be read-only: others keep them, too."""
+    for array in arrays:
+        array.flags.writeable = False
+
+
 _NO_ROWS: Floats = np.empty((0, 3))
-_NO_ROWS.flags.writeable = False
+make_read_only(_NO_ROWS)
 
 
 def no_rows() -> Floats:
@@ -49,5 +56,5 @@ def checked_rows(values: Any, count: int, name: str) -> Floats:
     rows = np.array(given, dtype=np.float64)
     if not np.isfinite(rows).all():
         raise Malformed(f'{name} is not finite', field=name)
-    rows.flags.writeable = False
+    make_read_only(rows)
     return rows

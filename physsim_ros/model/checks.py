@@ -44,11 +44,18 @@ LONGEST_SHOWN = 60
 
 
 class _Short(reprlib.Repr):
-    """Abbreviated texts of values; reprlib's own writes subclasses of dict out in full."""
+    """Abbreviated texts of values, also of subclasses of dict and of any whole number."""
 
     def repr1(self, x: Any, level: int) -> str:
         """Return the text of a value within others."""
         return self.repr_dict(x, level) if isinstance(x, dict) else super().repr1(x, level)
+
+    def repr_int(self, x: int, level: int) -> str:
+        """Return the text of a whole number; Python writes none of more than 4,300 digits."""
+        try:
+            return super().repr_int(x, level)
+        except ValueError:
+            return f'a number of {x.bit_length():,} bits'
 
 
 _SHORT = _Short()

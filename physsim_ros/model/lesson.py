@@ -14,6 +14,7 @@ from physsim_ros.model.checks import HEAVIEST, number, text, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.settings import Bounds, rectangle
+from physsim_ros.model.texts import is_printable
 
 # Greatest length of a text [characters]: a page of a book.
 LONGEST_TEXT = 2000
@@ -22,13 +23,19 @@ LONGEST_TITLE, LONGEST_UNIT = 80, 20
 
 
 def _text(longest: int) -> Any:
-    """Return a check of texts of at most a length [characters], which are not empty."""
+    """
+    Return a check of texts of at most a length [characters], which are not empty.
+
+    They have no other control characters than line breaks, as labels of bodies.
+    """
 
     def check(value: object, name: str) -> str:
         # Folded lines of YAML end with a line break.
         line = text(value, name, BadProperty).strip()
         if not 0 < len(line) <= longest:
             raise BadProperty(f'{name} must have 1 to {longest} characters', field=name)
+        if not is_printable(line.replace('\n', '')):
+            raise BadProperty(f'{name} has an unprintable character', field=name)
         return line
 
     return check

@@ -9,7 +9,7 @@ import itertools
 import math
 from typing import Annotated, NamedTuple
 
-from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, OneOf, shown, text
+from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, OneOf, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 
@@ -17,6 +17,7 @@ from physsim_ros.model.errors import BadProperty, Malformed
 MODES = ('position', 'velocity', 'effort')
 # Greatest number of points of a trajectory.
 MOST_POINTS = 1000
+_RATE = Within(-HEAVIEST, HEAVIEST)
 
 
 class CommandPoint(NamedTuple):
@@ -53,16 +54,19 @@ def points_from(value: object, name: str) -> tuple[CommandPoint, ...]:
 
 
 def _point(value: object, name: str) -> CommandPoint:
-    row = tuple(value) if isinstance(value, list | tuple) else ()
-    rate = math.nan if len(row) < 3 or row[2] is None else row[2]
-    time, number = check_finite(row[:2], 2, name)
-    if not (isinstance(rate, int | float) and (math.isnan(rate) or abs(rate) <= HEAVIEST)):
-        raise Malformed(f'{name} has a rate {shown(rate)}', field=name)
+    if not isinstance(value, list | tuple) or len(value) not in (2, 3):
+        raise Malformed(
+            f'{name} must be [time, value] or [time, value, rate], not {shown(value)}', field=name
+        )
+    time, number = check_finite(value[:2], 2, name)
+    rate = value[2] if len(value) == 3 and value[2] is not None else math.nan
+    if not (isinstance(rate, float) and math.isnan(rate)):
+        rate = _RATE(rate, name)
     if not 0.0 <= time <= LONGEST:
         raise BadProperty(f'a time of {name} must lie between 0 and {LONGEST:g} s', field=name)
     if abs(number) > HEAVIEST:
         raise BadProperty(f'a value of {name} exceeds {HEAVIEST:g}', field=name)
-    return CommandPoint(time, number, float(rate))
+    return CommandPoint(time, number, rate)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -7,7 +7,16 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated
 
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, VELOCITY, Whole, Within
+from physsim_ros.model.checks import (
+    HEAVIEST,
+    LIGHTEST,
+    Row,
+    shown,
+    Vector,
+    VELOCITY,
+    Whole,
+    Within,
+)
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.media import DRAG, FLUID_DENSITY, GUST_TIME, GUSTS, Medium, VISCOSITY
@@ -25,7 +34,7 @@ STRONGEST = 1e4
 MOST_JOINTS_ON_BODY = 1000
 # Greatest number of hands that drag at once [1], each 12 µs a step: one for each page.
 MOST_HANDS = 64
-# Greatest number of topics of all robots [1]: those of 500 TurtleBots. Fast DDS takes a second to
+# Greatest number of topics of all robots [1]: those of 440 TurtleBots. Fast DDS takes a second to
 # make them, and 15 s for 2,000 TurtleBots.
 MOST_ROBOT_TOPICS = 4000
 # A note of a setting that protects the node, and that no world file changes.
@@ -213,11 +222,11 @@ class WorldSettings(Checked):
         )
 
 
-def check_setting(name: str) -> None:
+def check_setting(name: object) -> None:
     """
     Refuse a name that is no setting.
 
     :raises BadProperty: it is not
     """
     if name not in WorldSettings.FIELDS:
-        raise BadProperty(f'the world has no setting {name!r}', field=name)
+        raise BadProperty(f'the world has no setting {shown(name)}', field=str(name))

@@ -4,7 +4,7 @@
 """
 Snapshots and frames: state after a step, contacts, and answers to requests.
 
-Law: all values are immutable or fresh arrays; none is an object of the engine.
+Law: all values of a world are immutable, arrays read-only; none is an object of the engine.
 """
 
 from __future__ import annotations

@@ -124,6 +124,10 @@ class FrameMaker:
         view, playback = self._view, self.playback
         return playback.changed or view is None or view.snapshot.step != playback.step
 
+    def _forget_frames(self) -> None:
+        """Have the next frame be the first one of its world: there is none before it."""
+        self._view = self._passed = None
+
     def at_shown_moment(self) -> Past:
         """
         Apply the requests that wait, and return the past, its cursor at the moment that is shown.

@@ -189,8 +189,8 @@ class Playback:
 
         :raises OutOfHistory: the time is no longer kept, or in the future
         """
-        self.frames_due = 0
         self._seek_step(self._past.steps_in(stamp * 1e-9))
+        self.frames_due = 0
 
     def _seek_step(self, step: int) -> None:
         self._past.cursor.finish_amendment()

@@ -365,6 +365,7 @@ class RequestQueue:
 
     def note_jump(self) -> None:
         """Show the moment to which something else than a seek has sent the cursor."""
+        self._playback.frames_due = 0
         self._playback.note_jump()
         self._has_jumped = True
         self._supersede('jump')

@@ -88,8 +88,13 @@ class Robot:
         :param turn: turn rate, counter-clockwise [rad/s]
         :param sideways: speed to the left, for an omnidirectional drive [m/s]
         :raises Malformed: a number is not finite
+        :raises BadProperty: the robot has no drive
+        :raises UnknownBody: the robot was deleted
         """
         command = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
+        _, robot = robot_of_name(self.simulation.world.space, self.name)
+        if robot.drive is None:
+            raise BadProperty(f'{self.name} has no drive', field='name')
         self.simulation.driving[self.name] = command
 
     def place(self, x: float, y: float, yaw: float = 0.0) -> None:

@@ -47,6 +47,7 @@ class SavedMoment:
     :param frame: frame that is shown
     :param before: snapshot of another time that was shown before it; None if there is none
     :param driving: commands that robots obey
+    :param physics_rate: steps of the world per second of simulation time [Hz]
     """
 
     checkpoint: Checkpoint
@@ -54,6 +55,7 @@ class SavedMoment:
     frame: Frame
     before: Snapshot | None
     driving: tuple[DriveRobot, ...]
+    physics_rate: float
 
 
 class Simulation(FrameMaker):
@@ -200,28 +202,39 @@ class Simulation(FrameMaker):
         self.perform(Command(names=(name,), poses=np.array(((x, y, yaw),)), twists=twists))
 
     def begin(self, state: WorldState) -> None:
-        """Begin with a state, at time 0 and without a past; `reset` returns to it."""
+        """
+        Begin with a state, at time 0 and without a past; `reset` returns to it.
+
+        :raises Malformed: the value is not a state
+        :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
+        """
+        OfClass(WorldState)(state, 'state')
+        self.requests.apply_waiting()
         self.past.begin(state)
         self._note_beginning()
+        self.requests.note_jump()
 
     def _note_beginning(self) -> None:
-        """Note that the world is another one, which nobody drags or drives."""
+        """Note that the world is another one, which nobody drags, drives or has seen."""
         self.requests.hands.clear()
         self.stop_driving()
-        self.requests.note_jump()
+        self._forget_frames()
 
     def load(self, world: WorldState | Beginning) -> str:
         """
         Replace the world by a state, to which `reset` returns; time goes on. Return a message.
 
         :param world: a state from `load_world` or `save`, or its beginning, which any thread makes
+        :raises Malformed: the value is neither
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
+        message = self.perform(Restore(state=self._put_ahead(world)))
         self.stop_driving()
-        return self.perform(Restore(state=self._put_ahead(world)))
+        return message
 
     def _put_ahead(self, world: WorldState | Beginning) -> WorldState:
         """Return a state, with which the world begins as it was built, where it was."""
+        OfClass(WorldState | Beginning)(world, 'world')
         if isinstance(world, WorldState):
             return world
         self.at_shown_moment().cursor.world.put_ahead(world)
@@ -285,6 +298,7 @@ class Simulation(FrameMaker):
             frame=frame,
             before=self.view.before,
             driving=tuple(self.driving.values()),
+            physics_rate=self.physics_rate,
         )
 
     def restore(self, saved: SavedMoment) -> None:
@@ -293,10 +307,19 @@ class Simulation(FrameMaker):
 
         :param saved: what `checkpoint` returned, also in another simulation or process
         :raises Malformed: the value is not a saved moment
+        :raises BadProperty: it is one of a world with another physics rate
         """
         OfClass(SavedMoment)(saved, 'saved')
+        if saved.physics_rate != self.physics_rate:
+            raise BadProperty(
+                f'the moment is one at {saved.physics_rate:g} Hz, and this world makes its steps '
+                f'at {self.physics_rate:g} Hz',
+                field='physics_rate',
+            )
+        self.requests.apply_waiting()
         self.past.restore(saved.checkpoint, saved.loaded)
         self._note_beginning()
+        self.requests.note_jump()
         self.driving = {drive.name: drive for drive in saved.driving}
         self._view = View(saved.frame, saved.before)
         self.playback.changed = False
@@ -310,11 +333,13 @@ class Simulation(FrameMaker):
         :raises BadProperty: the seed is out of range
         """
         with self._jump() as past:
-            self.requests.hands.clear()
-            self.stop_driving()
-            past.cursor.world.put_ahead(ahead)
-            done = past.reset(seed)
-            past.cursor.world.put_ahead(None)
+            world = past.cursor.world
+            world.put_ahead(ahead)
+            try:
+                done = past.reset(seed)
+            finally:
+                world.put_ahead(None)
+            self._note_beginning()
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
     def open_world(self, world: WorldState | Beginning) -> str:
@@ -327,8 +352,7 @@ class Simulation(FrameMaker):
         with self._jump() as past:
             state = self._put_ahead(world)
             past.open_world(state)
-            self.requests.hands.clear()
-            self.stop_driving()
+            self._note_beginning()
         return load_message(state)
 
     def undo(self) -> str:
@@ -376,13 +400,12 @@ class Simulation(FrameMaker):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
         number(stamp, 'clock')
         self.requests.apply_waiting()
+        message = self.requests.seek(stamp)
         self.stop_driving()
-        return self.requests.seek(stamp)
+        return message
 
     @contextmanager
     def _jump(self) -> Iterator[Past]:
         """Have the block move the cursor, from the moment that is shown after all requests."""
-        past = self.at_shown_moment()
-        self.playback.frames_due = 0
-        yield past
+        yield self.at_shown_moment()
         self.requests.note_jump()

@@ -242,7 +242,8 @@ def _in_one_line(error: BaseException) -> str:
     places = traceback.extract_tb(error.__traceback__)
     outside = [each for each in places if not Path(each.filename).is_relative_to(_PACKAGE)]
     place = (outside or places)[-1]
-    return f'{type(error).__name__}: {error} ({place.name}, line {place.lineno})'
+    message = ' '.join(str(error).split())
+    return f'{type(error).__name__}: {message} ({place.name}, line {place.lineno})'
 
 
 def _world_at(simulation: Simulation, seconds: float) -> WorldState:
@@ -253,8 +254,8 @@ def _world_at(simulation: Simulation, seconds: float) -> WorldState:
     """
     simulation.seek(round(max(seconds, simulation.status.oldest) * 1e9))
     snapshot = simulation.frame.snapshot
-    for row, aim in zip(snapshot.scene.robot_rows.tolist(), snapshot.robots['aim'], strict=True):
-        ahead, aside, turn = aim.tolist()
-        name = snapshot.scene.names[row]
-        simulation.perform(DriveRobot(name=name, velocity=(ahead, aside, turn)))
+    scene, aims = snapshot.scene, snapshot.robots['aim'].tolist()
+    for row, robot, aim in zip(scene.robot_rows.tolist(), scene.robots, aims, strict=True):
+        if robot.drive is not None:
+            simulation.perform(DriveRobot(name=scene.names[row], velocity=aim))
     return simulation.save()

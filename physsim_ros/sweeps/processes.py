@@ -69,7 +69,7 @@ class _Process:
         self.job = job
         self._experiment = experiment
         self._calls = mmap.mmap(-1, _LENGTH.size)
-        self._received = b''
+        self._received = bytearray()
         self.pipe, out = os.pipe()
         self.deadline = time.monotonic() + experiment.wall_limit * self._attempts
         # Buffers are written before the fork, or each process would write them.
@@ -160,8 +160,8 @@ class _Process:
         """
         how, number, case = self.close(), self.job.number, self.job.case
         if self._is_complete:
-            start = _LENGTH.size
-            result: Run | Exception = pickle.loads(self._received[start:])  # noqa: S301 - its own
+            data = memoryview(self._received)[_LENGTH.size :]
+            result: Run | Exception = pickle.loads(data)  # noqa: S301 - its own
             if isinstance(result, Exception):
                 raise result
             return replace(result, case=case)

@@ -6,21 +6,23 @@ Rows: the runs of a sweep in a folder, written as they come, so that a second ca
 
 Laws: a folder has the runs of one experiment. A row that was cut off is run again. The folder has
 `runs.jsonl`, a JSON object a line, the first of which names the experiment; and a world file for
-each run that failed.
+each run that failed, whatever other cases had its number in another call.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
+import hashlib
+from itertools import count
 import json
 import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from physsim_ros.files import load_world, save_world
+from physsim_ros.files import load_world, save_world, text_of
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sweeps.experiment import Case, Experiment, Run
 
 _FILE = 'runs.jsonl'
@@ -48,6 +50,8 @@ class Rows:
             message = f'{self._path} has the runs of another experiment: {_line(rows[0]).strip()}'
             raise BadProperty(message, field='folder')
         self._rows.update((row['case'], row) for row in rows[1:])
+        # Names of the world files.
+        self._files = {row['before'] for row in rows[1:]}
 
     def _read(self) -> list[dict[str, Any]]:
         """Return the rows that are whole; cut the last one off if it is not."""
@@ -73,13 +77,16 @@ class Rows:
 
     def _run(self, case: Case, row: Mapping[str, Any]) -> Run:
         rate, before = self._experiment.physics_rate, row['before']
+        # Of the settings, a file lacks the limits.
+        settings = self._experiment.world.settings
         return Run(
             case=case,
             failure=row['failure'],
             seconds=row['seconds'],
             way=np.array(row['way'], float).reshape(-1, 2),
             score=math.nan if row['score'] is None else row['score'],
-            before=before and load_world(self._folder / before, physics_rate=rate),
+            before=before
+            and load_world(self._folder / before, settings=settings, physics_rate=rate),
             physics_rate=rate,
         )
 
@@ -90,7 +97,10 @@ class Rows:
         :param number: of its case
         :raises BadWorldFile: the world of its failure cannot be written
         """
-        path = save_failure(number, run, self._folder)
+        # The number may be that of another case in an earlier call.
+        free = next(each for each in count(number) if file_name(each, run) not in self._files)
+        path = save_failure(free, run, self._folder)
+        self._files.add(path and path.name)
         row = {
             'case': _key(run.case),
             'failure': run.failure,
@@ -113,8 +123,13 @@ def save_failure(number: int, run: Run, folder: Path) -> Path | None:
     """
     if run.before is None:
         return None
-    name = f'run_{number}_seed_{run.case.seed}'
+    name = file_name(number, run)
     return save_world(run.before, name, world_dir=folder, physics_rate=run.physics_rate)
+
+
+def file_name(number: int, run: Run) -> str:
+    """Return the name of the world file of a failed run, by the number of its case."""
+    return f'run_{number}_seed_{run.case.seed}.yaml'
 
 
 def _line(row: Mapping[str, Any]) -> str:
@@ -128,12 +143,12 @@ def _key(case: Case) -> str:
 
 def _identity(experiment: Experiment) -> dict[str, Any]:
     """Return what tells experiments apart: their worlds to the bit, functions by name, times."""
-    simulation = Simulation(physics_rate=experiment.physics_rate, publish_rate=1.0, history=0.0)
-    simulation.begin(experiment.world)
+    # Not the digest of the world, which leaves out what moves nothing, as how a sensor sees.
+    text = text_of(replace(experiment.world, memory=None), experiment.physics_rate)
     functions = ('controller', 'begin', 'failure', 'score')
     times = ('robot', 'seconds', 'period', 'physics_rate', 'before')
     return {
-        'world': simulation.world.digest(),
+        'world': hashlib.blake2b(text.encode(), digest_size=16).hexdigest(),
         **{name: _name_of(getattr(experiment, name)) for name in functions},
         **{name: getattr(experiment, name) for name in times},
     }

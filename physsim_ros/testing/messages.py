@@ -50,7 +50,7 @@ class BodyProperties(TypedDict, total=False):
     one_way: Numbers
     closed_sides: bool
     robot: str | Mapping[str, Any]
-    towed: bool
+    towed: Mapping[str, Any]
     actor: Mapping[str, Any]
     forces: Sequence[Mapping[str, Any]]
     charge: float

@@ -72,7 +72,7 @@ class RobotPaths:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        # Frame of each odometry in the world, and places at the row before, by name of the robot.
+        # Of the robots in the row before, by name: frame of the odometry in the world, and places.
         self._frames: dict[str, Pose] = {}
         self._places: dict[str, tuple[Point, Point]] = {}
         self._stamp = 0
@@ -83,6 +83,8 @@ class RobotPaths:
     def send(self, batch: FrameBatch, change: Change) -> None:
         """Send the paths of a batch."""
         count = len(batch.scene.robots)
+        if not count:
+            self._frames, self._places = {}, {}
         rows = [row for row, number in enumerate(batch.numbers) if number % PERIOD == 0]
         if not count or not rows:
             return
@@ -100,12 +102,14 @@ class RobotPaths:
         known = self._places if abs(now.stamp - self._stamp) <= _LONGEST else {}
         rows, states = now.scene.robot_rows, now.robots
         self._stamp, self._places = now.stamp, {}
+        frames, self._frames = self._frames, {}
         poses, odometry = now.poses[rows].tolist(), states['odometry'].tolist()
         for row, pose, reading in zip(rows.tolist(), poses, odometry, strict=True):
             name = now.scene.names[row]
-            if not any(reading) or name not in self._frames:
-                self._frames[name] = _odometry_frame(pose, reading)
-            estimate = local_to_world((reading[0], reading[1]), self._frames[name])
+            is_known = any(reading) and name in frames
+            frame = frames[name] if is_known else _odometry_frame(pose, reading)
+            self._frames[name] = frame
+            estimate = local_to_world((reading[0], reading[1]), frame)
             self._places[name] = (pose[0], pose[1]), estimate
         return [(known.get(name, place), place) for name, place in self._places.items()]
 

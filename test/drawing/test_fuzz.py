@@ -12,9 +12,9 @@ import math
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
+from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.click import Tool
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import Box

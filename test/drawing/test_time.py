@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.click import Tool
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc

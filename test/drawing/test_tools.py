@@ -9,10 +9,10 @@ from collections.abc import Sequence
 import math
 
 import numpy as np
+from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.tools import TOOLS
-from physsim_ros.drawing.click import Tool
 from physsim_ros.files import with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import (

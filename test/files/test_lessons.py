@@ -3,10 +3,24 @@
 
 """Lessons in world files: how they are found, and how bad ones are refused."""
 
+from contextlib import suppress
 from pathlib import Path
 
-from physsim_ros.files import find_world, load_world, shipped_lessons, user_lessons
-from physsim_ros.model.errors import BadWorldFile
+from hypothesis import example, given
+from hypothesis import strategies as st
+from physsim_ros.files import (
+    find_world,
+    load_mapping,
+    load_world,
+    shipped_lessons,
+    state_from,
+    text_of,
+    user_lessons,
+)
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import BadProperty, BadWorldFile
+from physsim_ros.model.lesson import Lesson
+from physsim_ros.model.settings import WorldSettings
 import pytest
 
 from .world_files import write
@@ -72,3 +86,16 @@ def test_a_bad_lesson_is_refused_with_its_place_and_a_reason(
 
     assert refused.value.brief == brief
     assert reason in str(refused.value)
+
+
+@given(words=st.text(st.characters(), min_size=1))
+@example(words='\ud800')
+@example(words='one\ntwo')
+def test_any_lesson_that_there_is_is_read_as_it_was_written(words: str) -> None:
+    numbers = {'number': 1, 'figure': 1.0, 'within': 0.1}
+    texts = {key: words for key in GOOD if key not in numbers and key != 'unit'}
+    with suppress(BadProperty):
+        lesson = Lesson(**numbers, **texts, unit='m')
+        state = WorldState(settings=WorldSettings(), lesson=lesson)
+        content = load_mapping(text_of(state, 240.0), field='text')
+        assert state_from(content, state.settings, 240.0).lesson == lesson

@@ -152,3 +152,25 @@ def test_what_is_no_plain_name_is_refused(directory: Path, name: str) -> None:
             act(name)
     with pytest.raises(BadWorldFile):
         own.rename('mine', name)
+
+
+@pytest.mark.parametrize('name', ['\U0001f600' * 64, '\U0001f600' * 61])
+def test_a_name_that_no_file_can_have_is_refused(directory: Path, name: str) -> None:
+    own = OwnWorlds(directory)
+
+    for act in (own.check_free, own.delete, own.put_back, own.picture):
+        with pytest.raises(BadWorldFile):
+            act(name)
+
+
+def test_a_renamed_world_has_its_own_picture_or_none(directory: Path) -> None:
+    own = OwnWorlds(directory)
+    own.picture('ours').parent.mkdir()
+    own.picture('ours').write_bytes(b'of a world that is gone')
+
+    own.rename('mine', 'ours')
+
+    assert not own.picture('ours').exists()
+    own.picture('ours').write_bytes(b'its own')
+    own.rename('ours', 'mine')
+    assert own.picture('mine').read_bytes() == b'its own'

@@ -35,6 +35,9 @@ from ..source_tree import ROOT
     ('text', 'title'),
     [
         ('# A pendulum,\n# swung. And more.\nformat: 1', 'A pendulum, swung'),
+        ('# A pendulum\nformat: 1\nbodies: [{label: "Hi. there"}]', 'A pendulum'),
+        ('format: 1\n# A comment of a key. More.\n', 'own'),
+        (f'# {"long " * 100}. More.', 'own'),
         ('format: 1', 'own'),
         ('# .\n', 'own'),
         ('', 'own'),

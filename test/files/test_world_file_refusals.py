@@ -5,6 +5,7 @@
 
 import os
 from pathlib import Path
+import pickle
 from typing import Any
 
 from hypothesis import given, settings
@@ -151,6 +152,15 @@ def test_what_is_no_yaml_mapping_is_refused(text: str, folder: Path) -> None:
 )
 def test_what_is_no_yaml_says_in_which_line(text: str, line: int, folder: Path) -> None:
     assert str(refusal_of(text, folder)).endswith(f', line {line}')
+
+
+def test_what_is_no_yaml_is_told_in_another_process() -> None:
+    with pytest.raises(Malformed) as refused:
+        load_mapping('a:\nb: [', field='text')
+
+    told = pickle.loads(pickle.dumps(refused.value))  # noqa: S301 - its own
+
+    assert (str(told), vars(told)) == (str(refused.value), vars(refused.value))
 
 
 def test_a_text_of_one_line_says_no_line() -> None:

@@ -135,3 +135,10 @@ def test_an_actor_that_cannot_be_is_refused(wrong, code, field):
     with pytest.raises(Refusal) as caught:
         actor_from(wrong, 'actor')
     assert (caught.value.code, caught.value.field) == (code, field)
+
+
+def test_an_actor_waits_for_a_body_by_any_spelling_of_its_name():
+    composed, decomposed = 'caf\u00e9/0', 'cafe\u0301/0'
+    actor = actor_from({**PATH, 'start': {'gate': decomposed, 'by': decomposed}}, 'actor')
+
+    assert actor.start.bodies == {'gate': composed, 'by': composed}

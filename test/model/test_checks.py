@@ -5,7 +5,7 @@
 
 import math
 
-from physsim_ros.model.checks import check_finite, number, pair, point_list
+from physsim_ros.model.checks import check_finite, flag, number, pair, point_list, Whole
 from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 import pytest
@@ -43,3 +43,11 @@ def test_a_list_of_points_is_pairs_of_numbers():
     for value, error in ((None, BadProperty), ([1], BadProperty), ([[1]], Malformed)):
         with pytest.raises(error):
             point_list(value, 'p')
+
+
+@pytest.mark.parametrize('value', [10**5000, -(10**5000), [10**5000]], ids=['+', '-', 'list'])
+def test_a_number_of_any_length_is_refused_with_a_word_about_it(value):
+    for check in (number, pair, Whole(0, 9), flag):
+        with pytest.raises((BadProperty, Malformed)) as refused:
+            check(value, 'n')
+        assert refused.value.field == 'n'

@@ -3,8 +3,12 @@
 
 """Each kind of joint has its points and properties, and the tables of all kinds agree."""
 
-from physsim_ros.model.errors import BadProperty, UnknownProperty
+import math
+
+import numpy as np
+from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.joints import DEFAULTS, JOINT_KEYS, JointKind, JointProperties, kind_from
+from physsim_ros.model.motor_command import points_from
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.transform import ORIGIN
@@ -79,3 +83,19 @@ def test_a_greatest_force_holds_every_joint_but_a_slider_that_a_rate_drives(kind
     drives = kind is JointKind.SLIDER and rate is not None
 
     assert joint(kind, WORLD, rate=rate, max_force=3.0).holding_force == (None if drives else 3.0)
+
+
+@pytest.mark.parametrize(
+    ('point', 'error'),
+    [([0, 1, 10**400], Malformed), ([0, 1, math.inf], Malformed), ([0, 1, 1e13], BadProperty),
+     ([0, 1, True], BadProperty), ([0, 1, 'fast'], BadProperty), ([0, 1, 2, 3], Malformed),
+     ([0], Malformed), (None, Malformed)],
+)  # fmt: skip
+def test_a_point_of_a_trajectory_that_is_none_is_refused(point, error):
+    assert refusal(points_from, [point], 'points') == (error, 'points')
+
+
+def test_a_rate_of_a_trajectory_may_be_absent_or_any_number():
+    for rate in ([], [None], [math.nan]):
+        assert math.isnan(points_from([[0, 1, *rate]], 'points')[0].rate)
+    assert points_from([[0, 1, np.float32(0.5)]], 'points')[0].rate == 0.5

@@ -9,8 +9,18 @@ import math
 import tracemalloc
 
 import numpy as np
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory
-from physsim_ros.model.requests import Command, Configure, Spawn
+from physsim_ros.model.joints import JointProperties
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Command,
+    CommandMotors,
+    Configure,
+    Join,
+    Request,
+    Spawn,
+)
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
 from physsim_ros.simulation.past.tree import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
@@ -122,6 +132,28 @@ def begin_again(sim: Simulation) -> None:
     sim.reset()
 
 
+def trajectory(number: int) -> Request:
+    """Return a command of a motor with many points; the first one makes the motor."""
+    if not number:
+        effort = JointProperties(effort=1.0)
+        return Join(name='j/0', kind='axle', points=((0.0, 0.0),), a='a/0', properties=effort)
+    points = [[0.01 * step, 0.1 * number + step] for step in range(500)]
+    return CommandMotors(commands=[{'joint': 'j/0', 'mode': 'position', 'points': points}])
+
+
+def with_landmarks(number: int) -> Request:
+    """Return the request for a robot that knows many landmarks by their names."""
+    names = [f'landmark_{number}/{place}' for place in range(300)]
+    robot = {'sensors': [{'kind': 'landmarks', 'bodies': names}]}
+    return ChangeBody(name='a/0', properties=Properties(robot=robot))
+
+
+def along_points(number: int) -> Request:
+    """Return the request for an actor with many points."""
+    points = [[1e-3 * number, 0.1 * place] for place in range(300)]
+    return ChangeBody(name='a/0', properties=Properties(actor={'kind': 'orca', 'points': points}))
+
+
 ACTS: dict[str, tuple[int, Callable[[Simulation, int], object]]] = {
     'commands': (100, lambda sim, number: (command(sim, number), sim.apply_requests())),
     'discs': (300, lambda sim, n: spawn_again(sim, Disc(radius=0.2 + 1e-6 * n))),
@@ -131,8 +163,11 @@ ACTS: dict[str, tuple[int, Callable[[Simulation, int], object]]] = {
     'checkpoints': (100, lambda sim, _: (sim.advance_frame(), sim.past.cursor.add_keyframe())),
     'branches': (10, throw),
     'resets': (300, lambda sim, _: begin_again(sim)),
+    'motors': (30, lambda sim, number: sim.perform(trajectory(number))),
+    'robots': (100, lambda sim, number: sim.perform(with_landmarks(number))),
+    'actors': (100, lambda sim, number: sim.perform(along_points(number))),
 }
-QUICK = ('commands', 'frames', 'resets')
+QUICK = ('commands', 'frames', 'resets', 'motors', 'robots', 'actors')
 
 
 @pytest.mark.parametrize('act', [name if name in QUICK else slow(name) for name in ACTS])
@@ -153,6 +188,18 @@ def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act)
     tracemalloc.stop()
 
     assert 0.5 < (used(sim) - first) / taken < 2.0
+
+
+def test_a_past_that_is_given_up_keeps_no_frames():
+    sim = Simulation()
+    sim.perform(Spawn(name='a/0', shape=Disc(radius=0.2)))
+    told(sim, 60)
+    assert sim.past.frames.size
+
+    sim.limit_history(0.0)
+    sim.advance_frame()
+
+    assert not sim.past.frames.size
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 
 """Robots of a simulation without ROS: driven, read, reset, and continued from a saved moment."""
 
+from collections.abc import Callable
 from copy import copy
 import math
 import pickle
@@ -185,6 +186,63 @@ def test_a_saved_moment_has_the_requests_that_waited_and_no_hand():
     assert simulation.world.digest() == another.world.digest()
 
 
+def test_a_moment_of_another_physics_rate_is_refused_and_changes_nothing():
+    robot = corridor()
+    robot.simulation.run(1.0)
+    another = corridor(physics_rate=480.0).simulation
+    digest = another.world.digest()
+
+    with pytest.raises(BadProperty) as refused:
+        another.restore(robot.simulation.checkpoint())
+
+    assert refused.value.field == 'physics_rate'
+    assert another.world.digest() == digest
+
+
+# What replaces the world: from a robot in one that is used, with its state and a moment of a fresh
+# one, after which both must be alike.
+BEGINNINGS: dict[str, Callable[[Robot, Robot], object]] = {
+    'begin': lambda used, fresh: used.simulation.begin(fresh.simulation.loaded),
+    'reset': lambda used, _: used.simulation.reset(),
+    'open_world': lambda used, fresh: used.simulation.open_world(fresh.simulation.loaded),
+    'restore': lambda used, fresh: used.simulation.restore(fresh.simulation.checkpoint()),
+}
+
+
+@pytest.mark.parametrize('name', BEGINNINGS)
+def test_readings_after_a_beginning_depend_on_no_world_before_it(name):
+    used, fresh = corridor(), corridor()
+    fresh.simulation.begin(fresh.simulation.loaded)
+    used.drive(-0.2, 1.0)
+    used.simulation.run(1.0)
+    used.read('imu')
+    used.simulation.run(0.5)
+    used.simulation.is_read = False
+    used.simulation.pass_frames(3)
+
+    BEGINNINGS[name](used, fresh)
+
+    for robot in (used, fresh):
+        robot.drive(0.2)
+        # Nobody reads the frames up to then.
+        robot.simulation.run(2.0)
+    for sensor in (each.name for each in fresh.description.sensors):
+        np.testing.assert_equal(used.read(sensor), fresh.read(sensor))
+
+
+@pytest.mark.parametrize('name', BEGINNINGS)
+def test_requests_that_wait_are_of_the_world_before(name):
+    used, fresh = corridor(), corridor()
+    fresh.simulation.begin(fresh.simulation.loaded)
+    used.simulation.requests.submit(Spawn(name='b/0', shape=Disc(radius=0.1)), topic='~/spawn')
+
+    BEGINNINGS[name](used, fresh)
+
+    used.simulation.run(0.1)
+    assert 'b/0' not in used.simulation.world
+    assert [each.subject for each in used.simulation.frame.answers] == ['b/0']
+
+
 def test_a_restored_simulation_has_a_past_of_its_own_and_is_reset_as_the_first():
     robot = corridor()
     wander(robot, 20)
@@ -243,6 +301,17 @@ def test_a_robot_that_drives_on_after_an_undo_leaves_what_there_is_to_redo():
     assert robot.truth().twist[0] == pytest.approx(0.2, abs=1e-6)
     robot.simulation.redo()
     assert 'b/0' in robot.simulation.world
+
+
+def test_a_robot_without_a_drive_cannot_be_driven():
+    robot = corridor()
+    robot.simulation.perform(robot_spawn('arm', name='arm/0', at=(2.0, 0.0)))
+    with pytest.raises(BadProperty, match='arm/0 has no drive'):
+        Robot(robot.simulation, 'arm/0').drive(1.0)
+    robot.simulation.perform(Delete(name='robot/0'))
+    with pytest.raises(UnknownBody):
+        robot.drive(1.0)
+    assert not robot.simulation.driving
 
 
 def test_another_world_and_a_seek_end_what_a_robot_is_held_to():

@@ -3,11 +3,29 @@
 
 """Requests go in and are answered, in order, one each; frames come out, at their time."""
 
+from collections.abc import Callable
+from dataclasses import replace
 import math
 
 import numpy as np
-from physsim_ros.model.errors import BadProperty, Malformed, NothingThere, UnknownBody
-from physsim_ros.model.requests import Anchor, Command, Configure, Delete, DeleteAll, DriveRobot
+from physsim_ros.files import find_world, load_world, robot_spawn
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import (
+    BadProperty,
+    Malformed,
+    NothingThere,
+    Refusal,
+    UnknownBody,
+)
+from physsim_ros.model.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    DriveRobot,
+    Grab,
+)
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Polygon
 from physsim_ros.model.snapshot import Answer, Frame
@@ -124,7 +142,7 @@ def test_requests_are_answered_in_order_and_one_each():
     ('request_', 'subject'),
     [(spawning('b/9', frame='nobody/0'), 'b/9'), (Delete(name='b/9'), 'b/9'),
      (Command(names=('b/9',)), 'b/9'), (Command(names=('b/8', 'b/9')), ''),
-     (Anchor(point=(9.0, 9.0)), ''), (Configure(changes={'damping': 7.0}), '')],
+     (Anchor(point=(9.0, 9.0)), '')],
 )  # fmt: skip
 def test_a_refusal_names_the_body_that_it_is_about(request_, subject):
     sim = simulation()
@@ -338,6 +356,53 @@ def test_reset_without_a_load_empties_the_world():
     assert sim.world.step_count == 0
 
 
+def full() -> WorldState:
+    """Return a state with more bodies than it may have."""
+    sim = simulation()
+    for number in range(3):
+        sim.perform(spawning(f'a/{number}', DISC, (3.0 * number, 0.0, 0.0)))
+    state = sim.save()
+    return replace(state, settings=replace(state.settings, max_bodies=1))
+
+
+REFUSED: dict[str, Callable[[Simulation], object]] = {
+    'reset': lambda sim: sim.reset(-1),
+    'load': lambda sim: sim.load(full()),
+    'load what is none': lambda sim: sim.load('demo'),  # type: ignore[arg-type]
+    'begin': lambda sim: sim.begin(full()),
+    'begin with what is none': lambda sim: sim.begin(None),  # type: ignore[arg-type]
+    'restore': lambda sim: sim.restore(None),  # type: ignore[arg-type]
+    'open_world': lambda sim: sim.open_world(full()),
+    'undo': Simulation.undo,
+    'redo': Simulation.redo,
+    'return_to_course': lambda sim: sim.return_to_course(7),
+    'seek': lambda sim: sim.seek(99 * SECOND),
+    'place': lambda sim: sim.place('nobody/0', 0.0, 0.0),
+    'limit_history': lambda sim: sim.limit_history(-1.0),
+    'limit_memory': lambda sim: sim.limit_memory(-1.0),
+}
+
+
+@pytest.mark.parametrize('name', REFUSED)
+def test_what_is_refused_ends_no_drive_no_drag_and_no_frame_that_is_due(name):
+    sim = simulation(speed=0.0)
+    sim.perform(spawning('b/0', DISC, (0.0, 0.0, 0.0)))
+    sim.perform(Grab(hand='mouse', point=(0.0, 0.0)))
+    # Now there is nothing to undo.
+    sim.past.begin(sim.save())
+    sim.driving['robot/0'] = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
+    sim.playback.queue_frame()
+    before = sim.step, sim.world.digest(), sim.status
+
+    with pytest.raises(Refusal):
+        REFUSED[name](sim)
+
+    assert (sim.step, sim.world.digest(), sim.status) == before
+    assert sim.driving
+    assert 'mouse' in sim.requests.hands
+    assert sim.playback.frames_due == 1
+
+
 def test_reset_answers_those_that_wait_first():
     sim = simulation()
     sim.advance(0)
@@ -373,6 +438,21 @@ def test_contacts_come_where_somebody_watches():
     assert told == [[[0, -1]]] * len(frames)
     sim.reports_contacts = False
     assert {frame.contacts for frame in periods(sim, 3, since=60)} == {None}
+
+
+@pytest.mark.parametrize('name', ['poses', 'twists', 'forces', 'pulls', 'robots', 'impulses'])
+def test_nobody_changes_the_past_by_the_arrays_of_a_frame(name):
+    sim = Simulation()
+    sim.load(load_world(find_world('newtons_cradle')))
+    sim.perform(robot_spawn('turtlebot3_burger', at=(50.0, 50.0)))
+    sim.reports_contacts = True
+    frames = [sim.advance_frame() for _ in range(60)]
+    frame = next(each for each in frames if each.contacts is not None and len(each.contacts.pairs))
+    array = getattr(frame.contacts if name == 'impulses' else frame.snapshot, name)
+    assert len(array)
+
+    with pytest.raises(ValueError, match='read-only'):
+        array[0] = array[-1]
 
 
 def test_a_lost_body_is_told_of():

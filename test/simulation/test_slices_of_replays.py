@@ -77,6 +77,23 @@ def test_a_run_is_saved_on_the_thread_that_saves_while_the_world_goes_on(
     assert digest_of(found[0]) == digest_of(begun)
 
 
+@pytest.mark.parametrize('history', [0.0, 600.0])
+def test_a_run_is_saved_alike_however_long_that_takes(history: float) -> None:
+    simulation = Simulation(history=history)
+    simulation.perform(spawning('a/0', DISC, (0.0, 5.0, 0.0)))
+    simulation.run(1.0)
+    simulation.perform(spawning('b/0', DISC, (3.0, 5.0, 0.0)))
+    simulation.run(0.25)
+    save = simulation.saver_of_run()
+    soon = save()
+
+    # Checkpoints come, and the first ones are dropped.
+    simulation.run(10.0)
+
+    assert save() == soon
+    assert {each.body.name for each in soon.bodies} == {'a/0', 'b/0'}
+
+
 def digest_of(state: WorldState) -> str:
     simulation = Simulation()
     simulation.begin(state)

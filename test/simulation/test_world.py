@@ -8,7 +8,7 @@ import math
 import numpy as np
 from physsim_ros.model import requests
 from physsim_ros.model.colors import color_of
-from physsim_ros.model.errors import UnknownBody, UnknownJoint, WorldFull
+from physsim_ros.model.errors import BadProperty, UnknownBody, UnknownJoint, WorldFull
 from physsim_ros.model.requests import (
     AtPoint,
     Command,
@@ -18,6 +18,7 @@ from physsim_ros.model.requests import (
     DeleteBodies,
     HandRequest,
     OfNamespace,
+    Release,
     Request,
 )
 from physsim_ros.model.scene import Body
@@ -342,3 +343,19 @@ def test_a_scene_is_the_same_object_until_something_changes(world):
     assert joined is not scene
     spawn(world, 'a/0', DISC, (1.0, 0.0, 0.0), color=RED)
     assert world.snapshot().scene is not joined
+
+
+def test_a_region_of_a_medium_is_not_released(world):
+    region = {'anchored': True, 'sensor': True, 'medium': {'density': 1000.0}}
+    spawn(world, 'pool/0', BOX, **region)
+    digest = world.digest()
+
+    with pytest.raises(BadProperty) as refused:
+        world.apply(Release(point=(0.0, 0.0)))
+
+    assert refused.value.field == 'point'
+    assert world.digest() == digest
+    # A kinematic one moves on, as it may.
+    spawn(world, 'flow/0', BOX, (5.0, 0.0, 0.0), kinematic=True, **region)
+    world.apply(Release(point=(5.0, 0.0)))
+    assert not world.scene.bodies[1].anchored

@@ -16,7 +16,7 @@ import threading
 from typing import Any
 
 import numpy as np
-from physsim_ros import load_world, Robot, Simulation
+from physsim_ros import load_world, Robot, robot_spawn, Simulation
 from physsim_ros.model.errors import Refusal, UnknownBody
 from physsim_ros.sweeps import (
     Case,
@@ -310,6 +310,67 @@ def test_a_second_call_continues_a_folder_with_the_same_runs(tmp_path: Path) -> 
 def never_spread(_: object, cases: Any) -> Any:
     assert not cases
     return ()
+
+
+def test_a_folder_keeps_the_worlds_of_cases_that_had_the_same_number(tmp_path: Path) -> None:
+    failing = experiment(begin=None, controller=Fated)
+    first, second = (cases_of([0], fate=['raise'], calls=[calls]) for calls in (8, 16))
+    runs = {str(cases): sweep(failing, cases, folder=tmp_path) for cases in (first, second)}
+
+    for cases in (first, second):
+        (again,), (run,) = sweep(failing, cases, never_spread, folder=tmp_path), runs[str(cases)]
+        assert run.before is not None
+        assert again.before == run.before
+
+
+@pytest.mark.parametrize(
+    'said', [{'drive': {'latency': 0.1}}, {'sensors': {'scan': {'blind': [[0, 1]]}}},
+             {'battery': {'level': 0.5}}, {'command_topic': 'drive'}],
+)  # fmt: skip
+def test_a_folder_has_the_runs_of_one_world(tmp_path: Path, said: dict[str, Any]) -> None:
+    worlds = []
+    for changes in ({}, said):
+        simulation = Simulation()
+        simulation.perform(robot_spawn({'from': 'turtlebot3_burger', **changes}))
+        worlds.append(simulation.save())
+    sweep(replace(experiment(), world=worlds[0]), [], folder=tmp_path)
+
+    with pytest.raises(Refusal) as caught:
+        sweep(replace(experiment(), world=worlds[1]), [], folder=tmp_path)
+    assert caught.value.field == 'folder'
+
+
+def test_the_world_of_a_run_is_read_again_with_its_limits(tmp_path: Path) -> None:
+    usual = experiment(controller=stumbling)
+    limits = replace(usual.world.settings, max_bodies=50)
+    limited = replace(usual, world=replace(usual.world, settings=limits))
+    (run,) = sweep(limited, [Case()], folder=tmp_path)
+
+    (again,) = sweep(limited, [Case()], never_spread, folder=tmp_path)
+
+    assert run.before is not None
+    assert again.before == run.before
+
+
+def test_a_run_fails_beside_robots_without_a_drive() -> None:
+    simulation = Simulation()
+    simulation.begin(experiment().world)
+    simulation.perform(robot_spawn('arm', name='arm/0', at=(2.0, 0.0)))
+
+    beside = replace(experiment(controller=stumbling), world=simulation.save())
+    (run,) = sweep(beside, [Case()])
+
+    assert run.failure.startswith('ZeroDivisionError: no idea what to do')
+    assert run.before is not None
+
+
+def test_a_failure_is_told_in_one_line() -> None:
+    def control(_: Robot) -> None:
+        raise ValueError('one\n  two')
+
+    run = experiment(controller=lambda: control).run(Case())
+
+    assert run.failure.startswith('ValueError: one two (control, line ')
 
 
 def test_a_folder_with_something_else_is_refused(tmp_path: Path) -> None:

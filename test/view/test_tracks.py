@@ -193,6 +193,21 @@ def test_odometry_without_slip_is_the_way_and_with_slip_it_parts_from_it(recordi
     assert off[-1, 1] > 1e-4
 
 
+@pytest.mark.parametrize('between', [[WALL], [{**ROBOT, 'name': 'other/0'}]])
+def test_a_robot_that_is_new_has_no_way_of_one_of_its_name(recording, between):
+    recording.draw(*frames_of(ROBOT, count=7, velocity=(0.2, 0.0, 0.5)))
+    recording.draw(*frames_of(*between, count=7))
+    # It has driven before it is seen.
+    new = {**ROBOT, 'at': [3, 4, 1.0]}
+    recording.draw(*frames_of(new, count=7, skipped=30, velocity=(0.2, 0.0, 0.5)))
+
+    truth, odometry = (
+        recording.rows(f'world/ways/{which}', STRIPS)[-1].value for which in ('truth', 'odometry')
+    )
+
+    assert odometry[0, 1] == pytest.approx(truth[0, 1], abs=0.02)
+
+
 def test_the_image_of_the_world_tells_time_and_that_it_goes_back(recording):
     forth, back = frame(EMPTY, []), at_speed(-1.0)
     recording.draw(replace(forth, snapshot=replace(forth.snapshot, stamp=1_250_000_000)))

@@ -29,6 +29,7 @@ from physsim_ros.model.checks import (
 )
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.spelling import canonical
 
 # Greatest number of points of an actor.
 MOST_POINTS = 1000
@@ -47,7 +48,7 @@ Waypoint = tuple[float, ...]
 def _name(value: object, name: str) -> str:
     if not isinstance(value, str) or not value:
         raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
-    return value
+    return canonical(value)
 
 
 def _points(value: object, name: str) -> tuple[Waypoint, ...]:

@@ -11,7 +11,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import check_point, OfClass, shown, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import Malformed
-from physsim_ros.model.settings import check_setting
+from physsim_ros.model.settings import check_setting, WorldSettings
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Point
 
@@ -99,12 +99,19 @@ def _changes(value: object, name: str) -> dict[str, Any]:
         raise Malformed(f'{name} must be a mapping, not {shown(value)}', field=name)
     for setting in value:
         check_setting(setting)
-    return dict(value)
+    # Its own values, as a list that is changed later would change the past.
+    settings = WorldSettings(**value)
+    return {setting: getattr(settings, setting) for setting in value}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Configure(Request):
-    """Change settings of the world."""
+    """
+    Change settings of the world.
+
+    :raises Malformed: a number is not finite, or an array has the wrong length
+    :raises BadProperty: there is no such setting, or a value is out of range
+    """
 
     VERB = 'change'
     OBJECT = 'settings'

@@ -102,7 +102,9 @@ class LinkJoint(Checked):
     """
     A joint of two links of a robot; `base` is the body of the robot.
 
-    :raises Malformed: a number is not finite, or the number of points is wrong
+    The number of its points is checked where it is made in a world, with the robot.
+
+    :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range
     :raises UnknownProperty: the kind of joint does not have a property
     """

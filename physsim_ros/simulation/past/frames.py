@@ -106,25 +106,28 @@ class FrameCache:
         tree, world = self._tree, self._world
         moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
         keyframe = tree.keyframe_before(*moment)
-        nodes = tuple(tree.nodes_between(keyframe.serial, moment.serial))
+        # Not the nodes: one that becomes the root has another request from then on.
+        nodes = tree.nodes_between(keyframe.serial, moment.serial)
+        requests = [(node.step, node.request) for node in nodes]
 
         def save() -> WorldState:
             # In a world of its own, since this one goes on meanwhile.
             run = World(physics_rate=world.physics_rate, frame_steps=world.frame_steps)
             run.resume(keyframe.checkpoint)
-            for node in nodes:
-                run.step(node.step - run.step_count)
+            for step, request in requests:
+                run.step(step - run.step_count)
                 # A replay reports a refusal as a divergence.
                 with suppress(Refusal):
-                    run.reapply(node.request)
+                    run.reapply(request)
             run.step(moment.step - run.step_count)
             return run.save()
 
         return save
 
     def add_frame(self, frame: CachedFrame) -> None:
-        """Add a frame that has just been shown; to a past without length none is added."""
+        """Add a frame that has just been shown; a past without length has none."""
         if not self._tree.length:
+            self._drop(0, len(self._steps))
             return
         self._bodies = len(frame.snapshot.poses)
         self._add(frame)

@@ -229,12 +229,17 @@ def release(live: LiveSpace, request: Release) -> Answer:
     Release the topmost body at a point, and remove the pins and axles there.
 
     :raises NothingThere: there is none
+    :raises BadProperty: it is a region of a medium, which forces do not move
     """
     space = live.space
     rigid, point = _topmost(space, request)
     name = rigid.body.name
     if rigid.body.anchored:
         body = replace(rigid.body, anchored=False)
+        if body.medium is not None and body.dynamic:
+            raise BadProperty(
+                f'{name} is filled with a medium; it cannot be released', field='point'
+            )
         live.capacity.check_body(body, rigid.pose, old=rigid)
         space.change(rigid, body, rigid.pose, REST)
     loosened = joint_requests.loosen(space, name, point)

@@ -19,6 +19,7 @@ from typing import Any
 
 from physsim_ros.engine.contacts import take_contacts
 from physsim_ros.model import requests
+from physsim_ros.model.arrays import make_read_only
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
@@ -154,7 +155,7 @@ class World(LiveSpace):
         fields = NO_VECTORS
         if self.reports_contacts:
             fields = self.space.table.field_forces(self.space.dt)
-        return Snapshot(
+        snapshot = Snapshot(
             step=self.step_count,
             stamp=self.stamp,
             scene=self.scene,
@@ -168,10 +169,17 @@ class World(LiveSpace):
             pulls=pulls if self.reports_contacts else NO_VECTORS,
             fields=fields,
         )
+        # The past has them, too.
+        make_read_only(poses, twists, forces, pulls, pressing, fields, snapshot.robots)
+        make_read_only(*snapshot.springs)
+        return snapshot
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
         """Return the contacts since the last call, of the steps in which they were read."""
-        return take_contacts(self.space.core, self.space.table, lambda: snapshot.centers)
+        found = take_contacts(self.space.core, self.space.table, lambda: snapshot.centers)
+        make_read_only(found.pairs, found.points, found.normals, found.impulses)
+        make_read_only(found.begun, found.begun_at)
+        return found
 
     def clear_contacts(self) -> None:
         """Drop the contacts since the last call of `contacts`."""
