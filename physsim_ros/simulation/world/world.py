@@ -299,7 +299,7 @@ class World(LiveSpace):
         :raises StepFailed: in place of any error
         """
         end = self.step_count + count
-        while self.step_count < end:
+        while self.step_count < end or self.is_within_step:
             try:
                 made, gone = self.space.step(
                     self.step_count,
@@ -310,5 +310,5 @@ class World(LiveSpace):
                 raise StepFailed(f'step {self.step_count + 1} failed: {error}') from error
             self.step_count += made
             self._lost += gone
-            if self.step_count < end:
+            if self.step_count < end or self.is_within_step:
                 yield
