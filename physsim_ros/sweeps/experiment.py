@@ -152,8 +152,8 @@ class Experiment(Checked):
         Checked.__post_init__(self)
         if self.seconds < self.period:
             raise BadProperty(
-                f'a run of {self.seconds:g} s is shorter than the period of {self.period:g} s: the '
-                'controller would not be called',
+                f'a run of {self.seconds:g} s is shorter than a period of {self.period:g} s; it '
+                'would not call the controller',
                 field='seconds',
             )
 
