@@ -22,6 +22,7 @@ from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape
+from physsim_ros.model.transform import rotated_each
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -533,6 +534,22 @@ def test_wheel_axle_and_round_arrow_are_a_driven_wheel_in_any_order(order: Seque
     assert (axle.kind, motor.kind) == (JointKind.AXLE, JointKind.MOTOR)
     assert {axle.a, motor.a} == {wheel.name}
     assert math.isclose(motor.number('rate'), 4.5, rel_tol=0.05)
+
+
+@pytest.mark.parametrize('size', [0.3, 1.0, 4.0])
+@pytest.mark.parametrize('turn', [0.0, 2.0])
+@pytest.mark.parametrize('high', [0.5, 1.0])
+@pytest.mark.parametrize('apart', [0.1, 0.2, 0.5])
+@pytest.mark.parametrize('back', [1, -1])
+def test_lines_beside_each_other_are_no_outline_without_its_ends(
+    size: float, turn: float, high: float, apart: float, back: int
+) -> None:
+    chevron = np.array([(-0.5, high), (0.0, 0.0), (0.5, high)])
+    desk = Desk()
+    for number in range(3):
+        way = size * rotated_each(np.add(chevron, (0.0, number * apart)), turn)
+        desk.draw(way[:: back**number])
+    assert desk.shapes == ['Chain', 'Chain', 'Chain']
 
 
 def test_a_round_arrow_drives_no_axle_outside_it() -> None:

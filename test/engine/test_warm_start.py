@@ -3,16 +3,14 @@
 
 """A world renewed from its own state goes on as if nothing had been, and always alike."""
 
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
-from physsim_ros.model.requests import Command, Delete, Restore
+from physsim_ros.model.requests import Delete, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
-import pytest
 
-from ..building import BOX, G, join, pose, spawn, stack, twist
+from ..building import BOX, G, join, pose, spawn, stack
 
 FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
 
@@ -40,28 +38,6 @@ def test_a_resting_stack_does_not_stir_where_it_is_renewed():
     # The contract allows 0.01 m/s.
     assert max(stirred) < 1e-3
     np.testing.assert_allclose(world.snapshot().poses, before.poses, atol=1e-4)
-
-
-def test_without_the_memory_it_would_stir():
-    world = settled()
-    key = world.renew()
-    columns = {name: getattr(key.memory, name)[:0] for name in ('pairs', 'hashes', 'impulses')}
-    nothing = replace(key.memory, **columns)
-    world.resume(replace(key, memory=nothing))
-    world.step(2)
-    # Five times what a renewed stack with its memory may stir.
-    assert fastest(world) > 5e-3
-
-
-def test_renewing_changes_nothing_that_is_seen():
-    world = settled(3)
-    before, digest = world.snapshot(), world.digest()
-    world.renew()
-    after = world.snapshot()
-    assert world.digest() == digest
-    assert after.scene is before.scene
-    np.testing.assert_array_equal(after.poses, before.poses)
-    np.testing.assert_array_equal(after.twists, before.twists)
 
 
 def test_joints_of_a_renewed_world_have_the_impulses_of_before():
@@ -133,18 +109,6 @@ def test_what_has_changed_since_is_not_taken_from_before():
     one.step(200)
     other.step(200)
     assert one.digest() == other.digest()
-
-
-def test_a_wrench_and_a_lifetime_go_on():
-    world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=1.0))
-    spawn(world, 'a/0', BOX, lifetime=2.0)
-    world.apply(Command(names=('a/0',), wrenches=((1.0, 0.0, 0.0),)))
-    world.step(120)
-    world.renew()
-    world.step(240)
-    assert twist(world, 'a/0')[0] == pytest.approx(1.0, abs=1e-9)
-    world.step(120)
-    assert len(world) == 0
 
 
 def test_impulses_of_the_frame_are_taken_over():

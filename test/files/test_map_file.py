@@ -110,6 +110,9 @@ def test_what_is_unknown_is_no_wall_and_the_threshold_counts(folder):
     # 205 is 0.196 dark: unknown by these thresholds, and occupied by a lower one.
     assert len(boxes(load(add_map(folder, occupied_thresh=0.19, free_thresh=0.1)))) == 2
     assert len(boxes(load(add_map(folder, pixels=np.full((3, 3), 205, np.uint8))))) == 0
+    # 51 is 0.2 dark: no more than the threshold.
+    dark = {'pixels': np.full((3, 3), 51, np.uint8), 'negate': 1}
+    assert len(boxes(load(add_map(folder, **dark, occupied_thresh=0.2, free_thresh=0.1)))) == 0
 
 
 def chunk(kind, content=b''):

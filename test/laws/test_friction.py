@@ -81,6 +81,23 @@ def test_a_block_that_slides_has_the_acceleration_of_the_formula(report, degrees
     report.check(11, f'sliding down {degrees}°, friction 0.5', last - first, exact, 1e-4, 'm/s²')
 
 
+@pytest.mark.parametrize('degrees', [0, 20])
+def test_a_block_at_rest_slides_as_far_whenever_its_velocity_is_set(report, degrees):
+    distances = []
+    for number in range(8):
+        sim, row, downhill = _on_incline(BOXES[0], 0.5, degrees, 1)
+        sim.world.step(240 + number)
+        before = sim.world.snapshot().poses[row, :2]
+        # The velocity along an incline is rounded, so that it may lift the block.
+        away = 1e-9 * (number % 2) * turned(downhill, -math.pi / 2)
+        sim.perform(Command(names=('body/0',), twists=((*(away - 0.05 * downhill), 0.0),)))
+        sim.world.step(24)
+        distances.append((before - sim.world.snapshot().poses[row, :2]) @ downhill)
+
+    off = np.ptp(distances) / np.mean(distances)
+    report.check(11, 'block set sliding, difference of distances', off, 0.0, 2e-3, '–')
+
+
 @pytest.mark.parametrize('direction', DIRECTIONS)
 @pytest.mark.parametrize('radius', [0.05, 0.5, 2.0])
 @pytest.mark.parametrize('degrees', [5, 20, 40])

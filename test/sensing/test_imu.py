@@ -47,6 +47,21 @@ def test_off_the_centre_of_a_turn_the_centripetal_acceleration_is_felt():
     assert felt.turn_rate == pytest.approx(2.0)
 
 
+def test_a_turn_that_grows_is_felt_in_the_axes_of_its_mean():
+    world = plane()
+    row = add_robot(world, mass=2.0)
+    unlimit_wrenches(world)
+    command(world, 'robot/0', wrench=(3.0, 0.0, 0.01))
+
+    felt = readings(world, row, Imu())
+
+    # Of the turn since before, half at the mean of the rates.
+    ago = felt.yaw - felt.turn_rate * 60 * DT / 4.0
+    assert felt.turn_rate > 0.1
+    along = 1.5 * math.cos(ago), -1.5 * math.sin(ago)
+    assert felt.acceleration == pytest.approx(along, abs=1e-9)
+
+
 def test_a_pose_that_is_set_is_no_turn_of_the_axes():
     world = plane()
     world.apply(Configure(changes={'gravity': (0.0, -9.81)}))

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.robots.sensors import Landmarks
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.sensing import read_landmarks, Surroundings
 import pytest
 
@@ -50,11 +50,15 @@ def test_what_is_hidden_far_off_aside_or_gone_is_nan():
     assert np.isnan(read(world, row, far)[:, 0]).tolist() == [True, False, True]
 
 
-def test_a_landmark_seen_at_its_corner_is_seen():
+OFF_CENTRE = Polygon(outline=((-2.0, -0.1), (0.0, -0.1), (0.0, 0.1), (-2.0, 0.1)))
+
+
+@pytest.mark.parametrize('shape', [Box(width=2.0, height=0.2), OFF_CENTRE])
+def test_a_landmark_whose_end_is_seen_is_seen(shape):
     world = plane()
-    spawn(world, 'post/0', Box(width=2.0, height=0.2), (5.0, 0.0, 0.0))
+    # Its end is 1 or 2 m before its origin.
+    spawn(world, 'post/0', shape, (5.0, 0.0, 0.0))
     row = add_robot(world)
-    # Its end is 1 m before its origin.
     assert read(world, row, Landmarks(bodies=NAMES[:1]))[0].tolist() == [5.0, 0.0]
 
 

@@ -4,6 +4,7 @@
 """A world refuses what it has no place for, before the engine has it, and changes nothing."""
 
 from dataclasses import replace
+import tracemalloc
 from typing import Any
 from weakref import ref
 
@@ -25,7 +26,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Compound, Disc, Shape
+from physsim_ros.model.shapes import Box, Compound, Disc, Shape, SMALLEST
 from physsim_ros.model.shapes.form import MOST_KEPT
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import capacity, World
@@ -70,14 +71,23 @@ def test_what_overlaps_too_much_is_refused_one_by_one(scene):
     world.step(10)
 
 
-def test_a_world_that_is_full_refuses_until_something_moves():
+def test_a_world_that_is_full_refuses_and_is_seldom_counted(monkeypatch):
     # Large enough that a count takes longer than some requests.
     world = World(settings=replace(FEW, max_overlaps=900))
     assert flooded(world, one_pose(45)) == 3
+    every, counted = capacity.count_overlaps, list[int]()
+
+    def count(*args: Any, **said: Any) -> int:
+        counted.append(every(*args, **said))
+        return counted[-1]
+
+    monkeypatch.setattr(capacity, 'count_overlaps', count)
     for _ in range(2):
-        late = [Spawn(name=f'late/{number}', shape=DISC) for number in range(5)]
-        assert flooded(world, late) == 5
+        late = [Spawn(name=f'late/{number}', shape=DISC) for number in range(50)]
+        assert flooded(world, late) == 50
         world.step(1)
+    # At most 100 pieces and overlaps for each request, and a count at each step.
+    assert 1000 < sum(counted) <= 100 * 100 + 2 * 945
 
 
 def test_what_has_moved_apart_leaves_a_place():
@@ -200,6 +210,27 @@ def test_planks_side_by_side_at_any_angle_are_no_overlap():
         poses = np.column_stack((np.arange(300)[:, None] * side, np.full(300, yaw)))
         every, none = np.ones(300, np.bool_), np.zeros(300, np.bool_)
         assert count_overlaps(laid_out([plank] * 300, poses), every, none, most=10**6) == 0
+
+
+@pytest.mark.parametrize('radius', [SMALLEST, 0.5])
+def test_discs_overlap_in_one_place_and_not_side_by_side(radius):
+    discs, every, none = [Disc(radius=radius)] * 5, np.ones(5, np.bool_), np.zeros(5, np.bool_)
+    poses = np.zeros((5, 3))
+    assert count_overlaps(laid_out(discs, poses), every, none, most=10**6) == 10
+    assert count_overlaps(laid_out(discs, poses), every, every, most=10**6) == 0
+    poses[:, 0] = np.arange(5) * 2.0 * radius
+    assert count_overlaps(laid_out(discs, poses), every, none, most=10**6) == 0
+
+
+def test_a_count_that_ends_at_its_limit_takes_little_memory():
+    count = 5000
+    every, none = np.ones(count, np.bool_), np.zeros(count, np.bool_)
+    layout = laid_out([DISC] * count, np.zeros((count, 3)))
+    tracemalloc.start()
+    assert count_overlaps(layout, every, none, most=1000) > 1000
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert most < 60e6
 
 
 def test_a_lower_limit_holds_for_what_comes_then():

@@ -134,10 +134,10 @@ def test_a_restart_forgets_what_was_due():
     assert run.clock.late_frames == 0
 
 
-def test_a_call_makes_a_frame_at_most_however_late_it_is():
-    for behind in (2, MOST_BEHIND, MOST_BEHIND + 1, 1000):
-        run = Run(1.0)
-        assert run.at(behind / 60.0) == FRAME
+@pytest.mark.parametrize('speed', [0.5, 1.0, 2.5])
+@pytest.mark.parametrize('behind', [2, MOST_BEHIND, MOST_BEHIND + 1, 1000])
+def test_a_call_makes_a_frame_at_most_however_late_it_is(speed, behind):
+    assert Run(speed).at(behind / 60.0) == FRAME * speed
 
 
 @pytest.mark.parametrize('speed', [1.0, 4.0, 0.5, 2.5])

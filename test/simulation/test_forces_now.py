@@ -84,7 +84,7 @@ def test_what_would_fall_on_something_later_has_no_force_while_others_come_to_re
     world = World(physics_rate=RATE, settings=YARD)
     for number in range(10):
         spawn(world, f'stack/{number}', BOX, (0.0, 0.5 + number, 0.0))
-    spawn(world, 'falls/0', BOX, (5.0, 0.52, 0.0))
+    spawn(world, 'falls/0', BOX, (5.0, 0.502, 0.0))
 
     contacts, snapshot = forces_now(world.save(), RATE)
 

@@ -27,6 +27,7 @@ from physsim_ros.drawing.strokes.figure import ARROWS, Figure, ON_SOLID
 from physsim_ros.drawing.strokes.forms import sign_forms
 from physsim_ros.drawing.strokes.geometry import few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
+    are_sides,
     connected,
     joined_arrow,
     joined_strokes,
@@ -150,7 +151,8 @@ def _contexts_together(
         for each in before
     ):
         whole = _joined(joined_strokes(strokes))
-        yield stroke_in_scene(whole, scene, settings), _JOINED
+        meanings = _JOINED if are_sides(strokes) else _JOINED - CLOSED
+        yield stroke_in_scene(whole, scene, settings), meanings
 
 
 def crossing_in(

@@ -32,8 +32,9 @@ from physsim_ros.drawing.strokes.geometry import (
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import cross, dots, norms
 
-# The greatest distance of strokes that touch, in shares of the larger one's size.
-_TOUCHING = 0.15
+# The greatest distance of strokes that touch, and of ends that meet, in shares of the size; the
+# least turn from one stroke to another that goes back [rad].
+_TOUCHING, _NEAR, _BACK = 0.15, 0.05, 2.8
 # The length by which a stroke may end short of another that it is to meet, in shares of its own.
 _BEYOND = 0.2
 # A shaft and a head: the least straightness of the shaft and of barbs (distance of the ends by
@@ -54,17 +55,44 @@ def joined_strokes(strokes: Sequence[Floats]) -> Floats:
     :param strokes: each (n, 2) float64: evenly spaced [m]
     :return: (n, 2) float64 [m]; a single stroke as it is
     """
+    if len(strokes) < 2:
+        return strokes[0]
+    ordered = _in_order(strokes)
+    gaps = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
+    return np.vstack([ordered[0], *itertools.chain(*zip(gaps, ordered[1:], strict=True))])
+
+
+def _in_order(strokes: Sequence[Floats]) -> list[Floats]:
+    """Return strokes in the order and the directions of the shortest gaps between all."""
     paths = list(strokes)
-    if len(paths) < 2:
-        return paths[0]
     orders = [
         _nearest_next(first, paths[:at] + paths[slice(at + 1, None)])
         for at, path in enumerate(paths)
         for first in (path, path[::-1])
     ]
-    ordered = min(orders, key=_gap_between)
-    gaps = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
-    return np.vstack([ordered[0], *itertools.chain(*zip(gaps, ordered[1:], strict=True))])
+    return min(orders, key=_gap_between)
+
+
+def are_sides(strokes: Sequence[Floats]) -> bool:
+    """
+    Return whether strokes follow one another as the sides of an outline.
+
+    They do not where they end beside each other, and the next one goes back: the outline lacks a
+    side there, as between two chevrons within each other.
+    """
+    ordered = _in_order(strokes)
+    size = size_of(np.vstack(ordered))
+    return not any(
+        math.dist(one[-1], other[0]) > _NEAR * size and _goes_back(one, other)
+        for one, other in itertools.pairwise(ordered)
+    )
+
+
+def _goes_back(one: Floats, other: Floats) -> bool:
+    """Return whether a stroke begins in the direction against that in which another one ends."""
+    # Over a quarter of each, since ends tremble.
+    arm = len(one) // 4
+    return abs(float(angles(one[-1] - one[-1 - arm], other[arm] - other[0]))) > _BACK
 
 
 def joined_arrow(strokes: Sequence[Floats]) -> Floats | None:
@@ -183,7 +211,7 @@ def connected(touching: Flags) -> list[list[int]]:
 def touch(one: Floats, other: Floats, size: float, snap: float) -> bool:
     """Return whether points of two strokes of a size are near enough to touch."""
     x, y = (one[:, None] - other[None]).transpose(2, 0, 1)
-    return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(snap, size / 20))
+    return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(snap, _NEAR * size))
 
 
 def _extended(stroke: Floats) -> Floats:

@@ -134,18 +134,21 @@ static void add_point(Cluster *cluster, ContactPoint point) {
     }
 }
 
-// Add the points of a contact to a cluster, and its bodies.
+// Add the points of a contact to a cluster, and its bodies, unless it is deferred.
 static void add_contact(Cluster *cluster, cpArbiter *arbiter) {
     // Far away a distance can be lost in rounding, and with it the direction.
     bool has_normal = arbiter->n.x != 0.0 || arbiter->n.y != 0.0;
-    for (int number = 0; number < arbiter->count && has_normal && !cluster->too_many; number++) {
+    if (arbiter->count == 0 || !has_normal || is_deferred(arbiter->contacts)) {
+        return;
+    }
+    for (int number = 0; number < arbiter->count && !cluster->too_many; number++) {
         ContactPoint point = {arbiter, arbiter->contacts + number};
         if (!has_point(cluster, point.contact)) {
             add_point(cluster, point);
         }
     }
     const cpBody *bodies[2] = {arbiter->body_a, arbiter->body_b};
-    for (int end = 0; end < 2 && arbiter->count > 0 && has_normal && !cluster->too_many; end++) {
+    for (int end = 0; end < 2 && !cluster->too_many; end++) {
         if (is_movable(bodies[end]) && !has_body(cluster, bodies[end])) {
             assert(cluster->body_count < CLUSTER_BODIES);
             cluster->bodies[cluster->body_count++] = bodies[end];
@@ -170,7 +173,7 @@ static int list_hits(World *world, Hit *hits) {
     int count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *each = arbiter_at(world, number);
-        if (is_impact(each)) {
+        if (is_impact(each) && !is_deferred(each->contacts)) {
             int a = is_movable(each->body_a) ? place_of(world, each->body_a) : world->body_count;
             int b = is_movable(each->body_b) ? place_of(world, each->body_b) : world->body_count;
             hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a};

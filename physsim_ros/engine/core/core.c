@@ -92,7 +92,7 @@ static void mark_sprung(World *world) {
     }
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
-        bool elastic = is_spring(world, joint);
+        bool elastic = is_spring_joint(world, joint);
         int ends[2] = {joint->a, joint->b};
         for (int end = 0; end < 2; end++) {
             Body *body = world->bodies + ends[end];

@@ -28,9 +28,6 @@
 static const double elastic = 0.75;
 // Approach velocities of this ratio are equal but for rounding.
 static const double alike = 1.0 - 1e-9;
-// Approach that a deferred contact permits, in velocities of the impact: the impact changes the velocity of each body
-// by two at most, whatever its mass, and the contact's own approach is one more.
-static const double permitted = 5.0;
 // Share of the impact next to a contact that its impulse of the last step has to stop, so that it is under load.
 static const double load_share = 0.05;
 
@@ -90,7 +87,7 @@ static double *fastest_impacts(World *world) {
 // Exclude a contact from this step, unless it is as fast as the impact or under load.
 //
 // `bounce` is set to e v_n by `cpArbiterPreStep`, v_n < 0 being approach; the solver seeks an impulse `jnAcc` >= 0 for
-// which v_n >= -bounce, from that of the step before on. A great positive `bounce` permits approach.
+// which v_n >= -bounce, from that of the step before on. An infinite `bounce` permits any approach.
 static void defer(cpArbiter *arbiter, double impact) {
     for (int number = 0; number < arbiter->count; number++) {
         const cpContact *point = arbiter->contacts + number;
@@ -104,7 +101,7 @@ static void defer(cpArbiter *arbiter, double impact) {
     }
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
-        point->bounce = permitted * impact;
+        point->bounce = INFINITY;
         point->jnAcc = point->jtAcc = 0.0;
     }
 }

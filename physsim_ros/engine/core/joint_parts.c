@@ -93,7 +93,7 @@ static Spring *list_springs(const World *world, const bool *pulled, int *count) 
     Spring *springs = TAKE(&world->own->arena, Spring, world->joint_count);
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
-        if (is_spring(world, joint) && (pulled[joint->a] || pulled[joint->b])) {
+        if (is_spring_joint(world, joint) && (pulled[joint->a] || pulled[joint->b])) {
             springs[(*count)++] = spring_of(world, joint);
         }
     }

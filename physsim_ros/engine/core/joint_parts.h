@@ -10,7 +10,7 @@
 double *impulse_at(const Part *part, int component);
 
 // Whether a joint is a spring between two points.
-static inline bool is_spring(const World *world, const Joint *joint) {
+static inline bool is_spring_joint(const World *world, const Joint *joint) {
     return joint->part_count > 0 && world->parts[joint->first_part].kind == PART_SPRING;
 }
 

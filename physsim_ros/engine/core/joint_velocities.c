@@ -26,6 +26,7 @@
 // Cost: that of `joint_solver.c`.
 
 #include "joint_velocities.h"
+#include "impact_propagation.h"
 #include "mixed_lcp.h"
 #include "stages.h"
 #include <string.h>
@@ -40,8 +41,6 @@ enum { REFINEMENTS = 2 };
 enum { PASSES = 8 };
 // Share of the normal impulse below which an impulse along an edge is rounding.
 static const double rounding_of_edges = 1e-9;
-// Rounding of velocities at which bodies part, as a share.
-static const double rounding_of_parting = 1e-6;
 // Slips that are solved as rest: contacts lift by less than μ times that [m/s]. Light links of a loaded rope tremble
 // by some 0.1 mm/s.
 static const double least_slip = 1e-3;
@@ -152,15 +151,6 @@ static void begin_joints(const Solve *solve, VelocityRows *rows, double *soft) {
     }
 }
 
-// The least velocity along the normal of a contact, whose bodies part by some velocity before the step [m/s].
-//
-// Restitution is of approaches. Chipmunk permits bodies that part to approach by e times that velocity, so that an
-// elastic contact under a load trembles. It permits more where a contact is deferred (`impact_propagation.c`).
-static double bounce_of(const cpContact *point, double parting) {
-    bool deferred = point->bounce > greatest(parting, 0.0) * (1.0 + rounding_of_parting);
-    return deferred ? -point->bounce : greatest(-point->bounce, 0.0);
-}
-
 // The rows of contacts. A slip begins as that of the step before, less what friction can stop: where rest is possible,
 // it is found.
 static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft, double *prior, const Twist *without) {
@@ -173,15 +163,17 @@ static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft,
         Jacobian along = solve->jacobians[left], across = solve->jacobians[right];
         rows->jacobians[left] = edge_jacobian(along, across, touch->friction);
         rows->jacobians[right] = edge_jacobian(along, across, -touch->friction);
-        rows->upper[left] = INFINITY;
-        rows->upper[right] = touch->friction > 0.0 ? INFINITY : 0.0;
+        rows->upper[left] = is_deferred(touch->point) ? 0.0 : INFINITY;
+        rows->upper[right] = touch->friction > 0.0 ? rows->upper[left] : 0.0;
         soft[left] = soft[right] = contact_softness;
         prior[left] = rows->last[left];
         prior[right] = rows->last[right];
         rows->free_slips[number] = rate(across, ends, without) + touch->slide;
         Twist begun[] = {body_of(island->engine[ends.a])->scratch.twist,
                          body_of(island->engine[ends.b])->scratch.twist};
-        rows->bounce[number] = bounce_of(touch->point, rate(along, (Ends){0, 1}, begun));
+        // Restitution is of approaches. Chipmunk permits bodies that part to approach by e times that velocity, so that
+        // an elastic contact under a load trembles.
+        rows->bounce[number] = greatest(-touch->point->bounce, 0.0);
         double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
         double stopped = unit * touch->friction * (prior[left] + prior[right]);
         rows->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
@@ -417,7 +409,6 @@ static Solution solve_bounces(Solve *solve, VelocityRows *rows) {
     double *none = TAKE(solve->arena, double, solve->island->touch_count);
     for (int number = 0; number < solve->island->touch_count; number++) {
         bounces = bounces || rows->bounce[number] > 0.0;
-        none[number] = least(rows->bounce[number], 0.0);
     }
     double gained = bounces ? work_of(solve, rows, &solution) : 0.0;
     if (gained > 0.0) {

@@ -503,6 +503,16 @@ FIGURES: dict[
         'joining._LONGEST', [], lambda it: (arrow(barb=it, shaft=1.0), 0.4), (1.086, 1.13),
         ('gravity', 'polygon'),
     ),
+    'distance of two chevrons within each other': (
+        'joining._NEAR', [],
+        lambda it: ([[(-1, 2), (0, 0), (1, 2)], [(-1, 2 + it), (0, it), (1, 2 + it)]], 0.4),
+        (0.135, 0.15), ('polygon', 'wall'),
+    ),
+    'height of the tip of a wider chevron within another': (
+        'joining._BACK', [],
+        lambda it: ([[(-1, 1.7), (0, 0), (1, 1.7)], [(-0.8, 1.7), (0, it), (0.8, 1.7)]], 0.4),
+        (0.95, 1.15), ('wall', 'polygon'),
+    ),
     'depth of the back of a closed head': (
         'joining._OFF', [],
         lambda it: ([[(0, 0), (3, 0)],

@@ -46,6 +46,18 @@ def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_st
     assert 'for 0.5 s' in event.message
 
 
+def test_a_refusal_is_told_again_after_fifty_commands_in_a_row() -> None:
+    class Topic(command_topic.CommandTopic):
+        take = close = None
+
+    topic, told = Topic('cmd_vel'), []
+    for carried_out in (0, 49, 49, 50, 49):
+        for _ in range(carried_out):
+            topic.note_carried_out()
+        told.append(topic.note_refused('malformed'))
+    assert told == [True, False, False, True, False]
+
+
 @pytest.mark.parametrize(('timeout', 'speed'), [(-1.0, 0.0), (0.0, 0.2), (2.0, 0.2)])
 def test_a_parameter_sets_the_timeout_of_all_drives(
     flat: PhysSim, timeout: float, speed: float
