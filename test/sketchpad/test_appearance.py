@@ -224,6 +224,30 @@ BROKEN = """() => {
 }"""
 
 
+@pytest.mark.parametrize('size', [(1280, 800), (768, 1024), (360, 740)])
+def test_the_hint_at_the_forces_of_many_bodies_is_a_few_lines(
+    chromium: Any, outside: Outside, size: tuple[int, int]
+) -> None:
+    discs = ''.join(
+        f'  - {{name: disc/{each}, circle: {{radius: 0.2}}, at: [{each - 6}, 3]}}\n'
+        for each in range(13)
+    )
+    _, address = started_world(
+        outside, world=f'format: 1\nbounds: [-8, 0, 8, 9]\nbodies:\n{discs}'
+    )
+    sheet = Sheet(chromium, address, viewport={'width': size[0], 'height': size[1]})
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length === 13')
+    sheet.press('Show forces')
+    legend = sheet.page.locator('#legend')
+    hint = legend.get_by_text('Tap a body')
+    hint.wait_for()
+    box, text = legend.bounding_box(), hint.bounding_box()
+    assert text['height'] < 80, 'four lines'
+    assert box['x'] >= 0
+    assert box['x'] + box['width'] <= size[0]
+    sheet.close()
+
+
 @pytest.mark.parametrize('size', [(390, 844), (320, 640)])
 def test_on_a_telephone_words_and_choices_are_whole(
     chromium: Any, outside: Outside, size: tuple[int, int]

@@ -145,7 +145,7 @@ static Twist conveyed(const Conveyors *conveyors, const Body *body) {
 
 // The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
 // middle of the axle, at the origin of the body, does not move along it.
-static Twist rolling(const Body *body, Twist twist, double yaw) {
+static Twist twist_of_axle(const Body *body, Twist twist, double yaw) {
     const cpBody *engine = body->engine;
     Rotation by = rotation(yaw);
     Vec arm = rotated(negated(body->offset), by), along = rotated(vec(0.0, 1.0), by);
@@ -174,9 +174,9 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     Twist next = twist_sum(after, expected, 1.0);
     if (body->towed) {
         double yaw = body->scratch.begin.yaw, turn = next.w * dt;
-        end = rolling(body, next, yaw + turn);
+        end = twist_of_axle(body, next, yaw + turn);
         Twist sum = twist_sum(before, end, 1.0);
-        mean = rolling(body, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
+        mean = twist_of_axle(body, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
     }
     Twist slip = twist_sum(next, end, -1.0);
     body->scratch.slides = square(slip, surface) > 1.0;

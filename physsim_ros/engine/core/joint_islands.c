@@ -67,22 +67,13 @@ static void add_bearings(World *world, Touches *touches, const cpArbiter *arbite
     }
 }
 
-static int point_count(const cpBody *body) {
+// Count the points in which a body touches others; the count ends once it exceeds `most`.
+static int point_count(const cpBody *body, int most) {
     int count = 0;
-    for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
+    for (const cpArbiter *each = body->arbiterList; each != NULL && count <= most; each = next_of(each, body)) {
         count += each->count;
     }
     return count;
-}
-
-// Whether a body that is touched bears few enough points for all of them to be rows.
-static bool bears_little(const cpBody *body) {
-    int count = 0;
-    for (const cpArbiter *each = body->arbiterList; each != NULL && count <= MOST_BEARINGS;
-         each = next_of(each, body)) {
-        count += each->count;
-    }
-    return count <= MOST_BEARINGS;
 }
 
 // The bodies all of whose contacts are rows: those with joints, then those that they touch, and do not pass.
@@ -105,7 +96,7 @@ static Members members_of(World *world) {
             const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
             int place = place_of(world, other);
             bool touched = each->count > 0 && world->bodies[place].dynamic && !members.marks[place];
-            if (touched && bears_little(other)) {
+            if (touched && point_count(other, MOST_BEARINGS) <= MOST_BEARINGS) {
                 members.marks[place] = true;
                 members.places[members.count++] = place;
             }
@@ -118,7 +109,7 @@ static Touches touches_of_jointed(World *world) {
     Members members = members_of(world);
     int most = 0;
     for (int number = 0; number < members.count; number++) {
-        most += point_count(world->bodies[members.places[number]].engine);
+        most += point_count(world->bodies[members.places[number]].engine, INT32_MAX);
     }
     Touches touches = {.list = TAKE(&world->own->arena, Bearing, most)};
     for (int number = 0; number < members.count; number++) {

@@ -215,8 +215,8 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     const Island *island = solve->island;
     Twist *changes = TAKE(solve->arena, Twist, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
-        Twist moved = displacement(move->pushed[body], solve->poses[body]);
-        changes[body] = (Twist){scaled(moved.v, 1.0 / solve->dt), moved.w / solve->dt};
+        Twist moves = displacement(move->pushed[body], solve->poses[body]);
+        changes[body] = (Twist){scaled(moves.v, 1.0 / solve->dt), moves.w / solve->dt};
     }
     double lost = work_of_others(solve, move, impulses) - mass_product(&solve->system, solve->velocities, changes);
     double share = paid_share(lost, mass_product(&solve->system, changes, changes));
@@ -278,7 +278,7 @@ void solve_positions(Solve *solve) {
     size_t mark = arena_mark(solve->arena);
     Displacement move = begin_displacement(solve);
     Best best = {INFINITY, TAKE(solve->arena, Pose, island->body_count), TAKE(solve->arena, double, island->row_count)};
-    bool moved = false;
+    bool has_steps = false;
     for (int number = 0; number <= MOST_STEPS; number++) {
         measure_gaps(solve, &move);
         if (number > 0 && move.widest <= closed) {
@@ -301,9 +301,9 @@ void solve_positions(Solve *solve) {
         }
         arena_release(solve->arena, step);
         read_rows(island, solve->poses, move.excess, move.jacobians);
-        moved = true;
+        has_steps = true;
     }
-    if (moved) {
+    if (has_steps) {
         memcpy(solve->poses, best.poses, (size_t)island->body_count * sizeof(Pose));
         read_rows(island, solve->poses, move.excess, move.jacobians);
         turn_momenta(solve, &move, best.impulses);

@@ -67,15 +67,9 @@ typedef struct VelocityRows {
     double *slips;                  // (touch_count): greatness of the same after the step
 } VelocityRows;
 
-// J M⁻¹ Jᵀ of a spring, where nothing else holds its bodies.
-static double spring_unit(const Solve *solve, int row) {
-    Ends ends = solve->island->ends[row];
-    const Inverse *inverses = solve->island->inverses;
-    return softness_unit(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
-}
-
 static double damping_of(const Solve *solve, int row) {
-    return greatest(solve->island->rows[row]->damping, least_damping / (solve->dt * spring_unit(solve, row)));
+    double unit = row_softness_unit(&solve->system, solve->jacobians, row);
+    return greatest(solve->island->rows[row]->damping, least_damping / (solve->dt * unit));
 }
 
 static double softness_of(const Solve *solve, int row) {
@@ -83,7 +77,8 @@ static double softness_of(const Solve *solve, int row) {
     if (of_joint->law != LAW_SPRING) {
         return joint_softness;
     }
-    return 1.0 / (solve->dt * damping_of(solve, row) * spring_unit(solve, row));
+    double unit = row_softness_unit(&solve->system, solve->jacobians, row);
+    return 1.0 / (solve->dt * damping_of(solve, row) * unit);
 }
 
 // The impulses along the two edges of a cone, by those along and across its normal.

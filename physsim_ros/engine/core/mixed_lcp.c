@@ -19,11 +19,6 @@ static const double share_of_rounding = 1e-9;
 // Exchanges, at most: a belt that is spanned over its wheels takes some ten in a step in which a link meets a wheel.
 enum { MIXED_EXCHANGES = 40 };
 
-// What the softness of a row is a share of.
-static double unit_of(const System *system, const Problem *problem, int row) {
-    return row_softness_unit(system, problem->jacobians, row);
-}
-
 // Whether the softness of a row is meant, and not to vanish.
 static bool is_spring(const Problem *problem, int row) {
     return problem->springs != NULL && problem->springs[row];
@@ -31,7 +26,7 @@ static bool is_spring(const Problem *problem, int row) {
 
 // Put a row into the matrix where it has to reach its target, else take it out.
 static void use_row(System *system, const Problem *problem, int row, bool active) {
-    double unit = active ? unit_of(system, problem, row) : 0.0;
+    double unit = active ? row_softness_unit(system, problem->jacobians, row) : 0.0;
     set_row(system, row, active ? problem->jacobians : NULL, unit > 0.0 ? problem->softness[row] * unit : 1.0);
 }
 
@@ -53,7 +48,7 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
         }
         solution->wrong[row] = outside > slack || beyond > rounding_of_rows;
         if (solution->wrong[row]) {
-            double distance = greatest(beyond, outside * unit_of(system, problem, row));
+            double distance = greatest(beyond, outside * row_softness_unit(system, problem->jacobians, row));
             sides[row] = (int8_t)(outside <= slack ? 0 : impulse < lower ? -1 : 1);
             *furthest = distance > most || solution->wrong_count == 0 ? row : *furthest;
             most = greatest(most, distance);
@@ -98,7 +93,7 @@ static Problem drawn(const System *system, const Problem *problem, Arena *arena)
     if (problem->prior != NULL) {
         double *wanted = TAKE(arena, double, system->row_count);
         for (int row = 0; row < system->row_count; row++) {
-            double stiffness = problem->softness[row] * unit_of(system, problem, row);
+            double stiffness = problem->softness[row] * row_softness_unit(system, problem->jacobians, row);
             wanted[row] = problem->wanted[row] + stiffness * problem->prior[row];
         }
         drawn.wanted = wanted;
@@ -167,7 +162,8 @@ void refine(System *system, const Problem *problem, Solution *solution, Arena *a
     for (int row = 0; row < system->row_count; row++) {
         residuals[row] = problem->wanted[row] - row_rate(system, problem->jacobians, row, solution->changes);
         if (is_spring(problem, row)) {
-            residuals[row] -= problem->softness[row] * unit_of(system, problem, row) * solution->impulses[row];
+            residuals[row] -=
+                problem->softness[row] * row_softness_unit(system, problem->jacobians, row) * solution->impulses[row];
         }
     }
     solve_active(system, solution->sides, residuals, impulses, changes);

@@ -52,7 +52,7 @@ static MovingShape side_of(const Mover *mover, const cpShape *shape, Arena *aren
     return side;
 }
 
-static void place(MovingShape *side, double share) {
+static void move_to(MovingShape *side, double share) {
     Pose pose = pose_at(side->mover, share, &side->pivot);
     Rotation by = rotation(pose.yaw);
     for (int number = 0; number < side->count; number++) {
@@ -167,8 +167,8 @@ static bool are_closed(const MovingShape *a, const MovingShape *b, Vec axis, dou
 static double advance(MovingShape *a, MovingShape *b, double radii, double skin, double depth, bool passing) {
     double share = greatest(a->mover->since, b->mover->since), target = -skin;
     for (int number = 0; number < ADVANCES; number++) {
-        place(a, share);
-        place(b, share);
+        move_to(a, share);
+        move_to(b, share);
         Separation found = separation_of(a, b);
         double distance = found.distance - radii;
         bool met = distance <= target + tolerance * skin;

@@ -54,7 +54,7 @@ export class Together {
     if (!names.includes(this.name)) this.name = names[0] ?? '';
     const people = this.runs.map((run, i) => {
       const button = createElement('button', {type: 'button', textContent: run.person, hidden: !run.person});
-      button.style.color = inkOf(i);
+      button.style.color = `light-dark(${colorOf(i)}, ${colorOf(i, LIGHT)})`;
       return toggling(button, () => this.chosen === run, () => {
         this.chosen = this.chosen === run ? null : run;
         for (const other of people) if (other !== button) other.setAttribute('aria-pressed', 'false');
