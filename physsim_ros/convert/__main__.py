@@ -22,7 +22,7 @@ from physsim_ros.files import (
     MOST_BYTES,
     read_bytes,
 )
-from physsim_ros.model.errors import BadWorldFile, Refusal
+from physsim_ros.model.errors import BadWorldFile, Refusal, WorldFull
 import yaml
 
 _CONVERTERS: Mapping[str, Callable[[Mapping[str, Any], Path], Conversion]] = {
@@ -78,7 +78,8 @@ def main(arguments: list[str] | None = None) -> int:
             file.write(conversion.text())
         load_world(target)
     except (OSError, UnicodeDecodeError, yaml.YAMLError, Refusal) as error:
-        written = f'{target} is written, but ' if isinstance(error, BadWorldFile) else ''
+        is_written = isinstance(error, BadWorldFile | WorldFull)
+        written = f'{target} is written, but ' if is_written else ''
         print(f'{written}{error}', file=sys.stderr)
         return 1
     bodies, joints = len(conversion.bodies), len(conversion.joints)

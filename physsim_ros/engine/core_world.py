@@ -31,6 +31,7 @@ _FUNCTIONS = {
     'shape_query': 'cpSpaceShapeQuery',
     'each_arbiter': 'cpSpaceEachCachedArbiter',
     'point_query': 'cpShapePointQuery',
+    'remove_shape': 'cpSpaceRemoveShape',
 }
 # Structs of the tables that `CoreWorld.use` takes.
 _STRUCTS = {
@@ -139,6 +140,18 @@ class CoreWorld:
         self._world.drag_acceleration = settings.drag_force * settings.reference_gravity
         for name in ('gravitation', 'coulomb', 'attraction_power', 'softening'):
             setattr(self._world, name, getattr(settings, name))
+
+    def remove_shapes(self, bodies: Sequence[int]) -> None:
+        """
+        Remove the shapes of bodies from the engine, outside of a step.
+
+        What touched them is awake then, and may have lost its support.
+
+        :param bodies: addresses of the structs of Chipmunk
+        """
+        if bodies:
+            addresses = np.array(bodies, np.uintp)
+            lib.core_remove_shapes(self._world, pointer(addresses, 'cpBody *'), len(bodies))
 
     # Steps
 

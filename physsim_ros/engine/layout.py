@@ -12,6 +12,7 @@ each value is then read through those structs. Cost: 20 ms, when the engine is i
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -128,6 +129,8 @@ def check_layout(kinds: Mapping[type, tuple[str, dict[str, str]]] = KINDS) -> No
         struct, fields = kinds[type(it)]
         _compare(ffi.cast(f'{struct} *', address_of(it)), it, fields)
     pm_space = ffi.cast('cpSpace *', address_of(space))
+    known = SimpleNamespace(count=len(space._get_arbiters()))  # noqa: SLF001 - nothing public
+    _compare(pm_space, known, {'cachedArbiters.entries': 'count'})
     arbiter = ffi.cast('cpArbiter *', pm_space.arbiters.arr[0])
     *_, body = space.bodies
     told: list[_Contact] = []

@@ -35,6 +35,8 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
+# Bodies that leave at the end of a step in one call [1]: some 60 ms.
+_MOST_LEAVING = 2000
 # Of a space of Pymunk as it is made.
 _WITHOUT_GRAVITY = WorldSettings(gravity=(0.0, 0.0))
 
@@ -54,6 +56,8 @@ class Space:
     :ivar commands: of their motors, and of the drives of robots
     :ivar grips: of hands on them
     :ivar broken: joints that have broken, with the force at which each did [N]; its reader empties
+        it
+    :ivar joined: bodies whose joints were added, replaced or removed, by name; its reader empties
         it
     """
 
@@ -76,7 +80,10 @@ class Space:
         self.joints = JointSet(self.pm_space, self.bodies.by_name, self._core, dt)
         self.commands = Commands(self.bodies, self.joints, dt)
         self.broken: list[tuple[str, float]] = []
+        self.joined: set[str] = set()
         self._changes = self._age = 0
+        # The bodies that are still to be removed at the end of the step.
+        self._leaving: list[str] = []
         self._table: BodyTable | None = None
         # Row of the background in the last table; -1 if there was none.
         self._background = -1
@@ -228,17 +235,19 @@ class Space:
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
 
-    def remove(self, name: str) -> None:
-        """Remove a body and its joints for good."""
-        rigid = self.bodies.by_name[name]
-        touching = self.bodies.touching(rigid.pm_body)
-        for joint in self.joints.names_on(name):
-            self.unjoin(joint)
-        self._take_out(rigid)
-        self.grips.remove_from(name)
-        self.commands.coming.put(name, ())
-        del self.bodies.by_name[name]
-        self._release(touching)
+    def remove(self, names: Iterable[str]) -> None:
+        """Remove bodies and their joints for good."""
+        rigids = [self.bodies.by_name[name] for name in names]
+        for rigid in rigids:
+            for joint in self.joints.names_on(rigid.body.name):
+                self.unjoin(joint)
+        self._core.remove_shapes([rigid.address for rigid in rigids])
+        for rigid in rigids:
+            name = rigid.body.name
+            self._take_out(rigid)
+            self.grips.remove_from(name)
+            self.commands.coming.put(name, ())
+            del self.bodies.by_name[name]
 
     def extract_last(self) -> RigidBody:
         """Remove and return the last body, in a space without joints that is not used any more."""
@@ -332,6 +341,9 @@ class Space:
         """Add a joint; it replaces one of that name in its place."""
         self._drop_table()
         self._changes += 1
+        if (old := self.joints.by_name.get(joint.name)) is not None:
+            self.joined.update(old.joint.bodies)
+        self.joined.update(joint.bodies)
         self.joints.add(joint)
         self.joints.check([joint.name])
 
@@ -340,6 +352,7 @@ class Space:
         self._drop_table()
         self._changes += 1
         joint, bodies = self.joints.by_name[name].joint, self.bodies.by_name
+        self.joined.update(joint.bodies)
         self.joints.remove(name)
         self._release(bodies[end] for end in joint.bodies if end in bodies)
 
@@ -354,8 +367,11 @@ class Space:
         :param reports_contacts: whether contacts are reported
         :return: count of the steps that were made: fewer where something has to be done between
             two of them, or where they take long; and bodies that left the range of numbers, and
-            were removed
+            are removed
         """
+        if self._leaving:
+            self._remove_leaving()
+            return 0, []
         if self._wrenched:
             self._end_wrenches(number)
         if self.commands.are_coming:
@@ -383,14 +399,19 @@ class Space:
         lost = table.lost() if core.has_lost else []
         # In a fixed order: the engine solves its constraints in an order that removals change.
         expired = table.columns.expiries.get(number + made, ())
-        for name in dict.fromkeys((*lost, *expired)):
-            self.remove(name)
+        self._leaving = [*dict.fromkeys((*lost, *expired))]
+        self._remove_leaving()
         return made, lost
+
+    def _remove_leaving(self) -> None:
+        """Remove some of the bodies that leave at the end of the step."""
+        some, self._leaving = self._leaving[:_MOST_LEAVING], self._leaving[_MOST_LEAVING:]
+        self.remove(some)
 
     @property
     def is_within_step(self) -> bool:
         """Return whether a step is begun and not ended; nothing is read or changed until then."""
-        return self._core.is_within_step
+        return self._core.is_within_step or bool(self._leaving)
 
     def _end_wrenches(self, number: int) -> None:
         """End the wrenches that act up to a step."""

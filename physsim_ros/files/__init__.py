@@ -10,7 +10,7 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 
 from physsim_ros.files.foreign import advice_on_xml, CONVERTED, kind_of
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
-from physsim_ros.files.reading import finish_files, on_thread
+from physsim_ros.files.reading import begin_on_thread, finish_files, on_thread
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import (
     BadDrawing,
@@ -48,6 +48,7 @@ __all__ = [
     'BadDrawing',
     'OwnWorlds',
     'advice_on_xml',
+    'begin_on_thread',
     'check_world_name',
     'drawings',
     'find_world',

@@ -17,8 +17,8 @@ from physsim_ros.files.resources import is_plain
 from physsim_ros.files.world_file import is_shipped, kept_path, user_lessons
 from physsim_ros.model.errors import BadWorldFile, Exists
 
-# Length of a name [characters], and in UTF-8 [bytes]: below the 255 of the name of a file, which has
-# a suffix.
+# Length of a name [characters], and in UTF-8 [bytes]: below the 255 of the name of a file, which
+# has a suffix.
 LONGEST_NAME, LONGEST_FILE = 64, 240
 # Directory of pictures, below that of the worlds.
 _PICTURES = '.pictures'

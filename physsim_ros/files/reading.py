@@ -17,9 +17,9 @@ _Result = TypeVar('_Result')
 _awaited: set[Future[Any]] = set()
 
 
-async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _Result:
+def begin_on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> Future[_Result]:
     """
-    Return what a function returns that is called on a thread of its own, or raise its error.
+    Call a function on a thread of its own; return the future of its result.
 
     :param finishes: whether the end of the process waits for it, as for a file that is written
     """
@@ -35,7 +35,16 @@ async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _
         _awaited.add(future)
         future.add_done_callback(_awaited.discard)
     Thread(target=call, name='file', daemon=not finishes).start()
-    return await wrap_future(future)
+    return future
+
+
+async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _Result:
+    """
+    Return what a function returns that is called on a thread of its own, or raise its error.
+
+    :param finishes: as of `begin_on_thread`
+    """
+    return await wrap_future(begin_on_thread(work, finishes=finishes))
 
 
 def finish_files() -> None:

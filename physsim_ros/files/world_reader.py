@@ -89,7 +89,9 @@ def state_from(
     entries = entries_of(content.get('bodies'), 'bodies')
     bodies, unmoved, parts = _body_states(entries, settings, physics_rate)
     check_namespaces(state.body for state in bodies)
-    unjoined = WorldState(settings=settings, bodies=bodies, lesson=lesson)
+    unjoined = WorldState(
+        settings=settings, bodies=bodies, lesson=lesson, physics_rate=physics_rate
+    )
     # One edited body, and the impulses of all contacts are outdated.
     if 'memory' in content and all(state.motion is not None for state in bodies):
         unjoined = replace(unjoined, memory=cache_from(content['memory'], unjoined))

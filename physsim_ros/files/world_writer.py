@@ -44,7 +44,7 @@ def text_of(state: WorldState, physics_rate: float, *, longest: float = math.inf
     """
     lines: list[str] = []
     length = 0
-    for line in _lines(state, physics_rate):
+    for line in _lines(state.at_rate(physics_rate), physics_rate):
         length += len(line)
         if length > longest:
             raise WorldFull(f'the world as text is longer than {longest} characters')

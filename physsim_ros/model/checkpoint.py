@@ -10,7 +10,7 @@ Law: two worlds that continue from the same checkpoint have the same bits ever a
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -24,6 +24,7 @@ from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.states import (
     ActorState,
     DriveCommand,
+    NEVER,
     NO_ACTORS,
     NO_ROBOTS,
     Records,
@@ -77,6 +78,31 @@ class BodyState:
     coming: tuple[DriveCommand, ...] = ()
     acting: ActorState | None = None
 
+    def with_steps(self, ratio: float) -> BodyState:
+        """Return it with times in other steps, as many in a second as before times a ratio."""
+        body, driven, acting = self.body, self.driven, self.acting
+        if body.expires is not None:
+            body = replace(body, expires=max(1, round(body.expires * ratio)))
+        steps = self.wrench_steps
+        return replace(
+            self,
+            body=body,
+            # Those of the engine are of its own steps.
+            motion=None,
+            field_lead=None,
+            wrench_steps=None if steps is None else round(steps * ratio),
+            driven=driven and driven._replace(until=_scaled(driven.until, ratio)),
+            coming=tuple(
+                DriveCommand(_scaled(begun, ratio), aim, _scaled(until, ratio))
+                for begun, aim, until in self.coming
+            ),
+            acting=acting and acting._replace(begun=_scaled(acting.begun, ratio)),
+        )
+
+
+def _scaled(step: int, ratio: float) -> int:
+    return step if step == NEVER else round(step * ratio)
+
 
 # The last command of each motor, and those on their way to it in their order.
 Commands = tuple[TimedCommand, ...]
@@ -93,6 +119,8 @@ class WorldState:
     :param commands: of motors, also those on their way, whose steps count from now
     :param memory: impulse cache; None in a file written by hand
     :param lesson: the task that belongs to the world; None is none
+    :param physics_rate: steps in a second, by which its times count [Hz]; None where it has no
+        times
     :param world: the same for states that `replace` makes of one another, as a reset with another
         seed does
     """
@@ -103,7 +131,29 @@ class WorldState:
     commands: Commands = ()
     lesson: Lesson | None = None
     memory: ImpulseCache | None = field(default=None, compare=False)
+    physics_rate: float | None = field(default=None, compare=False, repr=False)
     world: object = field(default_factory=object, compare=False, repr=False)
+
+    def at_rate(self, physics_rate: float) -> WorldState:
+        """
+        Return the state for a world that makes other steps, with times to the nearest one.
+
+        Of a world with as many steps a second it is the state itself, which continues to the bit.
+
+        :param physics_rate: of that world [Hz]
+        """
+        if self.physics_rate is None or self.physics_rate == physics_rate:
+            return self
+        ratio = physics_rate / self.physics_rate
+        return replace(
+            self,
+            bodies=tuple(each.with_steps(ratio) for each in self.bodies),
+            commands=tuple(
+                each._replace(begun=round(each.begun * ratio)) for each in self.commands
+            ),
+            memory=None,
+            physics_rate=physics_rate,
+        )
 
 
 # The pushes of a world without a floor, and the leads of one without fields, in memory once.

@@ -4,8 +4,9 @@
 """
 The frame loop: requests are applied, time goes on, and each frame is shown.
 
-Law: requests have a share of each tick; what is left of them waits for the next one. Before the
-node has started nothing is applied by itself.
+Laws: requests have a share of each tick; what is left of them waits for the next one. No tick
+advances the world before all robots of its last frame have their topics. Before the node has
+started nothing is applied by itself.
 """
 
 from __future__ import annotations
@@ -76,6 +77,9 @@ class FrameLoop:
         began = time.perf_counter_ns()
         self._note_readers()
         self._take_commands()
+        if not self._fleet.update_topics(lambda: _is_overdue(began)):
+            self._simulation.playback.clock.restart()
+            return
         frames: tuple[Frame, ...] = ()
         step = self._simulation.step
         request_time = _RequestTime(self._rest_ns)
@@ -118,7 +122,7 @@ class FrameLoop:
         """Advance the world by one publish period, at any time, and show the frame."""
         self._note_readers()
         self._take_commands()
-        self._outputs.show(self._simulation.advance_frame())
+        self._show(self._simulation.advance_frame())
 
     def pass_frames(self, count: int) -> int:
         """
@@ -134,7 +138,7 @@ class FrameLoop:
             return 0
         frame = self._simulation.pass_frames(count)
         if frame is not None:
-            self._outputs.show(frame)
+            self._show(frame)
         return count
 
     def apply_requests(self) -> tuple[Answer, ...]:
@@ -142,9 +146,14 @@ class FrameLoop:
         self._note_readers()
         frame = self._simulation.apply_requests()
         if frame is not None:
-            self._outputs.show(frame)
+            self._show(frame)
             return frame.answers
         return self._report_answers()
+
+    def _show(self, frame: Frame) -> None:
+        """Show a frame, at any time, and have all its robots have their topics."""
+        self._outputs.show(frame)
+        self._fleet.update_topics()
 
     def apply_in_time(self) -> bool:
         """

@@ -189,7 +189,8 @@ class FrameMaker:
         No frame is made but the last one, when it is read; its contacts are those of all steps
         since the one that was read before.
 
-        :raises BadProperty: they are no number, below 0, or not finite
+        :raises BadProperty: they are no number, below 0, or more than can be counted
+        :raises Malformed: they are not finite
         """
         seconds = number(seconds, 'seconds')
         periods = seconds * self.physics_rate / self.frame_steps

@@ -5,7 +5,8 @@
 Hands of people that drag a body at the moment that is shown.
 
 Laws: a drag, from the grab until the hand lets go, is one gesture; requests of a hand whose grip
-is gone, or after another moment is shown, change nothing. In a paused world hands place bodies.
+is gone, or after a seek, a rewind, another course or another world, change nothing. In a paused
+world hands place bodies.
 """
 
 from __future__ import annotations
@@ -117,5 +118,5 @@ class Hands:
                 del self._dragging[name]
 
     def clear(self) -> None:
-        """Drop all hands, since another moment is shown."""
+        """Drop all hands, since another moment or world is shown."""
         self._dragging.clear()

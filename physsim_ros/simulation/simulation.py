@@ -210,7 +210,7 @@ class Simulation(FrameMaker):
         """
         OfClass(WorldState)(state, 'state')
         self.requests.apply_waiting()
-        self.past.begin(state)
+        self.past.begin(state.at_rate(self.physics_rate))
         self._note_beginning()
         self.requests.note_jump()
 
@@ -224,7 +224,8 @@ class Simulation(FrameMaker):
         """
         Replace the world by a state, to which `reset` returns; time goes on. Return a message.
 
-        :param world: a state from `load_world` or `save`, or its beginning, which any thread makes
+        :param world: a state from `load_world` or `save`, also of a world with another physics
+            rate; or its beginning, which any thread makes
         :raises Malformed: the value is neither
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
@@ -236,7 +237,7 @@ class Simulation(FrameMaker):
         """Return a state, with which the world begins as it was built, where it was."""
         OfClass(WorldState | Beginning)(world, 'world')
         if isinstance(world, WorldState):
-            return world
+            return world.at_rate(self.physics_rate)
         self.at_shown_moment().cursor.world.put_ahead(world)
         return world.state
 

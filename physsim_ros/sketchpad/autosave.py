@@ -6,22 +6,24 @@ Autosave: the world that pages draw in is written to a file, which the next star
 
 A world with a lesson is kept as soon as a page opens it.
 
-Law: it takes at most a hundredth of the world's time and one file; a world that is too large, or a
-full disk, stops nothing, and people are told. What the disk did not take is tried again. The file
-begins with a comment that names the people who drew in it.
+Law: it takes at most a hundredth of the world's time and one file, and no request waits for it; a
+world that is too large, or a full disk, stops nothing, and people are told. What the disk did not
+take is tried again. The file begins with a comment that names the people who drew in it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Future
 from contextlib import suppress
 from functools import partial
 import json
 from pathlib import Path
 import time
+from typing import TypeAlias
 
 import numpy as np
-from physsim_ros.files import make_directory, on_thread, read_bytes, write_file
+from physsim_ros.files import begin_on_thread, make_directory, read_bytes, write_file
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
@@ -40,6 +42,8 @@ _FROM_FILE = frozenset({'~/load_world', '~/reset'})
 _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
 # Of its events.
 _TOPIC = 'autosave'
+# Why a save has failed, None where it has not, and the time that it took [s].
+_Written: TypeAlias = tuple[OSError | WorldFull | None, float]
 
 
 class Autosave:
@@ -69,6 +73,10 @@ class Autosave:
         self._poses: Floats = np.empty((0, 3))
         # Whether nothing moves.
         self._still = False
+        # The save under way, which ends with why it failed, or None, and its duration [s].
+        self._writing: Future[_Written] | None = None
+        # Count of saves by people: what was under way meanwhile is not kept.
+        self._saves = 0
         with suppress(OSError):
             self._file.replace(self._unsaved)
 
@@ -125,22 +133,37 @@ class Autosave:
     def note_saved(self) -> None:
         """Note that somebody has saved the world."""
         self._changed, self.failure = False, None
+        self._saves += 1
+        self._forget()
+
+    def _forget(self) -> None:
+        """Delete the file."""
         with suppress(OSError):
             self._file.unlink(missing_ok=True)
 
     def is_due(self, now: float) -> bool:
         """
-        Return whether the world is to be saved.
+        Return whether the world is to be saved, and no save is under way.
 
         :param now: steady time [s]
         """
-        return self._changed and now >= (self._due_still if self._still else self._due)
+        due = self._due_still if self._still else self._due
+        return self._changed and self._writing is None and now >= due
 
-    async def save(self) -> tuple[Answer, ...]:
-        """Save the world, on a thread; return an event if that fails, or does so no longer."""
+    def save(self) -> Future[_Written]:
+        """Begin to save the world of now on a thread, for whose end nothing waits."""
         self._changed = False
-        write = partial(self._write, self._text(), self._people()[:MOST_NAMES])
-        error, took = await on_thread(write, finishes=True)
+        write = partial(self._write, self._text(), self._people()[:MOST_NAMES], self._saves)
+        self._writing = begin_on_thread(write, finishes=True)
+        return self._writing
+
+    def note_end(self) -> Answer | None:
+        """Note the end of the save; return an event if it has failed, or does so no longer."""
+        writing = self._writing
+        if writing is None or not writing.done():
+            return None
+        self._writing = None
+        error, took = writing.result()
         # A world that is too large stays so until it changes.
         self._changed |= isinstance(error, OSError)
         now = time.monotonic()
@@ -148,15 +171,14 @@ class Autosave:
         self._due_still = now + max(STILL_PERIOD, SHARE * took)
         before, self.failure = self.failure, None if error is None else _failure(error)
         if self.failure == before:
-            return ()
-        return (self.failure or Answer(topic=_TOPIC, message='what was drawn is autosaved again'),)
+            return None
+        return self.failure or Answer(topic=_TOPIC, message='what was drawn is autosaved again')
 
-    def _write(
-        self, text: Callable[[int], str], names: Sequence[str]
-    ) -> tuple[OSError | WorldFull | None, float]:
+    def _write(self, text: Callable[[int], str], names: Sequence[str], saves: int) -> _Written:
         """
-        Write a world and the names of people.
+        Write a world and the names of people, unless somebody saves it meanwhile.
 
+        :param saves: count of saves by people before it
         :return: why that failed, None where it did not, and the time that it took [s]
         """
         began = time.thread_time()
@@ -167,6 +189,8 @@ class Autosave:
                 content = f'{_BY}{json.dumps(names)}\n{content}'
             make_directory(self._file.parent)
             write_file(self._file, content.encode())
+            if self._saves != saves:
+                self._forget()
         except (OSError, WorldFull) as error:
             failed = error
         return failed, time.thread_time() - began

@@ -5,8 +5,8 @@
 The rights of pages: which role may send a message, and which bodies are locked for pupils.
 
 Laws: each kind of message needs one right, which a role has or not. A request that concerns a
-locked body is refused, but for a teacher; so is what takes back such a request, and what brings
-back another moment or another world while a body of this one is locked.
+locked body or one of its joints is refused, but for a teacher; so is what takes back such a
+request, and what brings back another moment or another world while a body of this one is locked.
 """
 
 from __future__ import annotations
@@ -187,11 +187,11 @@ def _check_names(names: Iterable[str], world: WorldControl) -> None:
 
 def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:
     """
-    Return the bodies that a request of the past concerned, by name; where it is unknown, all.
+    Return the bodies that a request of the past concerned, by name, and those that its joints had.
 
     :param snapshot: of now; the points of the request may lie on other bodies now
     """
-    request, scene = node.request, snapshot.scene
+    request = node.request
     match request:
         case (
             requests.Join()
@@ -200,12 +200,10 @@ def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:
             | requests.Pin()
             | (requests.Axle())
         ):
-            joints = (each for each in scene.joints if each.name == node.subject)
-            joint = next(joints, None)
-            return scene.names if joint is None else joint.bodies
+            return tuple(node.joined)
         case requests.Grab() | requests.Anchor() | requests.Release():
             return (node.subject,)
-    return _bodies_of(request, snapshot)
+    return (*_bodies_of(request, snapshot), *node.joined)
 
 
 def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
@@ -216,6 +214,22 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
     """
     query = SceneQuery(snapshot)
     return tuple(each for name in _named(request, query) for each in query.machine(name))
+
+
+def _deleted(
+    request: requests.Delete | requests.DeleteBodies, query: SceneQuery
+) -> tuple[str, ...]:
+    """Return the bodies that are deleted, and those that lose a joint by that."""
+    if isinstance(request, requests.Delete):
+        request = requests.DeleteBodies(names=(request.name,))
+    names, joints = request.names, request.joints
+    gone = {each for name in names for each in query.machine(name)}
+    removed = (
+        joint
+        for joint in query.joints
+        if joint.name in joints or not gone.isdisjoint(joint.bodies)
+    )
+    return (*names, *(each for joint in removed for each in joint.bodies))
 
 
 def _of_joint(name: str, query: SceneQuery) -> tuple[str, ...]:
@@ -230,8 +244,10 @@ def _joints_of(request: requests.Unjoin | requests.CommandMotors) -> tuple[str, 
     return tuple(each.joint for each in request.commands)
 
 
-def _joined(request: requests.Join, query: SceneQuery) -> tuple[str, ...]:
+def _joined(request: requests.Join | requests.Rejoin, query: SceneQuery) -> tuple[str, ...]:
     """Return the bodies that a joint has, or will have."""
+    if isinstance(request, requests.Rejoin):
+        return (request.a, request.b, *_of_joint(request.name, query))
     points, properties = request.points, request.properties
     names = (request.a, *(properties.over or ('',) * (len(points) - 2)), request.b)
     # One point is that of both ends.
@@ -262,14 +278,14 @@ def _named(request: Request, query: SceneQuery) -> tuple[str, ...]:
     What is not named here concerns all.
     """
     match request:
-        case requests.MoveBodies() | requests.DeleteBodies() | requests.Command():
+        case requests.MoveBodies() | requests.Command():
             return request.names
-        case requests.Spawn() | requests.ChangeBody() | requests.Delete() | requests.DriveRobot():
+        case requests.Delete() | requests.DeleteBodies():
+            return _deleted(request, query)
+        case requests.Spawn() | requests.ChangeBody() | requests.DriveRobot():
             return (request.name,)
-        case requests.Join():
+        case requests.Join() | requests.Rejoin():
             return _joined(request, query)
-        case requests.Rejoin(name=old, a=a, b=b):
-            return (a, b, *_of_joint(old, query))
         case requests.Cut(pieces=pieces, joints=moved, severed=severed):
             parts = (_named(each, query) for each in (*pieces, *moved, *severed))
             return tuple(name for names in parts for name in names)

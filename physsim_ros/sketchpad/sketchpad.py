@@ -17,7 +17,7 @@ import time
 from typing import Any
 
 from physsim_ros.files import OwnWorlds, text_of
-from physsim_ros.model.errors import Busy, Refusal
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.slices import Sliced, with_checks
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.entries import Origin, Wait
@@ -90,8 +90,6 @@ class Sketchpad:
             self._server.list_worlds,
             self._server.ask_to_leave,
         )
-        # Whether an autosave waits for its turn among the requests, or is under way.
-        self._is_saving = False
         self._sessions: dict[int, PageSession] = {}
         # Numbers of the colours of people, by name.
         self._colors: dict[str, int] = {}
@@ -184,13 +182,11 @@ class Sketchpad:
             session.keep_hand(now)
         self._shared.pasts.send_due(now)
         self._shared.past_contacts.send_due()
-        if self._autosave.is_due(now) and not self._is_saving:
-            self._is_saving = True
-            try:
-                self._world.make_call(self._save_unsaved, Wait.FOR_SEEK)
-            except Busy:
-                # While too many requests wait, the save is put off.
-                self._is_saving = False
+        with self._boundary.output('autosave'):
+            if (event := self._autosave.note_end()) is not None:
+                self._simulation.requests.tell(event)
+            if self._autosave.is_due(now) and self._simulation.playback.is_there:
+                self._autosave.save()
         if self._world.recording_address != self._sent_recording:
             self._sent_recording = self._world.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
@@ -229,14 +225,6 @@ class Sketchpad:
             self._sent_class = content
             self._server.send(content)
 
-    async def _save_unsaved(self) -> tuple[Answer, ...]:
-        try:
-            with self._boundary.output('autosave'):
-                return await self._autosave.save()
-        finally:
-            self._is_saving = False
-        return ()
-
     def _named_people(self) -> list[str]:
         """Return the names that people who draw have chosen."""
         present = self._sessions.values()
@@ -245,7 +233,7 @@ class Sketchpad:
 
     def _world_text(self) -> Callable[[int], str]:
         """Return a function that returns the world as text, of at most a length [characters]."""
-        saved, rate = self._simulation.saver(), self._simulation.physics_rate
+        saved, rate = self._simulation.world.saver(), self._simulation.physics_rate
         return lambda longest: text_of(saved(), rate, longest=longest)
 
     def _replace_world(self, upload: Upload) -> None:

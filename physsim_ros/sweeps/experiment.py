@@ -121,7 +121,7 @@ class Experiment(Checked):
     :param failure: returns why the robot has failed since the last period, or ''
     :param score: returns a number for the robot at the end of a run; None is no score
     :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
-    :raises BadProperty: a time is out of range
+    :raises BadProperty: a time is out of range, or a run shorter than a period of the controller
     """
 
     world: WorldState
@@ -147,6 +147,15 @@ class Experiment(Checked):
     wall_limit: Annotated[
         float, Within(0.1, LONGEST, 's'), 'wall time after which a sweep ends a run, as failed'
     ] = 3600.0
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if self.seconds < self.period:
+            raise BadProperty(
+                f'a run of {self.seconds:g} s is shorter than a period of {self.period:g} s; it '
+                'would not call the controller',
+                field='seconds',
+            )
 
     def check(self, case: Case) -> None:
         """

@@ -11,9 +11,10 @@ import math
 import struct
 import zlib
 
+from physsim_ros.convert import __main__ as converting
 from physsim_ros.convert.__main__ import main
 from physsim_ros.files import load_world
-from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.model.errors import BadWorldFile, WorldFull
 import pytest
 
 FLATLAND = """
@@ -308,3 +309,20 @@ def test_a_file_of_another_kind_is_named_where_a_world_is_loaded(tmp_path, text,
     with pytest.raises(BadWorldFile) as refused:
         load_world(path)
     assert told in str(refused.value)
+
+
+@pytest.mark.parametrize('refusal', [BadWorldFile, WorldFull])
+def test_a_world_file_that_is_refused_is_there_to_be_edited(
+    tmp_path, capsys, monkeypatch, refusal
+):
+    def refused(_):
+        raise refusal('too much')
+
+    monkeypatch.setattr(converting, 'load_world', refused)
+    source, target = tmp_path / 'map.json', tmp_path / 'map-world.yaml'
+    source.write_text(json.dumps(TILED), 'utf-8')
+
+    assert main([str(source)]) == 1
+
+    assert target.exists()
+    assert capsys.readouterr().err == f'{target} is written, but too much\n'

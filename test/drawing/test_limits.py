@@ -84,12 +84,7 @@ def teeth_of(count: float) -> int:
     teeth = [
         (4.0 * n + x, y)
         for n in range(int(count) - 1)
-        for x, y in (
-            (0.0, 0.0),
-            (1.0, 2.0),
-            (2.0, 2.0),
-            (3.0, 0.0),
-        )
+        for x, y in ((0.0, 0.0), (1.0, 2.0), (2.0, 2.0), (3.0, 0.0))
     ]
     comb = Polygon(outline=(*teeth, (4.0 * count, -1.0), (0.0, -1.0)))
     try:

@@ -6,7 +6,7 @@
 from collections.abc import Callable
 import math
 
-from physsim_ros.model.requests import Delete
+from physsim_ros.model.requests import Delete, DeleteBodies
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
@@ -86,3 +86,64 @@ def under_way(count: int) -> Callable[[], object]:
 
 def test_actors_under_way_do_not_look_at_their_gates():
     assert growth(under_way, 300) < MOST
+
+
+def around_hub(count: int) -> World:
+    """Return a world of boxes that touch a large disc all around, at rest and without gravity."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    side, reach = 0.05, 0.02 * count
+    spawn(world, 'hub/0', Disc(radius=reach), (0.0, 0.0, 0.0))
+    # So little overlap is not pushed out.
+    distance = reach + side / 2 - 1e-4
+    for number in range(count):
+        angle = math.tau * number / count
+        pose = distance * math.cos(angle), distance * math.sin(angle), angle
+        spawn(world, f'box/{number}', Box(width=side, height=side), pose)
+    return world
+
+
+def released(count: int) -> Callable[[], object]:
+    """Return the look at a large disc from which what it touched was removed."""
+    world = around_hub(count)
+    rest = Box(width=1.0, height=1.0)
+    spawn(world, 'rest/0', rest, (0.0, 0.0, 0.0), anchored=True)
+    world.step(1)
+    world.apply(Delete(name='rest/0'))
+    # Makes the table.
+    _ = world.scene
+    return world.snapshot
+
+
+def test_the_contacts_of_a_released_body_cost_what_their_count_says():
+    assert growth(released, 1000) < MOST
+
+
+def afloat(count: int) -> Callable[[], object]:
+    """Return a step of bodies each in a medium of its own."""
+    world = World(settings=WorldSettings(gravity=(0.0, -9.81)))
+    medium = {'anchored': True, 'sensor': True, 'medium': {'density': 2.0}}
+    for number in range(count):
+        pose = *(float(each) for each in divmod(number, 100)), 0.0
+        spawn(world, f'pool/{number}', Disc(radius=0.2), pose, **medium)
+        spawn(world, f'disc/{number}', Disc(radius=0.1), pose)
+    # Makes the table.
+    world.snapshot()
+    return lambda: world.step(1)
+
+
+def test_media_cost_what_their_count_says():
+    assert growth(afloat, 1000) < MOST
+
+
+def deleted(count: int) -> Callable[[], object]:
+    """Return the deletion of every other one of the discs in a row, which touch."""
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+    for number in range(count):
+        spawn(world, f'disc/{number}', Disc(radius=0.05), (0.0999 * number, 0.0, 0.0))
+    world.step(1)
+    names = world.scene.names[::2]
+    return lambda: world.apply(DeleteBodies(names=names))
+
+
+def test_bodies_that_are_deleted_together_cost_what_their_count_says():
+    assert growth(deleted, 500) < MOST

@@ -17,8 +17,12 @@ from physsim_ros.files import impulse_cache
 from physsim_ros.files.engine_state import state_entry, with_saved_state
 from physsim_ros.files.impulse_cache import pack, unpack
 from physsim_ros.model.checkpoint import BodyState
+from physsim_ros.model.checks import LONGEST
 from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.latency import LONGEST_DELAY
+from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.states import NEVER, RobotState, SPAWNED
+from physsim_ros.simulation.world import World
 import pytest
 
 from ..sensing.worlds import add_robot, plane
@@ -79,6 +83,19 @@ def test_the_state_of_a_robot_that_was_saved_is_read(robot: BodyState) -> None:
     state = SPAWNED._replace(covariance=COVARIANCE, odometry=(1.0, 2.0, 0.5))
     assert driven(robot, state_entry(replace(robot, driven=state), 240.0)['driven']) == state
     assert driven(robot, {}) == SPAWNED._replace(until=NEVER)
+
+
+@pytest.mark.parametrize('rate', [240.0, 240.1])
+def test_a_command_on_its_way_is_read_however_long_it_counts(rate: float) -> None:
+    world = World(physics_rate=rate, settings=plane().settings)
+    row = add_robot(world, robot={'drive': {'kind': 'omni', 'latency': LONGEST_DELAY}})
+    world.apply(DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0), timeout=LONGEST))
+    state = world.save().bodies[row]
+
+    read = with_saved_state(replace(state, coming=()), state_entry(state, rate), rate)
+
+    assert state.coming
+    assert read.coming == state.coming
 
 
 @pytest.mark.parametrize(

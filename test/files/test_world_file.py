@@ -96,6 +96,7 @@ def test_no_more_of_a_world_is_written_than_its_text_may_be_long() -> None:
     endless = SimpleNamespace(
         lesson=None, settings=state.settings, bodies=itertools.cycle(state.bodies)
     )
+    endless.at_rate = lambda _: endless
     with pytest.raises(WorldFull, match=f'longer than {len(text)} characters'):
         text_of(endless, world.physics_rate, longest=len(text))
 

@@ -350,15 +350,17 @@ def test_what_was_pressed_against_a_wall_is_not_pressed_for_ever(report):
     report.check(39, 'push of a wall that nothing pushes', np.abs(left).max(), 0.0, 1e-8, 'N s')
 
 
-def _belt(sim, length, speed, yaw=0.0):
+def _belt(sim, length, speed, name='belt/0', yaw=0.0):
     """Add a conveyor about the origin."""
     said = {'anchored': True, 'sensor': True, 'surface_velocity': (speed, 0.0)}
-    spawn(sim, 'belt/0', Box(width=length, height=1.0), (0.0, 0.0, yaw), **said)
+    spawn(sim, name, Box(width=length, height=1.0), (0.0, 0.0, yaw), **said)
 
 
-def test_a_conveyor_carries_at_its_speed(report):
+@pytest.mark.parametrize('speeds', [(0.4,), (-0.4, 0.4), (0.2, 0.3, 0.4)])
+def test_a_conveyor_carries_at_its_speed_and_of_several_the_last(report, speeds):
     sim = _floor()
-    _belt(sim, 6.0, 0.4, yaw=0.3)
+    for number, speed in enumerate(speeds):
+        _belt(sim, 6.0, speed, name=f'belt/{number}', yaw=0.3)
     row = spawn(sim, 'box/0', BOX, (0.0, 0.0, 0.0))
     start = _after(sim, 1.0).poses[row]
 

@@ -8,7 +8,14 @@ from dataclasses import replace
 import math
 
 import numpy as np
-from physsim_ros.files import find_world, load_world, robot_spawn
+from physsim_ros.files import (
+    find_world,
+    load_mapping,
+    load_world,
+    robot_spawn,
+    state_from,
+    text_of,
+)
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import (
     BadProperty,
@@ -20,6 +27,7 @@ from physsim_ros.model.errors import (
 from physsim_ros.model.requests import (
     Anchor,
     Command,
+    CommandMotors,
     Configure,
     Delete,
     DeleteAll,
@@ -401,6 +409,63 @@ def test_what_is_refused_ends_no_drive_no_drag_and_no_frame_that_is_due(name):
     assert sim.driving
     assert 'mouse' in sim.requests.hands
     assert sim.playback.frames_due == 1
+
+
+def timed() -> WorldState:
+    """Return a state half way through a lifetime, a wrench, a path and commands of motors."""
+    sim = Simulation(settings=replace(NOWHERE, command_timeout=2.0))
+    sim.perform(spawning('lives/0', DISC, (0.0, 9.0, 0.0), lifetime=2.0))
+    sim.perform(spawning('pushed/0', DISC))
+    sim.perform(Command(names=('pushed/0',), wrenches=[(1.0, 0.0, 0.0)]))
+    path = {'kind': 'path', 'points': [[0, -9], [2, -9]], 'times': [0, 2]}
+    sim.perform(spawning('walks/0', DISC, (0.0, -9.0, 0.0), kinematic=True, actor=path))
+    drive = {'kind': 'omni', 'latency': 0.5, 'timeout': 1.5}
+    sim.perform(spawning('robot/0', DISC, (0.0, 5.0, 0.0), robot={'drive': drive}))
+    sim.perform(DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0)))
+    motor = {'effort': 9.0, 'latency': 0.25}
+    sim.perform(joining('axle', [(0.0, 0.0)], 'arm/0', a='pushed/0', b='world', **motor))
+    for value in (1.0, 2.0):
+        points = [[0.0, value]]
+        command = {'joint': 'arm/0', 'mode': 'velocity', 'points': points}
+        sim.perform(CommandMotors(commands=[command]))
+        sim.run(0.2)
+    sim.perform(DriveRobot(name='robot/0', velocity=(0.0, 1.0, 0.0)))
+    sim.run(0.6)
+    sim.perform(DriveRobot(name='robot/0', velocity=(0.0, -1.0, 0.0)))
+    return sim.save()
+
+
+@pytest.mark.parametrize('rate', [120.0, 240.0, 960.0])
+def test_a_state_has_the_times_of_its_file_at_any_rate(rate):
+    state = timed()
+    read = state_from(load_mapping(text_of(state, 240.0), field='text'), state.settings, rate)
+
+    other = state.at_rate(rate)
+
+    for one, two in zip(other.bodies, read.bodies, strict=True):
+        for name in ('wrench', 'wrench_steps', 'driven', 'coming', 'acting'):
+            assert getattr(one, name) == getattr(two, name)
+        assert one.body.expires == two.body.expires
+    assert other.commands == read.commands
+    for name in ('wrench_steps', 'driven', 'coming', 'acting'):
+        assert any(getattr(each, name) for each in other.bodies)
+    assert other.commands
+
+
+@pytest.mark.parametrize('put', [Simulation.begin, Simulation.load, Simulation.open_world])
+@pytest.mark.parametrize('rate', [120.0, 240.0, 960.0])
+def test_times_of_a_state_are_those_of_a_world_with_another_rate(put, rate):
+    state = timed()
+    sim = Simulation(physics_rate=rate)
+
+    put(sim, state)
+
+    sim.run(0.9)
+    assert 'lives/0' in sim.world
+    sim.run(0.2)
+    assert 'lives/0' not in sim.world
+    snapshot = sim.frame.snapshot
+    assert snapshot.poses[snapshot.row('walks/0')][0] == pytest.approx(2.0, abs=1e-6)
 
 
 def test_reset_answers_those_that_wait_first():

@@ -6,10 +6,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future
+from concurrent.futures import wait
 import errno
 import os
 from pathlib import Path
+from threading import Event
 import time
 from typing import Any
 
@@ -17,9 +18,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.files import load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
-from physsim_ros.model.slices import at_once, wrap_future
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave as module
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
@@ -52,6 +51,12 @@ def drawn(simulation: Simulation, autosave: Autosave, name: str) -> None:
     autosave.note_frame(simulation.advance_frame(), drawn=True)
 
 
+def end_save(autosave: Autosave) -> Answer | None:
+    """Save the world, wait for the end, and return the event."""
+    wait((autosave.save(),))
+    return autosave.note_end()
+
+
 def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> None:
     simulation = Simulation()
     autosave = Autosave(tmp_path, names_in(simulation))
@@ -59,7 +64,7 @@ def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> Non
     assert not autosave.is_due(time.monotonic())
     drawn(simulation, autosave, 'a/0')
     assert autosave.is_due(time.monotonic())
-    at_once(autosave.save())
+    end_save(autosave)
     assert (tmp_path / '.autosave.yaml').read_text() == 'a/0'
     # Within the period nothing is saved, and without a change nothing later.
     assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
@@ -72,7 +77,7 @@ def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> Non
     assert again.unsaved_content() == b'a/0'
     again.forget_unsaved()
     assert again.unsaved_at == 0.0
-    at_once(autosave.save())
+    end_save(autosave)
     autosave.note_saved()
     assert not list(tmp_path.iterdir())
 
@@ -87,7 +92,7 @@ def test_while_nothing_moves_a_change_is_kept_within_a_second(tmp_path: Path) ->
         assert frame is not None
         autosave.note_frame(frame, drawn=True)
         assert autosave.is_due(time.monotonic() + STILL_PERIOD)
-        at_once(autosave.save())
+        end_save(autosave)
 
 
 def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> None:
@@ -115,7 +120,7 @@ def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.Mo
     simulation = Simulation()
     autosave = Autosave(tmp_path, empty)
     drawn(simulation, autosave, 'a/0')
-    at_once(autosave.save())
+    end_save(autosave)
     drawn(simulation, autosave, 'a/1')
     now = time.monotonic()
     assert not autosave.is_due(now + 0.9 * SHARE * 2.0)
@@ -126,7 +131,7 @@ def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) ->
     names = ['Mia', 'Jürgen "J" Groß']
     autosave = Autosave(tmp_path, lambda: lambda _: 'format: 1', lambda: names)
     drawn(Simulation(), autosave, 'a/0')
-    at_once(autosave.save())
+    end_save(autosave)
     again = Autosave(tmp_path, empty)
     assert again.unsaved_by == names
     assert load_mapping(again.unsaved_content().decode(), field='file') == {'format': 1}
@@ -143,13 +148,13 @@ def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) 
     def refuse(_: int) -> str:
         raise WorldFull('too large', field='world')
 
-    at_once(Autosave(tmp_path, lambda: refuse).save())
+    end_save(Autosave(tmp_path, lambda: refuse))
     assert not list(tmp_path.iterdir())
     nowhere = tmp_path / 'file'
     nowhere.write_text('')
     autosave = Autosave(nowhere, empty)
     drawn(simulation, autosave, 'a/0')
-    at_once(autosave.save())
+    end_save(autosave)
     assert autosave.unsaved_at == 0.0
 
 
@@ -159,16 +164,18 @@ def test_what_a_full_disk_did_not_take_is_written_when_there_is_room(tmp_path: P
     directory.write_text('')
     autosave = Autosave(directory, names_in(simulation))
     drawn(simulation, autosave, 'a/0')
-    (event,) = at_once(autosave.save())
+    event = end_save(autosave)
+    assert event is not None
     assert (event.topic, event.code) == ('autosave', 'autosave_failed')
     # Not for each time that it is tried.
-    assert at_once(autosave.save()) == ()
+    assert end_save(autosave) is None
     assert not autosave.is_due(time.monotonic())
     directory.unlink()
     assert autosave.is_due(time.monotonic() + 2 * PERIOD)
-    (event,) = at_once(autosave.save())
+    event = end_save(autosave)
+    assert event is not None
     assert (event.topic, event.code) == ('autosave', '')
-    assert at_once(autosave.save()) == ()
+    assert end_save(autosave) is None
     assert (directory / '.autosave.yaml').read_text() == 'a/0'
     assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
 
@@ -183,7 +190,7 @@ def test_a_world_that_is_too_large_is_tried_again_when_it_changes(tmp_path: Path
     for name in ('a/0', 'a/1'):
         drawn(simulation, autosave, name)
         assert autosave.is_due(time.monotonic() + 2 * PERIOD)
-        at_once(autosave.save())
+        end_save(autosave)
         assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
     assert autosave.failure is not None
     assert autosave.failure.message.endswith(': too large')
@@ -226,21 +233,39 @@ def test_a_failure_is_told_on_all_pages_also_later_ones_in_events_and_diagnostic
     browser.until(lambda: tick() or event_on(later))
 
 
-def test_one_save_waits_for_its_turn_however_long_a_call_is_under_way(
+def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    held, write = Event(), module.write_file
+
+    def write_later(path: Path, content: bytes) -> None:
+        held.wait()
+        write(path, content)
+
+    monkeypatch.setattr(module, 'write_file', write_later)
+    autosave = Autosave(tmp_path, empty)
+    writing = autosave.save()
+    autosave.note_saved()
+    held.set()
+    wait((writing,))
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_request_waits_for_a_save_and_one_is_under_way(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # A save for each tick of a seek made a reset of 9,000 bodies wait for 38 s.
-    node, written = browser.physsim.node, list[Path]()
-    monkeypatch.setattr(module, 'write_file', lambda path, _: written.append(path))
+    # Behind the autosave of 9,000 bodies, requests waited for two to three seconds.
+    node, held, written = browser.physsim.node, Event(), list[Path]()
+
+    def write_later(path: Path, _: bytes) -> None:
+        written.append(path)
+        held.wait()
+
+    monkeypatch.setattr(module, 'write_file', write_later)
     for name in ('PERIOD', 'STILL_PERIOD', 'SHARE'):
         monkeypatch.setattr(module, name, 0.0)
     browser.open_page().last('welcome')
     node.start()
-    requests, held = node.simulation.requests, Future[None]()
-
-    async def hold() -> tuple[Answer, ...]:
-        await wrap_future(held)
-        return ()
 
     def tick(count: int) -> int:
         for _ in range(count):
@@ -248,12 +273,11 @@ def test_one_save_waits_for_its_turn_however_long_a_call_is_under_way(
         return len(written)
 
     node.simulation.perform(spawning('a/0', BOX))
-    requests.submit_call(hold, Wait.FOR_SEEK)
-    tick(20)
-    assert len(requests) == 1
-    held.set_result(None)
     browser.until(lambda: tick(1) == 1, settling=False)
+    node.simulation.requests.submit(spawning('a/1', BOX), topic='~/spawn')
     assert tick(20) == 1
+    assert 'a/1' in node.simulation.world
+    held.set()
     # The next change has its save too.
-    node.simulation.perform(spawning('a/1', BOX))
     browser.until(lambda: tick(1) == 2, settling=False)
+    assert tick(20) == 2

@@ -62,7 +62,8 @@ ATTEMPTS: dict[str, list[dict[str, Any]]] = {
     'place': [{'names': ['b/0', 'a/0'], 'poses': [[0, 0, 0], [1, 0, 0]]}],
     'copy': [{'name': 'a/0', 'to': [0, 20]}, {'name': 'a/1', 'to': [0, 30]}],
     'copy_machine': [{'names': ['a/0', 'b/0'], 'by': [0, 40]}],
-    'delete': [{'names': [name]} for name in ('a/0', 'a/1', 'a/1/upper/0')],
+    # The rod of `b/0` is that of `a/0`, too.
+    'delete': [{'names': [name]} for name in ('a/0', 'a/1', 'a/1/upper/0', 'b/0')],
     'drive': [{'name': name, 'velocity': [1, 0, 1]} for name in ('a/0', 'a/4')],
     'change_joint': [
         {'name': name, 'properties': properties}

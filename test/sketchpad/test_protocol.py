@@ -603,7 +603,17 @@ def test_a_page_drives_a_robot_and_undoes_it_as_one(browser: Browser) -> None:
     physsim.run(1.0)
     # It has stopped, and stays.
     assert physsim.pose('tb3/0').x == pytest.approx(driven, abs=0.01)
+    # Another robot that the page drives is undone by itself.
+    assert page.spawn('tb3/1', 0, 1, robot='turtlebot3_burger')['ok']
+    for name in ('tb3/0', 'tb3/1'):
+        page.send('drive', name=name, velocity=[0.2, 0, 0])
+        page.ask('drop')
+        physsim.run(0.4)
     assert page.ask('service', name='undo')['ok']
+    assert physsim.pose('tb3/1').x == pytest.approx(0.0, abs=1e-9)
+    assert physsim.pose('tb3/0').x > driven + 0.03
+    for _ in range(3):
+        assert page.ask('service', name='undo')['ok']
     assert physsim.pose('tb3/0').x == pytest.approx(0.0, abs=1e-9)
     assert 'tb3/0' in physsim.names
 

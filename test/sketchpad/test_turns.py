@@ -30,25 +30,42 @@ def run(test: Callable[[Turns], Coroutine[None, None, None]]) -> None:
         loop.close()
 
 
-def test_the_client_that_took_least_time_is_next() -> None:
-    served: list[str] = []
+async def ask(turns: Turns, served: list[str], *clients: str) -> None:
+    """Have clients ask at once, each on a connection of its own, and work in their turns."""
 
-    async def ask(turns: Turns, asker: int, client: str) -> None:
-        await turns.take(asker, client)
+    async def take(client: str) -> None:
+        await turns.take(object(), client)
         work()
         served.append(client)
 
+    await asyncio.gather(*map(take, clients))
+
+
+def test_the_client_that_took_least_time_is_next() -> None:
+    served: list[str] = []
+
     async def greedy_and_modest(turns: Turns) -> None:
-        greedy = [asyncio.create_task(ask(turns, asker, 'greedy')) for asker in range(20)]
+        greedy = asyncio.create_task(ask(turns, served, *['greedy'] * 20))
         # All of them ask, and the first one's turn begins.
         await asyncio.sleep(0.0)
-        modest = [asyncio.create_task(ask(turns, asker, 'modest')) for asker in range(20, 23)]
-        await asyncio.gather(*greedy, *modest)
+        await asyncio.gather(greedy, ask(turns, served, *['modest'] * 3))
 
     run(greedy_and_modest)
     # Others begin before the modest client has asked, and where both took as much.
     assert [served[:8].count(client) for client in ('modest', 'greedy')] == [3, 5]
     assert len(served) == 23
+
+
+def test_time_that_was_not_asked_for_is_not_saved() -> None:
+    served: list[str] = []
+
+    async def early_and_late(turns: Turns) -> None:
+        for _ in range(6):
+            await ask(turns, served, 'early')
+        await ask(turns, served, *['early', 'late'] * 6)
+
+    run(early_and_late)
+    assert served[6:12].count('late') <= 4
 
 
 def test_turns_take_a_share_of_the_time() -> None:

@@ -364,6 +364,14 @@ def test_a_run_fails_beside_robots_without_a_drive() -> None:
     assert run.before is not None
 
 
+def test_a_run_that_would_not_call_its_controller_is_refused() -> None:
+    with pytest.raises(Refusal) as caught:
+        experiment(seconds=0.05, period=0.1)
+    assert caught.value.field == 'seconds'
+    (run,) = sweep(experiment(seconds=0.1, period=0.1), [Case(parameters={'gain': 1.0})])
+    assert run.seconds == pytest.approx(0.1)
+
+
 def test_a_failure_is_told_in_one_line() -> None:
     def control(_: Robot) -> None:
         raise ValueError('one\n  two')

@@ -39,8 +39,11 @@ def test_the_real_time_factor_is_by_the_speed_that_was_asked(recording, speed, f
     assert recording.last('plots/pace', 'Scalars:scalars') == pytest.approx(shown)
 
 
-def test_a_world_that_nothing_paces_has_no_real_time_factor(recording):
-    recording.draw(frame(scene(body()), [(0, 3, 0)]), real_time_factor=0.0)
+@pytest.mark.parametrize(('speed', 'factor'), [(1.0, 0.0), (0.0, 0.5)])
+def test_a_world_that_nothing_paces_or_that_has_just_paused_has_no_factor(
+    recording, speed, factor
+):
+    recording.draw(frame(scene(body()), [(0, 3, 0)], speed=speed), real_time_factor=factor)
 
     assert recording.rows('plots/pace', 'Scalars:scalars') == []
 

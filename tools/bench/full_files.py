@@ -37,6 +37,23 @@ def discs(number: int) -> Entries:
     yield 'bodies', disc(number)
 
 
+def pile(number: int) -> Entries:
+    """Yield a disc that touches those around it."""
+    x, y = place(number)
+    yield 'bodies', disc(number, at=[round(0.7999 * x, 4), round(0.7999 * y, 4)])
+
+
+def expiring(number: int) -> Entries:
+    """Yield a disc that is removed at the same step as all others."""
+    yield 'bodies', disc(number, lifetime=1.0)
+
+
+def mix(number: int) -> Entries:
+    """Yield one kind of thing after the other, as long as the topics are few enough."""
+    kinds = [belts, media, people, forces, boxes, notes, driven_axles, robots, paths]
+    yield from kinds[number % len(kinds)](number)
+
+
 def polygons(number: int) -> Entries:
     yield 'bodies', {'name': f'b/{number}', 'polygon': ROUND, 'at': place(number)}
 
@@ -169,6 +186,9 @@ def pulleys(number: int) -> Entries:
 # By what the file is full of.
 KINDS: Mapping[str, KindOfFile] = {
     'discs': discs,
+    'discs that touch, under gravity': pile,
+    'discs that expire at once': expiring,
+    'belts, media, people, platforms, motors, robots': mix,
     'polygons of 1,000 corners': polygons,
     'chains of 1,000 points': chains,
     'compounds of 100 boxes': compounds,
@@ -197,6 +217,12 @@ KINDS: Mapping[str, KindOfFile] = {
     'ropes over 62 pulleys, without names of bodies': pulleys,
 }
 
+# Settings of a world that is full of a kind, beside or in place of those of all.
+SETTINGS: Mapping[KindOfFile, Mapping[str, Any]] = {
+    attraction: {'gravitation': 0.001},
+    pile: {'gravity': [0, -9.81], 'floor_friction': 0, 'bounds': [-0.25, -0.25, 39.85, 200]},
+}
+
 
 def text_of(entries: KindOfFile, length: int) -> str:
     """
@@ -212,6 +238,7 @@ def text_of(entries: KindOfFile, length: int) -> str:
             lists[name].append(line)
             size += len(line)
         number += 1
-    air = 'gravitation: 0.001\n' if entries is attraction else ''
+    settings = {'gravity': [0, 0], 'floor_friction': 0.5} | SETTINGS.get(entries, {})
+    head = ''.join(f'{name}: {json.dumps(value)}\n' for name, value in settings.items())
     parts = (f'{name}:\n{"".join(lines)}' for name, lines in lists.items() if lines)
-    return f'format: 1\ngravity: [0, 0]\nfloor_friction: 0.5\n{air}{"".join(parts)}'
+    return f'format: 1\n{head}{"".join(parts)}'

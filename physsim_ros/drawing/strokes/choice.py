@@ -5,6 +5,12 @@
 The choice among the meanings of a stroke: its guesses, and the reading of one of them.
 
 Law: a guess changes nothing; the requests of its reading are to be submitted.
+
+A weight becomes a confidence, the share of guesses of that weight that are right, by Platt scaling
+(Platt, 1999): a logistic function of the log odds of the weight against the others. By it strokes
+are refused; how sure a reading is, `judge` tells. The constants of the confidence were fitted to
+the tuning half of `make evaluate`, all kinds and all faults, by maximum likelihood; that command
+prints how well they hold.
 """
 
 from __future__ import annotations
@@ -14,7 +20,7 @@ from dataclasses import replace
 from functools import cache
 
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.evidence import group_confidence
+from physsim_ros.drawing.strokes.evidence import log_odds, logistic
 from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.meanings import meanings_of
 from physsim_ros.drawing.strokes.stages import (
@@ -31,6 +37,11 @@ from physsim_ros.drawing.strokes.stages import (
 )
 from physsim_ros.model.errors import NotRecognised
 
+# Weight of the possibility that a stroke means nothing, and the share of the weight that no form
+# has that adds to it.
+_DOUBT, _UNEXPLAINED = 0.02, 0.3
+# Log odds of a group being right at equal weights, and their growth with the log odds of weights.
+_GROUP_BIAS, _GROUP_SLOPE = -0.4, 1.9
 # The least confidence with which bodies are deleted, and gravity is turned.
 _SURE = 0.9
 
@@ -93,6 +104,18 @@ def guesses_by_rules(context: Context) -> tuple[Guess, ...]:
         )
     guesses.sort(key=lambda each: (-each.group_confidence, -each.confidence))
     return tuple(guesses[:MOST_GUESSES])
+
+
+def group_confidence(weight: float, total: float, unexplained: float = 0.0) -> float:
+    """
+    Return the confidence in a group of meanings, 0 .. 1.
+
+    :param weight: of the group
+    :param total: of all groups
+    :param unexplained: the weight that no form of the stroke has, 0 .. 1
+    """
+    doubt = _DOUBT + _UNEXPLAINED * unexplained
+    return logistic(_GROUP_BIAS + _GROUP_SLOPE * log_odds(weight / (total + doubt)))
 
 
 def _group_of(meaning: str) -> frozenset[str]:

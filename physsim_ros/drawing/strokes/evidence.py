@@ -2,20 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Weights of forms and meanings: evidence for signs, soft conditions, confidence.
+The evidence for signs, and soft limits by which lines and outlines share the rest of the weight.
 
 The evidence for a sign is a sum over its measures; each term is a piecewise linear function whose
 knots and values are rows of `evidence.csv` (a generalised additive model; Hastie and Tibshirani,
 1986). The probability of a sign is the share of its exponential among those of all signs and of
-no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974). The rest is shared
-among lines and outlines by soft limits (logistic functions). A weight
-becomes a confidence, the share of guesses of that weight that are right, by Platt scaling (Platt,
-1999): a logistic function of the log odds of the weight against the others. By it strokes are
-refused; how sure a reading is, `judge` tells.
+no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974).
 
 `python -m tools.evaluation.fit` makes the table, from hands of the tuning half of `make evaluate`.
-The constants of the confidence were fitted to the same half, all kinds and all faults, by maximum
-likelihood; `make evaluate` prints how well they hold.
 """
 
 from __future__ import annotations
@@ -29,11 +23,6 @@ import math
 
 # The file of the table, beside this one, and the name of the measure that is 0 for every stroke.
 TABLE, CONSTANT = 'evidence.csv', 'constant'
-# Weight of the possibility that a stroke means nothing, and the share of the weight that no form
-# has that adds to it.
-_DOUBT, _UNEXPLAINED = 0.02, 0.3
-# Log odds of a group being right at equal weights, and their growth with the log odds of weights.
-_GROUP_BIAS, _GROUP_SLOPE = -0.4, 1.9
 # Forms and meanings of a lower weight are dropped, and no share is nearer to 0 or 1, so that log
 # odds are finite. A rival of a hundredth tells right readings from wrong ones.
 LEAST = 0.002
@@ -129,15 +118,3 @@ def _read_table() -> dict[str, list[Term]]:
 
 
 _TABLE = _read_table()
-
-
-def group_confidence(weight: float, total: float, unexplained: float = 0.0) -> float:
-    """
-    Return the confidence in a group of meanings, 0 .. 1.
-
-    :param weight: of the group
-    :param total: of all groups
-    :param unexplained: the weight that no form of the stroke has, 0 .. 1
-    """
-    doubt = _DOUBT + _UNEXPLAINED * unexplained
-    return logistic(_GROUP_BIAS + _GROUP_SLOPE * log_odds(weight / (total + doubt)))

@@ -31,9 +31,11 @@ from physsim_ros.model.transform import dots, norms
 # Factor of the finer resampling, for the ends of narrow outlines, and its number of points.
 _FINER = 4
 _FINELY = _FINER * (COUNT - 1) + 1
-# Strokes of so many samples, and fewer than half of `COUNT`, have more put between them, on arcs.
+# Strokes of fewer samples than half of `COUNT` have more put between them, on arcs; the only turn
+# of three makes no arc.
+_FEWEST = 4
 # The greatest turn at a sample of an arc [rad]: a circle of eight has 0.79, a hexagon 1.05.
-_FEWEST, _GENTLE = 4, 0.9
+_GENTLE = 0.9
 # The greatest length of a hook, in shares of the stroke's size; the least turn at which the pen
 # turns back, as at a hook and at the tip of an arrow [rad].
 HOOK, SHARP = 0.1, 1.2

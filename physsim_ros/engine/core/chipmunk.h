@@ -127,6 +127,10 @@ typedef struct cpArbiter {
     int state;
 } cpArbiter;
 
+typedef struct cpHashSet {
+    unsigned int entries, size; // count of elements, and of lists of them
+} cpHashSet;
+
 typedef struct cpSpace {
     int iterations;
     cpVect gravity;
@@ -142,6 +146,8 @@ typedef struct cpSpace {
     void *staticShapes, *dynamicShapes;
     cpArray *constraints;
     cpArray *arbiters; // of the last step, those of sleeping bodies and of sensors excepted
+    void *contactBuffersHead;
+    cpHashSet *cachedArbiters; // of the last steps, those of sleeping bodies excepted
 } cpSpace;
 
 // What Chipmunk calls of a kind of constraints, with the length of the step or the share of a cached impulse.

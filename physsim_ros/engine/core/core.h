@@ -356,6 +356,7 @@ typedef struct Chipmunk {
     uint8_t (*shape_query)(cpSpace *, cpShape *, void (*)(cpShape *, void *, void *), void *);
     void (*each_arbiter)(cpSpace *, void (*)(cpArbiter *, void *), void *);
     double (*point_query)(const cpShape *, cpVect, cpPointQueryInfo *);
+    void (*remove_shape)(cpSpace *, cpShape *);
 } Chipmunk;
 
 // The stages that can be left out, to measure what fails without each (`make ablate`).
@@ -477,6 +478,9 @@ void core_free(World *world);
 void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *former);
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
                      int32_t row_count, Guide *guides, int32_t guide_count);
+
+// Remove the shapes of bodies from the space, and note what touched them as released.
+void core_remove_shapes(World *world, cpBody **bodies, int32_t count);
 
 // Make a number of steps, and return how many were ended: fewer where a joint breaks, a body is lost, or the call has
 // taken long. The next call goes on with a step that is begun, before which nothing of the world may be read or

@@ -40,7 +40,9 @@ static const double rounding_of_velocity = 1e-12;
 typedef struct Support {
     World *world;
     int *parents;
-    const Body *released; // whose neighbours are looked for
+    int released; // place of the body whose neighbours are looked for
+    // (body_count): place of the released body that touched a body last, and that pressed on it last, counted from 1.
+    int *touching, *pressing;
 } Support;
 
 // Whether springs or motors hold the island of a body.
@@ -62,33 +64,34 @@ static bool presses(const cpArbiter *arbiter) {
     return false;
 }
 
-// Whether two bodies touched in the last step without pressing on each other: they only lie side by side.
-static bool lie_apart(const Body *a, const Body *b) {
-    bool touched = false;
-    for (const cpArbiter *each = a->engine->arbiterList; each != NULL; each = next_of(each, a->engine)) {
-        if (each->body_a == b->engine || each->body_b == b->engine) {
-            if (presses(each)) {
-                return false;
-            }
-            touched = true;
+// Note which bodies touched a released one in the last step.
+static void note_contacts(const Support *support) {
+    const cpBody *engine = support->world->bodies[support->released].engine;
+    for (const cpArbiter *each = engine->arbiterList; each != NULL; each = next_of(each, engine)) {
+        int other = place_of(support->world, each->body_a == engine ? each->body_b : each->body_a);
+        support->touching[other] = support->released + 1;
+        if (presses(each)) {
+            support->pressing[other] = support->released + 1;
         }
     }
-    return touched;
 }
 
 static void support_by(cpShape *shape, void *points, void *data) {
     (void)points;
     const Support *support = data;
-    Body *other = body_of(shape->body);
-    if (!shape->sensor && other != support->released && !lie_apart(support->released, other)) {
-        unite(support->parents, place_of(support->world, support->released->engine),
-              place_of(support->world, shape->body));
+    int other = place_of(support->world, shape->body), mark = support->released + 1;
+    // A body that touched it without pressing only lies beside it.
+    bool lies_beside = support->touching[other] == mark && support->pressing[other] != mark;
+    if (!shape->sensor && other != support->released && !lies_beside) {
+        unite(support->parents, support->released, other);
     }
 }
 
 // Find which bodies have lost all that they rested on; `unsupported` (body_count) is 0 before.
 static void find_unsupported(World *world, uint8_t *unsupported) {
     Support support = {.world = world, .parents = sets_of(world)};
+    support.touching = TAKE(&world->own->arena, int, world->body_count);
+    support.pressing = TAKE(&world->own->arena, int, world->body_count);
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *each = arbiter_at(world, number);
         if (!is_loose(body_of(each->body_a)) && !is_loose(body_of(each->body_b)) && presses(each)) {
@@ -100,11 +103,13 @@ static void find_unsupported(World *world, uint8_t *unsupported) {
     }
     // Contacts of released bodies are searched for anew, as the next step finds them.
     for (int place = 0; place < world->body_count; place++) {
-        support.released = world->bodies + place;
-        if (!is_loose(support.released)) {
+        const Body *released = world->bodies + place;
+        if (!is_loose(released)) {
             continue;
         }
-        for (cpShape *shape = support.released->engine->shapeList; shape != NULL; shape = shape->next) {
+        support.released = place;
+        note_contacts(&support);
+        for (cpShape *shape = released->engine->shapeList; shape != NULL; shape = shape->next) {
             if (!shape->sensor) {
                 world->chipmunk.shape_query(world->space, shape, support_by, &support);
             }

@@ -53,6 +53,7 @@ Media media_of(World *world, double ahead) {
     media.basins = TAKE(arena, Basin, count);
     media.currents = TAKE(arena, Twist, count);
     media.around = TAKE(arena, Reached, count);
+    Box *boxes = TAKE(arena, Box, count);
     for (int number = 0; number < world->region_count; number++) {
         const Region *region = world->regions + number;
         Vec gust = gust_of(region, time);
@@ -66,10 +67,13 @@ Media media_of(World *world, double ahead) {
         Pose pose = moved(pose_of(engine), twist, ahead);
         Vec flow = rotated(add(region->flow, gust), rotation(pose.yaw));
         for (const cpShape *shape = engine->shapeList; shape != NULL; shape = shape->next) {
-            media.basins[media.basin_count] = basin_of(region, shape, pose, arena);
+            Basin basin = basin_of(region, shape, pose, arena);
+            boxes[media.basin_count] = box_of_way(basin.center, basin.center, basin.radius);
+            media.basins[media.basin_count] = basin;
             media.currents[media.basin_count++] = (Twist){add(twist.v, flow), 0.0};
         }
     }
+    media.tree = tree_of(boxes, media.basin_count, arena);
     return media;
 }
 
@@ -230,17 +234,35 @@ static Twist twist_after(Pull pull, const Share *shares, int count, const Flight
     return twist_sum(flight->now, resisted(inverse, all), flight->ahead);
 }
 
-// Find the basins that a disc around a body reaches, and return their count. For thousands of bodies, memory for the
-// shares of all basins would be cleared once for each body.
-static int find_around(const Media *media, Vec center, double reach) {
-    int count = 0;
-    for (int number = 0; number < media->basin_count; number++) {
-        Containment containment = containment_of(media->basins + number, center, reach);
-        if (containment != OUTSIDE) {
-            media->around[count++] = (Reached){number, containment};
-        }
+// A disc around a body, and how many basins are found that it reaches.
+typedef struct Looking {
+    const Media *media;
+    Vec center;
+    double reach;
+    int count;
+} Looking;
+
+static bool note_reached(int number, void *data) {
+    Looking *looking = data;
+    const Media *media = looking->media;
+    Containment containment = containment_of(media->basins + number, looking->center, looking->reach);
+    if (containment != OUTSIDE) {
+        media->around[looking->count++] = (Reached){number, containment};
     }
-    return count;
+    return true;
+}
+
+static int by_basin(const void *one, const void *other) {
+    return ((const Reached *)one)->basin - ((const Reached *)other)->basin;
+}
+
+// Find the basins that a disc around a body reaches, in their order, and return their count. For thousands of bodies,
+// memory for the shares of all basins would be cleared once for each body.
+static int find_around(const Media *media, Vec center, double reach) {
+    Looking looking = {media, center, reach, 0};
+    tree_query(&media->tree, box_of_way(center, center, reach), note_reached, &looking);
+    sort(media->around, looking.count, sizeof(Reached), by_basin);
+    return looking.count;
 }
 
 Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse) {
@@ -283,9 +305,9 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, cons
 }
 
 bool reaches(const Media *media, const Body *body) {
-    for (int number = 0; number < media->basin_count; number++) {
-        const Basin *basin = media->basins + number;
-        if (basin->moves && containment_of(basin, body->engine->p, body->reach) != OUTSIDE) {
+    int count = find_around(media, body->engine->p, body->reach);
+    for (int number = 0; number < count; number++) {
+        if (media->basins[media->around[number].basin].moves) {
             return true;
         }
     }

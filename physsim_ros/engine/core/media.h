@@ -6,6 +6,7 @@
 #ifndef PHYSSIM_MEDIA_H
 #define PHYSSIM_MEDIA_H
 
+#include "boxes.h"
 #include "immersion.h"
 
 // A basin that a disc around a body reaches.
@@ -19,6 +20,7 @@ typedef struct Media {
     Basin *basins;
     Twist *currents; // of the medium in each: flow and gusts, as the region moves
     int basin_count;
+    Tree tree;         // of the boxes of the basins
     Reached *around;   // (basin_count): scratch, those around one body
     const Region *air; // NULL is none
     Twist wind;

@@ -6,12 +6,13 @@ The fleet: all robots of the world, whose topics come and go with their bodies.
 
 Laws: a command that comes while the past is shown is refused, so that a rewind repeats what was
 driven; with `lockstep` the world waits for the commands that answer a scan, so that a controller
-in another process acts at the same simulation time in every run.
+in another process acts at the same simulation time in every run. Topics of many robots that come
+or go at once take a second: they are made and taken back in slices, and time waits for them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 import itertools
@@ -36,6 +37,9 @@ from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
 
+# Time that a frame has for the topics of robots that have come or gone [ns]: four have theirs with
+# their first frame.
+_MOST_UPDATE_NS = 20_000_000
 # Least time from one look at the types of publishers on the graph to the next [s].
 _LOOK_PERIOD = 0.25
 _IN_PAST = 'the past is shown, with the commands of that time; new commands count again at its end'
@@ -80,6 +84,8 @@ class Fleet:
         self._boundary = boundary
         self._expected = expected
         self._scene: Scene | None = None
+        # What is left to do so that the topics are those of the robots of that scene.
+        self._updating: Iterator[None] = iter(())
         # Beams and angles that the parameters set for all lasers.
         self._lasers: dict[str, Any] = {}
         # Steady time of the next look at the graph [s].
@@ -261,35 +267,39 @@ class Fleet:
         topic = commands.topic
         self._requests.tell(Answer(topic=topic, subject=robot.body, message=message))
 
-    def _close(self) -> None:
-        """Take the topics of all robots back."""
-        while self.robots:
-            self.robots.popitem()[1].close()
+    def update_topics(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
+        """
+        Go on to make the topics of robots that have come, and to take those of others back.
+
+        :param is_overdue: whether the rest is left for another call; asked after each robot
+        :return: whether all is done
+        """
+        return not any(is_overdue() for _ in self._updating)
 
     def _match_scene(self, scene: Scene) -> None:
-        """Have the topics of the robots of a scene, with lasers as the parameters are now."""
+        """Begin to have the topics of a scene, with lasers as the parameters are now."""
         lasers = self._laser_changes
-        if lasers != self._lasers:
-            self._lasers, self._scene = lasers, None
-            self._close()
-        if scene is not self._scene:
-            self._scene = scene
-            self._update(scene)
+        if scene is not self._scene or lasers != self._lasers:
+            self._scene, self._lasers = scene, lasers
+            self._updating = self._slices_of_update(scene)
+        began = time.perf_counter_ns()
+        self.update_topics(lambda: time.perf_counter_ns() - began > _MOST_UPDATE_NS)
 
-    def _update(self, scene: Scene) -> None:
-        """Make topics for robots that have come, and take those of others back."""
+    def _slices_of_update(self, scene: Scene) -> Iterator[None]:
+        """Take topics of robots that have gone back, and make new ones; yield after each robot."""
         bodies = [scene.bodies[row] for row in scene.robot_rows.tolist()]
         there = {body.name: body.robot for body in bodies}
-        for name in [*self.robots]:
-            if self.robots[name].robot != there.get(name):
+        for name, topics in [*self.robots.items()]:
+            if (topics.robot, topics.lasers) != (there.get(name), self._lasers):
                 self.robots.pop(name).close()
-        before, self.robots = self.robots, {}
-        # In the order of the scene.
+                yield
         for body, robot in zip(bodies, scene.robots, strict=True):
             with self._boundary.output('robots'):
-                topics = before.get(body.name) or self._make(body.name, robot)
-                self.robots[body.name] = topics
-                topics.describe(body, scene)
+                if body.name not in self.robots:
+                    self.robots[body.name] = self._make(body.name, robot)
+                self.robots[body.name].describe(body, scene)
+            yield
+        self.robots = {name: self.robots[name] for name in there if name in self.robots}
 
     @property
     def _laser_changes(self) -> dict[str, Any]:

@@ -116,6 +116,7 @@ class RobotTopics:
     :param lasers: fields of lasers that its messages have in place of its own
     :param expected: type of commands that is subscribed to while nobody publishes; None is none
 
+    :ivar lasers: as given
     :ivar commands: of its drive, that it hears; None without a drive
     """
 
@@ -131,7 +132,7 @@ class RobotTopics:
         lasers: Mapping[str, Any],
         expected: type | None = None,
     ) -> None:
-        self.body, self.robot = body, robot
+        self.body, self.robot, self.lasers = body, robot, lasers
         self._node = node
         self._refuse = refuse
         self._world_frame = world_frame

@@ -399,6 +399,7 @@ class Cursor(Replay):
                 gesture=gesture,
                 author=author,
                 subject=subject,
+                joined=self._world.joined,
                 adds=self._world.has_grown,
             )
         )

@@ -100,6 +100,7 @@ class Node:
     :param gesture: number of its gesture; requests of one gesture are undone together
     :param author: name of the person who did it; '' is nobody
     :param subject: name of the body or joint concerned, or ''
+    :param joined: names of the bodies whose joints it added, replaced or removed
     :param adds: whether it has added a body or joint
     :param shown: whether its step was shown with it; in a running world, a request is first shown
         in the next frame
@@ -122,6 +123,7 @@ class Node:
     gesture: int = 0
     author: str = ''
     subject: str = ''
+    joined: frozenset[str] = frozenset()
     adds: bool = False
     shown: bool = False
     serial: int = field(init=False, default=0)

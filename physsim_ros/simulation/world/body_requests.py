@@ -249,8 +249,7 @@ def release(live: LiveSpace, request: Release) -> Answer:
 def delete(live: LiveSpace, request: Delete) -> Answer:
     """Remove a body, or the robot of which it is a part, and its joints."""
     body_of_name(live.space, request.name)
-    for name in members(live.space, request.name):
-        live.space.remove(name)
+    live.space.remove(members(live.space, request.name))
     return _done('deleted', (request.name,))
 
 
@@ -266,8 +265,7 @@ def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
         body_of_name(live.space, name, 'names')
     for name in request.joints:
         live.space.unjoin(name)
-    for name in all_members(live.space, request.names):
-        live.space.remove(name)
+    live.space.remove(all_members(live.space, request.names))
     if request.names:
         return _done('deleted', request.names)
     subject = request.joints[0] if len(request.joints) == 1 else ''
@@ -282,8 +280,7 @@ def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
         lesson = live.space.table.scene.lesson
         live.begin(WorldState(settings=live.settings, lesson=lesson), live.step_count)
     else:
-        for name in names:
-            live.space.remove(name)
+        live.space.remove(names)
     return Answer(message=f'deleted {counted(len(names), "body")}')
 
 

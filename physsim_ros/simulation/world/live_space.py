@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 import math
 from typing import NamedTuple
@@ -105,9 +106,9 @@ class LiveSpace:
 
     def saver(self) -> Callable[[], WorldState]:
         """Return a function that returns, on any thread, the saved state of this moment."""
-        return partial(
-            saved_state, take_checkpoint(self.space, self.step_count), dt=self._sub_step
-        )
+        checkpoint, rate = take_checkpoint(self.space, self.step_count), self.physics_rate
+        state = partial(saved_state, checkpoint, dt=self._sub_step)
+        return lambda: replace(state(), physics_rate=rate)
 
     @suspended_collection()
     def renew(self) -> Checkpoint:

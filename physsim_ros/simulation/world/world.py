@@ -114,6 +114,8 @@ class World(LiveSpace):
 
     :ivar reports_contacts: whether contacts are reported, which costs a tenth of a step
     :ivar changed: whether the last request changed anything; also one that failed half way
+    :ivar joined: bodies whose joints it added, replaced or removed, by name; none where it has
+        replaced the whole world
     :ivar has_grown: whether it left more bodies, or more joints, than there were before
     """
 
@@ -128,6 +130,7 @@ class World(LiveSpace):
         self.frame_steps = frame_steps
         self.reports_contacts = False
         self.changed = self.has_grown = False
+        self.joined: frozenset[str] = frozenset()
         self._lost: list[str] = []
 
     # Reading
@@ -226,10 +229,12 @@ class World(LiveSpace):
         :raises Refusal: nothing is changed, or `changed` is true, as the request failed half way
         """
         before, counts = (self.space, self.space.changes), self._counts
+        self.space.joined.clear()
         try:
             return HANDLERS[type(request)](self, request)
         finally:
             self.changed = before != (self.space, self.space.changes)
+            self.joined = frozenset(self.space.joined if before[0] is self.space else ())
             # One by one: a cut may add a body, and remove a joint.
             self.has_grown = any(map(gt, self._counts, counts))
 
@@ -294,7 +299,7 @@ class World(LiveSpace):
         :raises StepFailed: in place of any error
         """
         end = self.step_count + count
-        while self.step_count < end:
+        while self.step_count < end or self.is_within_step:
             try:
                 made, gone = self.space.step(
                     self.step_count,
@@ -305,5 +310,5 @@ class World(LiveSpace):
                 raise StepFailed(f'step {self.step_count + 1} failed: {error}') from error
             self.step_count += made
             self._lost += gone
-            if self.step_count < end:
+            if self.step_count < end or self.is_within_step:
                 yield

@@ -9,9 +9,9 @@ import itertools
 
 import numpy as np
 from physsim_ros.drawing.strokes import evidence
+from physsim_ros.drawing.strokes.choice import group_confidence
 from physsim_ros.drawing.strokes.evidence import (
     CONSTANT,
-    group_confidence,
     probabilities,
     TABLE,
     Term,

@@ -4,26 +4,16 @@
 """
 Limits of readings: a stroke a little below a limit has another meaning than one above it.
 
-Every number by which strokes are read has such strokes, is in the table of evidence, or is named
-here with those for which none have been found.
+Every number by which strokes are read has such strokes, or a limit of an earlier stage, is in the
+table of evidence, or is named here as one between which readings do not differ.
 """
 
-import ast
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from functools import partial
-import importlib
-from importlib.abc import Loader, MetaPathFinder
-from importlib.machinery import ModuleSpec
-from importlib.util import spec_from_file_location
 import itertools
 import math
-from pathlib import Path
-import sys
-from types import ModuleType
 
 import numpy as np
-from physsim_ros import drawing
 from physsim_ros.drawing import (
     DrawingSession,
     DrawingSettings,
@@ -31,16 +21,27 @@ from physsim_ros.drawing import (
     SceneQuery,
     submit_reading,
 )
+from physsim_ros.drawing.strokes.choice import group_confidence
+from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.geometry import path_length, unit_vector
+from physsim_ros.drawing.strokes.joining import joined_arrow
+from physsim_ros.drawing.strokes.signs.arrow import ARROW
+from physsim_ros.drawing.strokes.signs.swings import SCRIBBLE
+from physsim_ros.drawing.strokes.signs.x import CROSS, of_lines
+from physsim_ros.drawing.strokes.stages import Sign
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.requests import Delete, Join, Spawn
+from physsim_ros.model.requests import ChangeBody, Delete, Join, Spawn
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
 from .ways import ANGLE, circle, cross, scribble, square, Way
+from ..constants import another_number, constants, FOLDER
 from ..single_stroke import interpret_stroke
 from ...building import spawning
 
@@ -56,6 +57,11 @@ APART = [spawning(f'a/{n}', Disc(radius=0.3), (4.0 * n, 0.0, 0.0)) for n in rang
 WHEEL = [
     spawning('wheel/0', Disc(radius=0.5), (2.0, -0.5, 0.0), anchored=True),
     *(spawning(f'a/{n}', Disc(radius=0.3), (4.0 * n, -0.84, 0.0)) for n in range(2)),
+]
+# A disc that turns about an axle, which the background holds.
+TURNING = [
+    spawning('a/0', Disc(radius=0.3)),
+    Join(name='axle/0', kind=JointKind.AXLE, points=((0.0, 0.0),), a='a/0', b=WORLD),
 ]
 ON_FLOOR = [
     spawning('floor/0', Box(width=20.0, height=2.0), (0.0, -1.0, 0.0)),
@@ -89,6 +95,12 @@ def looped(radius: float) -> Floats:
     loop = radius * np.column_stack((np.sin(ROUND), 1.0 - np.cos(ROUND)))[1:-1]
     lines = (np.column_stack((SHARE * 2.0 - start, 0.0 * SHARE)) for start in (2.0, 0.0))
     return np.vstack((next(lines), loop, next(lines)))
+
+
+def spiral(shrinking: float) -> Floats:
+    """Return two rounds of a circle, the radius of which shrinks by a share."""
+    rounds = np.column_stack((np.cos(2.0 * ROUND), np.sin(2.0 * ROUND)))
+    return rounds * (1.0 - shrinking * SHARE)[:, None]
 
 
 def bean(dent: float) -> Floats:
@@ -157,6 +169,51 @@ def resting(radius: float) -> Corners:
     return Corners([*line[:30], *((1.5 + x, y) for x, y in rest), *line[31:]])
 
 
+def roofs(height: float) -> Way:
+    """Return a square with a roof on two opposite sides, of a height [m]."""
+    return [(0, 0), (2, -height), (4, 0), (4, 2), (2, 2 + height), (0, 2), (0, 0)]
+
+
+def bent_late(aside: float) -> Floats:
+    """Return an arrow whose shaft of 3 m bends after 60 % of its length, by a distance [m]."""
+    shaft = np.column_stack((3.0 * SHARE, aside * np.maximum(SHARE - 0.6, 0.0) ** 2 / 0.16))
+    return with_barbs(shaft, 0.7, 0.6, (1.0, -1.0), 15)
+
+
+def one_barb(angle: float) -> Floats:
+    """Return an arc of four radians about the origin, with one barb at an angle [rad]."""
+    turn = np.linspace(-1.0, 3.0, 60)
+    return with_barbs(np.column_stack((np.cos(turn), np.sin(turn))), 0.4, angle, (1.0,), 12)
+
+
+def with_barbs(
+    shaft: Floats, length: float, angle: float, sides: Sequence[float], count: int
+) -> Floats:
+    """Return a shaft and its barbs, of a length [m], an angle [rad] and a number of samples."""
+    (x, y), tip = shaft[-1] - shaft[-4], shaft[-1]
+    ends = [tip - length * unit_vector(math.atan2(y, x) + side * angle) for side in sides]
+    barbs = [np.linspace(a, b, count) for end in ends for a, b in ((tip, end), (end, tip))]
+    return np.vstack((shaft, *barbs[:-1]))
+
+
+def bumped(share: float) -> Way:
+    """Return an arrow with a bump as high as its barbs in its shaft of 3 m, at a share of that."""
+    x, y = 3.0 - 0.6 * math.cos(0.6), 0.6 * math.sin(0.6)
+    bump = [(3.0 * share - 0.12, 0.0), (3.0 * share, 0.5), (3.0 * share + 0.12, 0.0)]
+    return [(0.0, 0.0), *bump, (3.0, 0.0), (x, y), (3.0, 0.0), (x, -y)]
+
+
+def aside(shift: float) -> list[Way]:
+    """Return the sides of a square of 0.6 m, two of them moved outwards by a share of it."""
+    out = 0.6 * shift
+    return [
+        [(0.0, 0.0), (0.6, 0.0)],
+        [(0.6 + out, 0.0), (0.6 + out, 0.6)],
+        [(0.6, 0.6), (0.0, 0.6)],
+        [(-out, 0.6), (-out, 0.0)],
+    ]
+
+
 def loose(length: float, count: int = 7) -> Way:
     """Return a number of lines to and fro, 1.2 m high, along the axis x [m]."""
     return [(length * (n / count - 0.5), 1.2 * (n % 2 - 0.5)) for n in range(count + 1)]
@@ -175,7 +232,7 @@ LIMITS: dict[
     str,
     tuple[
         str,
-        Sequence[Spawn] | Callable[[float], Sequence[Spawn]],
+        Sequence[Spawn | Join] | Callable[[float], Sequence[Spawn]],
         Callable[[float], Way | Floats],
         tuple[float, float],
         tuple[str, str],
@@ -248,12 +305,13 @@ LIMITS: dict[
         (1.1, 1.4), ('rectangle', 'wall'),
     ),
     'shrinking of a circle that is drawn twice': (
-        '',
-        [], lambda it: np.column_stack((np.cos(2.0 * ROUND), np.sin(2.0 * ROUND)))
-        * (1.0 - it * SHARE)[:, None], (0.4, 0.5), ('disc', ''),
+        'evidence._SOFT', [], spiral, (0.4446, 0.4519), ('disc', ''),
+    ),
+    'shrinking of a spiral that has an outer boundary': (
+        'outer_boundary._LEAST_LENGTH', [], spiral, (0.8749, 0.8838), ('', 'polygon'),
     ),
     'radius of a loop of a line': (
-        '', [], looped, (0.1, 0.16), ('wall', '')),
+        'plain_forms._LOOP', [], looped, (0.1142, 0.1158), ('wall', '')),
     'dent of a bean': (
         'plain_forms._ELLIPTIC', [], bean, (0.5, 0.65), ('disc', 'polygon')),
     'roundness of a square': (
@@ -359,7 +417,7 @@ LIMITS: dict[
         lambda it: squircle(it) * (1.0, 0.2), (0.634, 0.66), ('rectangle', 'polygon'),
     ),
     'bow of a plank, whose sides are those of a second round of the fit': (
-        '', [], bowed_plank, (0.12, 0.14), ('rectangle', 'polygon'),
+        'geometry._WIDE', [], bowed_plank, (0.1236, 0.1255), ('rectangle', 'polygon'),
     ),
     'bow of the sides of a square': (
         'plain_forms._BULGE', [], lambda it: bowed(ring(4), it), (0.1654, 0.1694),
@@ -374,9 +432,23 @@ LIMITS: dict[
         'plain_forms._NARROW', [], narrow_loop, (0.0943, 0.0986), ('wall', ''),
     ),
     'height of two roofs on opposite sides': (
-        'plain_forms._SIDED', [],
-        lambda it: [(0, 0), (2, -it), (4, 0), (4, 2), (2, 2 + it), (0, 2), (0, 0)],
-        (0.530, 0.541), ('rectangle', 'polygon'),
+        'plain_forms._SIDED', [], roofs, (0.530, 0.541), ('rectangle', 'polygon'),
+    ),
+    'height of two flat roofs on opposite sides': (
+        'corner_detection._CORNER_TURN', [], roofs, (0.388, 0.3937), ('disc', 'rectangle'),
+    ),
+    'bend of the last part of the shaft of an arrow': (
+        'arrow._SHAFT arrow._NECK', [], bent_late, (0.6119, 0.6206), ('gravity', ''),
+    ),
+    'distance of a bump in a shaft from its tail': (
+        'arrow._HEAD', [], bumped, (0.134, 0.14), ('gravity', 'wall'),
+    ),
+    'angle of the only barb of a round arrow': (
+        'round_arrow._STRIDE round_arrow._TURN', TURNING, one_barb, (1.103, 1.119), ('', 'wall'),
+    ),
+    'length of a zigzag of five lines': (
+        'plain_forms._SWINGING choice._UNEXPLAINED', [], partial(loose, count=5),
+        (0.706, 0.7165), ('', 'wall'),
     ),
     'angle of a rhomb': (
         'plain_forms._SLANT plain_forms._OFF', [],
@@ -414,7 +486,8 @@ LIMITS: dict[
         (1.8775, 1.8925), ('', 'hatching'),
     ),
     'length of a scribble that is no deletion any more': (
-        'features._WIDE_TOOTH swings._CLOSEST', [spawning('a/0', Box(width=6.0, height=4.0))],
+        'features._WIDE_TOOTH swings._CLOSEST choice._SURE',
+        [spawning('a/0', Box(width=6.0, height=4.0))],
         partial(loose, count=9), (2.1245, 2.1415), ('deletion a/0', ''),
     ),
     'length of a scribble that is a zigzag': (
@@ -422,7 +495,7 @@ LIMITS: dict[
         partial(loose, count=9), (2.376, 2.395), ('', 'hatching'),
     ),
     'length of a scribble over nothing': (
-        'stages.MISPLACED evidence._GROUP_SLOPE', [], partial(loose, count=9), (2.267, 2.286),
+        'stages.MISPLACED choice._GROUP_SLOPE', [], partial(loose, count=9), (2.267, 2.286),
         ('', 'wall'),
     ),
     'shift of a square that is drawn twice': (
@@ -519,10 +592,10 @@ FIGURES: dict[
         (0.95, 1.15), ('wall', 'polygon'),
     ),
     'depth of the back of a closed head': (
-        'joining._OFF', [],
+        'joining._OFF joining._STRAIGHT', [],
         lambda it: ([[(0, 0), (3, 0)],
                      [(2.4, 0.4), (3, 0), (2.4, -0.4), (2.4 - it, 0), (2.4, 0.4)]], 0.4),
-        (0.1437, 0.1506), ('gravity', 'polygon'),
+        (0.1443, 0.1502), ('gravity', 'polygon'),
     ),
     'bow of a line of an x': (
         'x._STRAIGHT', [spawning('a/0', Box(width=6.0, height=4.0))],
@@ -536,88 +609,198 @@ FIGURES: dict[
         lambda it: ([[(-1.5, 0), (it, 0)], [(0, 1.0), (0, -1.0)]], 0.4), (0.2748, 0.282),
         ('hatching', 'anchor'),
     ),
+    'gap between a shaft and its head': (
+        'joining._BEYOND', [], lambda it: ([arrow(shaft=3.0 - it)[0], arrow()[1]], 0.4),
+        (0.692, 0.7023), ('gravity', 'wall'),
+    ),
+    'distance of two sides of a square from the ends of the others': (
+        'joining._TOUCHING', [], lambda it: (aside(it), 0.4), (0.3349, 0.3397),
+        ('rectangle', 'wall'),
+    ),
+}  # fmt: skip
+
+
+def hooked(angle: float) -> float:
+    """Return the length that is read of a line of 2 m with a hook of 0.15 m at its start [m]."""
+    hook = (-0.15 * math.cos(angle), 0.15 * math.sin(angle))
+    return round(resample_stroke(sampled([hook, (0.0, 0.0), (2.0, 0.0)])).length, 1)
+
+
+def rounds_of_square(rounds: float) -> float:
+    """Return the length of the outline of a square of 2 m that is drawn some times round [m]."""
+    corners = np.array([(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)])
+    at = 4.0 * rounds * np.linspace(0.0, 1.0, 200) % 4.0
+    path = np.column_stack([np.interp(at, range(5), axis) for axis in corners.T])
+    outline = resample_stroke(path).outline
+    return round(path_length(np.vstack((outline, outline[:1]))), 1)
+
+
+def candidates_of(sign: Sign, way: Way | Floats) -> int:
+    """Return the number of candidates of a sign in a stroke."""
+    return len(list(sign.candidates(features_of(resample_stroke(sampled(way))))))
+
+
+def returning(chord: float) -> int:
+    """Return the number of arrows in one whose last barb ends at a distance from its tail [m]."""
+    return candidates_of(ARROW, [(0, 0), (1, 0), (0.4, 0.3), (1, 0), (chord, -0.01)])
+
+
+def spread_of(length: float) -> int:
+    """Return the number of scribbles in eight lines to and fro, along a length [m]."""
+    return candidates_of(SCRIBBLE, loose(length, 8))
+
+
+def is_arrow(strokes: Sequence[Way | Floats]) -> bool:
+    """Return whether strokes are joined as an arrow."""
+    return joined_arrow([resample_stroke(sampled(each)).points for each in strokes]) is not None
+
+
+def wide_head(angle: float) -> bool:
+    """Return whether a shaft and two barbs with an angle between them are an arrow."""
+    x, y = 3.0 - math.cos(angle / 2), math.sin(angle / 2)
+    return is_arrow([[(0, 0), (3, 0)], [(x, y), (3, 0), (x, -y)]])
+
+
+def far_head(gap: float) -> bool:
+    """Return whether a shaft of 1 m and a head before it, after a gap [m], are an arrow."""
+    x = 1.0 + gap
+    return is_arrow([[(0, 0), (1, 0)], [(x - 0.5, 0.4), (x, 0), (x - 0.5, -0.4)]])
+
+
+def are_x(angle: float) -> bool:
+    """Return whether two lines with an angle between them are an x."""
+    x, y = math.cos(angle), math.sin(angle)
+    lines = [(-1, 0), (1, 0)], [(-x, -y), (x, y)]
+    return of_lines([resample_stroke(sampled(each)).points for each in lines]) is not None
+
+
+def uneven_head(share: float) -> bool:
+    """Return whether a shaft and two barbs are an arrow, one of them a share of the other."""
+    return is_arrow([[(0, 0), (3, 0)], [(2.2, 0.5), (3, 0), (3.0 - 0.8 * share, -0.5 * share)]])
+
+
+def short_head(share: float) -> bool:
+    """Return whether a shaft and a wide triangle, its base drawn by a share, are an arrow."""
+    head = [(2.7, 0.55), (3, 0), (2.7, -0.55), (2.7, 1.1 * share - 0.55)]
+    return is_arrow([[(0, 0), (2.7, 0)], head])
+
+
+def long_head(share: float) -> bool:
+    """Return whether a shaft and a triangle, its base drawn by a share, are an arrow."""
+    head = [(2.4, 0.4 - 0.8 * share), (2.4, 0.4), (3, 0), (2.4, -0.4)]
+    return is_arrow([[(0, 0), (2.4, 0)], head])
+
+
+def rod(slope: float) -> tuple[str, str, bool]:
+    """Return the guesses of a line between two bodies, and whether the first is rather sure."""
+    world = World()
+    for body in APART:
+        world.apply(body)
+    first, *others = read(world, [(0.0, 0.0), (4.0, 4.0 * slope)]).guesses
+    return first.meaning, ' '.join(each.meaning for each in others), first.confidence > 0.9
+
+
+def heavier(lines: float) -> float:
+    """Return by which factor lines to and fro on a body make it heavier."""
+    world = World()
+    world.apply(spawning('a/0', Box(width=6.0, height=4.0)))
+    (change,) = read(world, loose(4.0, int(lines))).requests
+    assert isinstance(change, ChangeBody)
+    body = world.scene.bodies[0]
+    return round((change.properties.density or 0.0) / body.density, 6)
+
+
+def bends_beyond(distance: float) -> bool:
+    """Return whether the first line of an x bends, which turns beyond the crossing [m]."""
+    way = [(-0.1, 0.1), (distance, -distance), (distance, distance), (-1.0, -1.0)]
+    (candidate,) = CROSS.candidates(features_of(resample_stroke(sampled(way))))
+    return candidate.measures['bent'] > 1e-3
+
+
+def swings_with_spike(height: float) -> int:
+    """Return the number of swings of nine teeth, one of them higher than the others [m]."""
+    teeth = [(0.2 * n - 1.0, (0.5 if n != 4 else 0.5 + height) * (-1) ** n) for n in range(10)]
+    return features_of(resample_stroke(sampled(teeth))).swings.count
+
+
+def guesses(diameter: float) -> str:
+    """Return the meanings that a circle on a square of 1 m may have."""
+    world = World()
+    for body in PLATE:
+        world.apply(body)
+    return ' '.join(each.meaning for each in read(world, circle(0.0, 0.0, diameter / 2)).guesses)
+
+
+# The constants of a limit of an earlier stage; a function of a measure, values of that on either
+# side of the limit, the results.
+STAGES: dict[
+    str, tuple[str, Callable[[float], object], tuple[float, float], tuple[object, object]]
+] = {
+    'angle of a hook that is no part of a line': (
+        'stroke.SHARP', hooked, (1.1, 1.3), (2.1, 2.0),
+    ),
+    'rounds of a square': ('stroke.ROUNDS', rounds_of_square, (0.95, 1.5), (8.0, 8.0)),
+    'distance of the last barb of an arrow from its tail': (
+        'arrow._LEAST_CHORD', returning, (0.15, 0.16), (0, 2),
+    ),
+    'length of a scribble of eight lines': ('swings._FARTHEST', spread_of, (2.4, 2.6), (1, 0)),
+    'angle between the barbs of a head': (
+        'joining._WIDEST', wide_head, (2.27, 2.33), (True, False),
+    ),
+    'gap before the head, of a shaft': ('joining._NECK', far_head, (0.345, 0.355), (True, False)),
+    'length of the lesser barb by that of the other': (
+        'joining._BALANCE', uneven_head, (0.34, 0.36), (False, True),
+    ),
+    'share of the base of a short closed head that is drawn': (
+        'joining._ROUND', short_head, (0.3, 0.45), (False, True),
+    ),
+    'share of the base of a long closed head that is drawn': (
+        'joining._ROUND', long_head, (0.5, 1.0), (True, True),
+    ),
+    'diameter of a circle that is an axle for certain': (
+        'evidence.LEAST', guesses, (0.265, 0.2692), ('axle', 'axle disc'),
+    ),
+    'weight of a group that is read': (
+        'choice._GROUP_BIAS choice._DOUBT',
+        lambda it: group_confidence(it, 1.0) >= 0.6, (0.614, 0.619), (False, True),
+    ),
+    'slope of a rod, instead of which a wall is offered': (
+        'stages.BETWEEN', rod, (0.0, 0.1), (('rod', 'wall', True), ('rod', 'wall', True)),
+    ),
+    'length of the lines of an x beyond its crossing': (
+        'x._BEYOND', bends_beyond, (0.08, 0.09), (True, False),
+    ),
+    'angle of the lines of an x': (
+        'geometry.LEAST_SINE', are_x, (0.295, 0.31), (False, True),
+    ),
+    'lines of hatching': ('open_lines._HEAVIER', heavier, (1, 2), (1.25, 1.5625)),
+    'height of one tooth above the others': (
+        'features._FRINGE', swings_with_spike, (0.875, 1.5), (5, 4),
+    ),
 }  # fmt: skip
 
 
 # Numbers of points between which readings do not differ, and what words and work are limited to.
 RESOLUTION = {
-    'fitting._ROUNDS',
+    'stroke._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG',
     'geometry.COUNT', 'geometry.ARM', 'geometry._FEW', 'geometry._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',
     'stages.MOST_GUESSES', 'grouping.MOST_TIME',
 }  # fmt: skip
-# Numbers of which no stroke is known that a third more and a third less both read otherwise: most
-# of them shape measures that the table of evidence weighs.
-UNDECIDED = {
-    'arrow._ALONG',
-    'arrow._HEAD',
-    'arrow._LEAST_CHORD',
-    'arrow._NECK',
-    'arrow._SHAFT',
-    'corner_detection._CORNER_TURN',
-    'evidence.LEAST',
-    'evidence._DOUBT',
-    'evidence._GROUP_BIAS',
-    'evidence._SOFT',
-    'evidence._UNEXPLAINED',
-    'features._FRINGE',
-    'geometry.LEAST_SINE',
-    'geometry._WIDE',
-    'joining._BALANCE',
-    'joining._BEYOND',
-    'joining._NECK',
-    'joining._ROUND',
-    'joining._STRAIGHT',
-    'joining._TOUCHING',
-    'joining._WIDEST',
-    'stages.BETWEEN',
-    'open_lines._HEAVIER',
-    'outer_boundary._LEAST_LENGTH',
-    'plain_forms._LOOP',
-    'plain_forms._SWINGING',
-    'choice._SURE',
-    'round_arrow._STRIDE',
-    'round_arrow._TURN',
-    'stroke.ROUNDS',
-    'stroke.SHARP',
-    'stroke._FEWEST',
-    'swings._FARTHEST',
-    'x._BEYOND',
-}
-
-
-def constants() -> dict[str, tuple[Path, list[ast.Constant]]]:
-    """Return the named numbers by which strokes are read: the file and the numbers of each."""
-    found: dict[str, tuple[Path, list[ast.Constant]]] = {}
-    for path in sorted((Path(drawing.__file__).parent / 'strokes').rglob('*.py')):
-        for node in ast.parse(path.read_text('utf-8')).body:
-            if not isinstance(node, ast.Assign):
-                continue
-            (target,), pairs = node.targets, [(node.targets[0], node.value)]
-            if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
-                pairs = list(zip(target.elts, node.value.elts, strict=True))
-            for name, value in pairs:
-                numbers = [
-                    each
-                    for each in ast.walk(value)
-                    if isinstance(each, ast.Constant) and type(each.value) in {int, float}
-                ]
-                if numbers and isinstance(name, ast.Name) and name.id != '_atan2':
-                    found[f'{path.stem}.{name.id}'] = path, numbers
-    return found
+CONSTANTS = constants((FOLDER / 'strokes').rglob('*.py'))
 
 
 def rows_of(constant: str) -> list[str]:
     """Return the names of the rows of a constant."""
-    rows = {**LIMITS, **BENDS, **FIGURES}
+    rows = {**LIMITS, **BENDS, **FIGURES, **STAGES}
     return [name for name, (needed, *_) in rows.items() if constant in needed.split()]
 
 
 DECIDED = sorted(
     {
         name
-        for rows in (LIMITS, BENDS, FIGURES)
+        for rows in (LIMITS, BENDS, FIGURES, STAGES)
         for needed, *_ in rows.values()
         for name in needed.split()
     }
@@ -625,15 +808,15 @@ DECIDED = sorted(
 
 
 def test_every_number_has_a_stroke_on_either_side_or_is_named() -> None:
-    assert constants().keys() == {*DECIDED} | RESOLUTION | UNDECIDED
-    assert not {*DECIDED} & (RESOLUTION | UNDECIDED)
+    assert CONSTANTS.keys() == {*DECIDED} | RESOLUTION
+    assert not {*DECIDED} & RESOLUTION
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize('factor', [1.3, 1 / 1.3])
 @pytest.mark.parametrize('constant', DECIDED)
 def test_another_number_moves_a_limit(constant: str, factor: float) -> None:
-    with another_number(constant, factor) as tables:
+    with another_number(__name__, CONSTANTS[constant], factor) as tables:
         assert not all(tables.holds(name) for name in rows_of(constant))
 
 
@@ -644,6 +827,8 @@ def holds(name: str) -> bool:
             test_a_meaning_ends_at_its_limit(*LIMITS[name][1:])
         elif name in BENDS:
             test_a_bend_ends_at_its_limit(*BENDS[name][1:])
+        elif name in STAGES:
+            test_a_stage_ends_at_its_limit(*STAGES[name][1:])
         else:
             test_a_figure_ends_at_its_limit(*FIGURES[name][1:])
     except (AssertionError, Refusal):
@@ -651,57 +836,11 @@ def holds(name: str) -> bool:
     return True
 
 
-class Patched(MetaPathFinder, Loader):
-    """Imports one module from another text than that of its file."""
-
-    def __init__(self, path: Path, text: str) -> None:
-        package = Path(drawing.__file__).parent
-        words = 'physsim_ros', 'drawing', *path.relative_to(package).with_suffix('').parts
-        self._name, self._path, self._text = '.'.join(words), path, text
-
-    def find_spec(self, name: str, *_: object) -> ModuleSpec | None:
-        found = name == self._name
-        return spec_from_file_location(name, self._path, loader=self) if found else None
-
-    def exec_module(self, module: ModuleType) -> None:
-        exec(compile(self._text, str(self._path), 'exec'), module.__dict__)  # noqa: S102
-
-
-@contextmanager
-def another_number(constant: str, factor: float) -> Iterator[ModuleType]:
-    """Yield this module over a reader of strokes in which a number is another one."""
-    path, (number, *_) = constants()[constant]
-    value = number.value
-    assert isinstance(value, int | float)
-    changed = value * factor
-    if isinstance(value, int):
-        changed = (
-            max(round(changed), value + 1) if factor > 1.0 else min(round(changed), value - 1)
-        )
-    lines = path.read_text('utf-8').splitlines()
-    line = lines[number.lineno - 1]
-    begin, end = number.col_offset, number.end_col_offset
-    lines[number.lineno - 1] = line[:begin] + repr(changed) + line[end:]
-    own = 'physsim_ros.drawing', 'test.drawing'
-    kept = {name: each for name, each in sys.modules.items() if name.startswith(own)}
-    for name in kept:
-        del sys.modules[name]
-    finder = Patched(path, '\n'.join(lines))
-    sys.meta_path.insert(0, finder)
-    try:
-        yield importlib.import_module(__name__)
-    finally:
-        sys.meta_path.remove(finder)
-        for name in [each for each in sys.modules if each.startswith(own)]:
-            del sys.modules[name]
-        sys.modules.update(kept)
-
-
 @pytest.mark.parametrize(
     ('bodies', 'way', 'values', 'readings'), [each[1:] for each in LIMITS.values()], ids=LIMITS
 )
 def test_a_meaning_ends_at_its_limit(
-    bodies: Sequence[Spawn] | Callable[[float], Sequence[Spawn]],
+    bodies: Sequence[Spawn | Join] | Callable[[float], Sequence[Spawn]],
     way: Callable[[float], Way | Floats],
     values: tuple[float, float],
     readings: tuple[str, str],
@@ -744,6 +883,17 @@ def test_a_figure_ends_at_its_limit(
         strokes, pause = figure(value)
 
         assert last_meaning(bodies, strokes, pause) == expected
+
+
+@pytest.mark.parametrize(
+    ('result', 'values', 'results'), [each[1:] for each in STAGES.values()], ids=STAGES
+)
+def test_a_stage_ends_at_its_limit(
+    result: Callable[[float], object],
+    values: tuple[float, float],
+    results: tuple[object, object],
+) -> None:
+    assert tuple(map(result, values)) == results
 
 
 def meaning_of(world: World, way: Way | Floats) -> str:

@@ -6,10 +6,14 @@
 from __future__ import annotations
 
 import math
+import time
 
 from geometry_msgs.msg import PoseArray, Twist, TwistStamped
 from nav_msgs.msg import Odometry
+from physsim_ros.model.requests import DeleteAll
+from physsim_ros.ros import frame_loop
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.robots import fleet
 from physsim_ros.testing import box, delete, PhysSim
 import pytest
 from rosgraph_msgs.msg import Clock
@@ -18,6 +22,7 @@ from std_msgs.msg import Bool
 
 from .driver import driver_of
 from ..journey import Journey
+from ...building import DISC, spawning
 from ...client import Client, set_parameter
 
 
@@ -250,3 +255,36 @@ def test_a_battery_is_told_and_charged_on_a_dock(flat: PhysSim, client: Client) 
     flat.run(3.0)
     assert states[-1].power_supply_status == BatteryState.POWER_SUPPLY_STATUS_FULL
     assert states[-1].charge == pytest.approx(0.01)
+
+
+def test_topics_of_many_robots_are_made_and_taken_back_tick_by_tick(
+    flat: PhysSim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Those of 200 robots stopped the world for a second, and those of none for half a second.
+    node = flat.node
+    monkeypatch.setattr(fleet, '_MOST_UPDATE_NS', 0)
+    monkeypatch.setattr(frame_loop, 'MOST_TICK_NS', 0)
+    node.start()
+    drive = {'drive': {'kind': 'omni'}}
+    for number in range(5):
+        robot = spawning(f'robot/{number}', DISC, (number, 0.0, 0.0), robot=drive)
+        node.simulation.requests.submit(robot, topic='~/spawn')
+    node.simulation.requests.apply_waiting()
+
+    def counts_until(count: int) -> list[int]:
+        counts: list[int] = []
+        while not counts or counts[-1] != count:
+            step = node.simulation.step
+            node.tick(time.monotonic_ns())
+            counts.append(len(node.fleet.robots))
+            # Time waits.
+            assert counts[-1] in (0, 5) or node.simulation.step == step
+        return counts
+
+    assert counts_until(5)[-5:] == [1, 2, 3, 4, 5]
+    node.simulation.requests.submit(DeleteAll(), topic='~/clear')
+    assert counts_until(0)[-5:] == [4, 3, 2, 1, 0]
+    # Who asks for a frame gets it with all topics.
+    node.simulation.undo()
+    flat.step()
+    assert [*node.fleet.robots] == [f'robot/{number}' for number in range(5)]
