@@ -143,6 +143,10 @@ GROUPS: dict[str, tuple[Sequence[Spawn], Sequence[Way | Floats], str, str, str]]
     'lines that cross in the open': (
         [], [[(0.0, 0.0), (3.0, 3.0)], [(0.0, 3.0), (3.0, 0.1)]], 'wall', 'Chain Chain', '',
     ),
+    'lines that cross beside a wall': (
+        [], [[(-0.5, 0.1), (0.5, 0.1)], [(-0.25, -0.44), (0.26, 0.44)],
+             [(-0.23, 0.44), (0.25, -0.44)]], 'wall', 'Chain Chain Chain', '',
+    ),
     'lines beside one another': (
         [], [[(0.0, 0.0), (3.0, 0.0)], [(0.0, 1.0), (3.0, 1.05)]], 'wall', 'Chain Chain', '',
     ),

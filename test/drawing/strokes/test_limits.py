@@ -40,7 +40,7 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from .ways import ANGLE, circle, scribble, square, Way
+from .ways import ANGLE, circle, cross, scribble, square, Way
 from ..constants import another_number, constants, FOLDER
 from ..single_stroke import interpret_stroke
 from ...building import spawning
@@ -265,6 +265,11 @@ LIMITS: dict[
         'bodies_under._COVERING',
         ON_FLOOR, lambda it: scribble(0.0, 0.6 - 1.2 * it, 1.3, 1.2), (0.27, 0.33),
         ('deletion a/0', 'deletion floor/0 a/0'),
+    ),
+    'distance of the crossing of an x from a thin body': (
+        'x._INNER',
+        [spawning('a/0', Box(width=4.0, height=0.05))], lambda it: cross(0.0, it, 0.8),
+        (0.41, 0.44), ('anchor', ''),
     ),
     'distance of the tail of an arrow from a body': (
         '',

@@ -20,13 +20,16 @@ from .ways import built, carry_out, cross, draw, scribble
 from ...building import BOX, DISC, NOWHERE, spawn, spawning
 
 
-@pytest.mark.parametrize(('height', 'place'), [(2.0, (0.4, 0.3)), (0.1, (0.0, 0.12))])
+@pytest.mark.parametrize('size', [0.3, 1.0, 5.0, 20.0])
+@pytest.mark.parametrize(
+    ('height', 'place'), [(2.0, (0.4, 0.3)), (0.1, (0.0, 0.12)), (0.1, (0.01, -0.14))]
+)
 def test_an_x_on_a_body_or_across_a_thin_one_anchors_it(
-    world: World, height: float, place: Point
+    world: World, height: float, place: Point, size: float
 ) -> None:
-    spawn(world, 'a/0', Box(width=4.0, height=height))
+    spawn(world, 'a/0', Box(width=4.0 * size, height=height * size))
 
-    reading = draw(world, cross(*place))
+    reading = draw(world, cross(size * place[0], size * place[1], 0.2 * size))
     carry_out(world, reading)
 
     assert (reading.meaning, reading.subject) == ('anchor', 'a/0')
