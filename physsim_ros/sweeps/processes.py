@@ -160,7 +160,8 @@ class _Process:
         """
         how, number, case = self.close(), self.job.number, self.job.case
         if self._is_complete:
-            data = memoryview(self._received)[_LENGTH.size :]
+            start = _LENGTH.size
+            data = memoryview(self._received)[start:]
             result: Run | Exception = pickle.loads(data)  # noqa: S301 - its own
             if isinstance(result, Exception):
                 raise result
