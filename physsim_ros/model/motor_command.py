@@ -9,7 +9,7 @@ import itertools
 import math
 from typing import Annotated, NamedTuple
 
-from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, OneOf, shown, text, Within
+from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, OneOf, shown, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 
@@ -17,7 +17,6 @@ from physsim_ros.model.errors import BadProperty, Malformed
 MODES = ('position', 'velocity', 'effort')
 # Greatest number of points of a trajectory.
 MOST_POINTS = 1000
-_RATE = Within(-HEAVIEST, HEAVIEST)
 
 
 class CommandPoint(NamedTuple):
@@ -61,11 +60,11 @@ def _point(value: object, name: str) -> CommandPoint:
     time, number = check_finite(value[:2], 2, name)
     rate = value[2] if len(value) == 3 and value[2] is not None else math.nan
     if not (isinstance(rate, float) and math.isnan(rate)):
-        rate = _RATE(rate, name)
+        (rate,) = check_finite((rate,), 1, name)
     if not 0.0 <= time <= LONGEST:
         raise BadProperty(f'a time of {name} must lie between 0 and {LONGEST:g} s', field=name)
-    if abs(number) > HEAVIEST:
-        raise BadProperty(f'a value of {name} exceeds {HEAVIEST:g}', field=name)
+    if abs(number) > HEAVIEST or abs(rate) > HEAVIEST:
+        raise BadProperty(f'a value or rate of {name} exceeds {HEAVIEST:g}', field=name)
     return CommandPoint(time, number, rate)
 
 

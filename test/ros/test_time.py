@@ -236,10 +236,12 @@ def test_a_service_does_nothing_twice(journey: Journey, tmp_path: Path) -> None:
 
     def done() -> tuple[object, ...]:
         message = succeeded(client.call(f'~/{service}'))
-        files = [path.read_bytes() for path in tmp_path.iterdir()]
+        files = [path.read_bytes() for path in tmp_path.glob('*.yaml')]
         return message, physsim.digest(), parameter(physsim, 'speed'), files
 
     for service in ('play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'save_world'):
         assert done() == done(), service
-    assert [path.name for path in tmp_path.iterdir()] == ['mine.yaml']
+    # What the second save has written over is kept.
+    saved = [path.relative_to(tmp_path) for path in tmp_path.rglob('*.yaml')]
+    assert sorted(saved) == [Path('.kept/mine.yaml'), Path('mine.yaml')]
     assert journey.seek(journey.end).code == 'ok'

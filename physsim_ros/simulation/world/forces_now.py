@@ -7,7 +7,8 @@ The forces in a world that has made no step since it was opened or changed.
 Contacts, joints, media and attraction have the forces of a copy of the world, which makes a few
 steps; the world itself is not touched. Bodies that rest on each other are placed with a gap of
 some micrometres, or overlap as much: in the first steps of the copy they come to rest, without a
-bounce. The forces are those of the last of these steps.
+bounce. The forces are those of the first step whose contacts are those of the step before, with
+the same impulses; joints need a step, too.
 
 Law: an impact is not a force at rest: what approaches has no contact before it touches.
 
@@ -23,6 +24,7 @@ import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.snapshot import Contacts, Snapshot
+from physsim_ros.model.transform import norms
 from physsim_ros.simulation.world.world import World
 
 # Bodies of a world whose forces are solved: a copy of 200 takes some milliseconds of the frame in
@@ -31,8 +33,10 @@ from physsim_ros.simulation.world.world import World
 MOST_BODIES = 200
 # Steps in which what rests has fallen through its gap, of up to 0.3 mm; what touches later falls.
 _TOUCHING = 2
-# Steps after these in which bodies come to rest on each other.
-_SETTLING = 6
+# Steps in which bodies come to rest on each other.
+_STEPS = 9
+# Greatest change of the impulse of a contact from one step to the next while it rests, as a share.
+_SETTLED = 1e-3
 # Approach of two bodies above which their contact is an impact [m/s]; falling through a gap of
 # 0.1 mm gives 0.04 m/s.
 _IMPACT = 0.05
@@ -52,16 +56,18 @@ def forces_now(state: WorldState, physics_rate: float) -> tuple[Contacts, Snapsh
     copy.reports_contacts = True
     copy.begin(_without_bounce(state), 0)
     before = copy.snapshot()
-    copy.step(_TOUCHING)
-    first = copy.contacts(copy.snapshot())
-    copy.step(_SETTLING)
-    copy.clear_contacts()
-    copy.step(1)
-    after = copy.snapshot()
-    if after.scene is not before.scene:
-        # Something has broken, or was lost.
-        return None
-    return _at_rest(copy.contacts(after), first, before), after
+    steps: list[Contacts] = []
+    for _ in range(_STEPS):
+        copy.step(1)
+        after = copy.snapshot()
+        if after.scene is not before.scene:
+            # Something has broken, or was lost.
+            return None
+        steps.append(copy.contacts(after))
+        if len(steps) > 1 and _is_settled(*steps[-2:]):
+            break
+    touching = np.vstack([each.pairs for each in steps[:_TOUCHING]])
+    return _at_rest(steps[-1], touching, before), after
 
 
 def _without_bounce(state: WorldState) -> WorldState:
@@ -70,16 +76,24 @@ def _without_bounce(state: WorldState) -> WorldState:
     return replace(state, bodies=bodies, settings=replace(state.settings, elasticity=0.0))
 
 
-def _at_rest(contacts: Contacts, first: Contacts, before: Snapshot) -> Contacts:
+def _is_settled(last: Contacts, now: Contacts) -> bool:
+    """Return whether two steps have the same contacts with nearly the same impulses."""
+    if not np.array_equal(last.pairs, now.pairs):
+        return False
+    changes = norms(now.impulses - last.impulses)
+    return bool((changes <= _SETTLED * norms(now.impulses)).all())
+
+
+def _at_rest(contacts: Contacts, touching: Ints, before: Snapshot) -> Contacts:
     """
     Return the contacts of bodies that touch from the first steps on, and not by an impact.
 
-    :param first: of these steps
+    :param touching: (k, 2) int64: the pairs of the contacts of these steps
     :param before: the snapshot before them
     """
     one, other = (_velocities(contacts.points, rows, before) for rows in contacts.pairs.T)
     approach = ((one - other) * contacts.normals).sum(axis=1)
-    kept = (contacts.pairs[:, None] == first.pairs).all(axis=2).any(axis=1) & (approach < _IMPACT)
+    kept = (contacts.pairs[:, None] == touching).all(axis=2).any(axis=1) & (approach < _IMPACT)
     return Contacts(
         pairs=contacts.pairs[kept],
         points=contacts.points[kept],
