@@ -23,26 +23,47 @@ STATUSES = """() => {
 }"""
 
 
-def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, 'about:blank')
-    sockets: list[Any] = []
-    cut = False
+class Cable:
+    """
+    What a page's sockets pass through.
 
-    def pass_on(socket: Any) -> None:
-        sockets.append(socket)
-        if cut:
+    :param sheet: the page, before it is opened
+
+    :ivar sockets: that the page has opened, also those in vain
+    """
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.sockets: list[Any] = []
+        self._is_cut = False
+        sheet.page.route_web_socket('**/ws*', self._pass_on)
+
+    def cut(self) -> None:
+        """Close all sockets, and those that are opened from now on."""
+        self._is_cut = True
+        for socket in self.sockets:
+            socket.close()
+
+    def mend(self) -> None:
+        """Connect the sockets that are opened from now on."""
+        self._is_cut = False
+
+    def _pass_on(self, socket: Any) -> None:
+        self.sockets.append(socket)
+        if self._is_cut:
             socket.close()
         else:
             socket.connect_to_server()
 
-    sheet.page.route_web_socket('**/ws*', pass_on)
+
+def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    cable = Cable(sheet)
     sheet.page.goto(address)
     sheet.begin()
     people = sheet.page.evaluate('heard.people')
-    cut = True
-    sockets[0].close()
+    cable.cut()
     sheet.page.get_by_role('alert').wait_for(state='visible')
-    cut = False
+    cable.mend()
     sheet.page.get_by_role('alert').wait_for(state='hidden')
     before = sheet.names()
     sheet.press('Circle')
@@ -59,37 +80,26 @@ def test_a_page_without_a_server_tells_what_was_done_alone_and_its_slider_comes_
     chromium: Any, address: str
 ) -> None:
     other, sheet = Sheet(chromium, address), Sheet(chromium, 'about:blank')
-    sockets: list[Any] = []
-    cut = False
-
-    def pass_on(socket: Any) -> None:
-        sockets.append(socket)
-        if cut:
-            socket.close()
-        else:
-            socket.connect_to_server()
-
-    sheet.page.route_web_socket('**/ws*', pass_on)
+    cable = Cable(sheet)
     sheet.page.goto(address)
     sheet.begin()
     sheet.play_until(0.3)
     sheet.wait('heard.people.length > 1')
     status = sheet.page.get_by_role('status')
     told = status.inner_text()
-    cut = True
-    sockets[0].close()
+    cable.cut()
     alert = sheet.page.get_by_role('alert')
     alert.wait_for(state='visible')
     # Others would see where the pointer is; nobody has asked for that.
-    seen = len(sockets)
-    while len(sockets) < seen + 2:
+    seen = len(cable.sockets)
+    while len(cable.sockets) < seen + 2:
         for x in range(8):
             sheet.page.mouse.move(*sheet.place(x / 4, 5.0))
     assert status.inner_text() == told
     for time in ('0.1', '0.2'):
         sheet.page.get_by_role('slider', name='Time', exact=True).fill(time)
     assert 'Not done' in status.inner_text()
-    cut = False
+    cable.mend()
     alert.wait_for(state='hidden')
     sheet.play_until(0.5)
     sheet.wait("document.querySelector('#slider').value > 0.5")
