@@ -22,7 +22,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.robots import part_name, whole_of
-from physsim_ros.model.scene import Body, Joint, Seat
+from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contain_each, contains_each, extent_of
 from physsim_ros.model.snapshot import Snapshot
@@ -31,6 +31,7 @@ from physsim_ros.model.transform import (
     dots,
     local_to_world,
     norms,
+    ORIGIN,
     Point,
     Pose,
     REST,
@@ -38,6 +39,7 @@ from physsim_ros.model.transform import (
     Twist,
     world_to_local,
 )
+from physsim_ros.simulation.world.joint_requests import seat_of
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
@@ -246,15 +248,15 @@ class SceneQuery:
 
     def _axle(self, request: Join) -> Joint:
         """Return the description of an axle."""
-        (point,) = request.points
-        on_a = self.local(request.a, point)
-        on_b = point if request.b == WORLD else self.local(request.b, point)
+        pose_a, pose_b = (
+            ORIGIN if name == WORLD else self.pose(name) for name in (request.a, request.b)
+        )
         return Joint(
             name=request.name,
             kind=request.kind,
             a=request.a,
             b=request.b,
-            seat=Seat(*on_a, *on_b, ux=0.0, uy=0.0, phase=0.0, length=0.0),
+            seat=seat_of(request.kind, request.points, pose_a, pose_b, 0.0),
             properties=request.properties,
         )
 

@@ -288,6 +288,6 @@ def test_saving_replaces_what_was_there(folder: Path) -> None:
     path = save(world, folder)
 
     assert load(path) == world.save()
-    # What it replaced is kept, and nothing else is there.
+    # The file before is kept, and nothing else is there.
     assert {each.name for each in folder.iterdir()} == {path.name, '.kept'}
     assert len(load(folder / '.kept' / path.name).bodies) == 0

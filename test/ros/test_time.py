@@ -241,7 +241,7 @@ def test_a_service_does_nothing_twice(journey: Journey, tmp_path: Path) -> None:
 
     for service in ('play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'save_world'):
         assert done() == done(), service
-    # What the second save has written over is kept.
+    # The second save keeps the file of the first.
     saved = [path.relative_to(tmp_path) for path in tmp_path.rglob('*.yaml')]
     assert sorted(saved) == [Path('.kept/mine.yaml'), Path('mine.yaml')]
     assert journey.seek(journey.end).code == 'ok'

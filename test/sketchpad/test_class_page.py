@@ -98,7 +98,7 @@ def test_a_teacher_works_by_keys_and_a_message_is_read_to_who_cannot_see_it(
     button.focus()
     teacher.page.keyboard.press('Enter')
     pupil.page.locator('[aria-live]').get_by_text('has frozen this world').wait_for()
-    # Where it was, there is the other one now.
+    # Another button has taken its place.
     other = teacher.page.get_by_role('button', name='Let them draw again')
     other.wait_for()
     assert other.evaluate('each => each === document.activeElement')

@@ -29,7 +29,7 @@ from .chromium import circle, Sheet
 from ..outside import Outside, PATIENCE, Program
 
 # Colours of a picture.
-# What the cards of seats say of them, one after the other.
+# The states of all seats, as their cards tell them one after the other.
 STATES = """window.states = '';
 new MutationObserver(() => {
     for (const each of document.querySelectorAll('.state')) states += `${each.textContent}; `;

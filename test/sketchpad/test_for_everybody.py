@@ -77,7 +77,7 @@ def test_a_toolbar_has_one_stop_also_where_its_buttons_come_and_go(sheet: Sheet)
 
 
 def test_a_button_that_is_pressed_by_a_key_keeps_the_focus(sheet: Sheet) -> None:
-    # What it stands in is made anew.
+    # The box around the button is made anew.
     sheet.press('Show velocities')
     sheet.press('Material')
     for name in ('Momentum', 'Wood'):

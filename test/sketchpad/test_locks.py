@@ -130,11 +130,17 @@ def locked(physsim: PhysSim) -> str:
     return repr((bodies, joints, [each for each in world.grips if each.body.startswith('a/')]))
 
 
+def load_world(browser: Browser, tmp_path: Path) -> None:
+    """Load the world of the locked bodies."""
+    path = tmp_path / 'locked.yaml'
+    path.write_text(WORLD)
+    browser.physsim.load(path)
+    browser.physsim.step()
+
+
 def opened(browser: Browser, tmp_path: Path) -> tuple[Page, Page]:
     """Return the pages of a pupil and of a teacher, in the world of the locked bodies."""
-    (tmp_path / 'locked.yaml').write_text(WORLD)
-    browser.physsim.load(tmp_path / 'locked.yaml')
-    browser.physsim.step()
+    load_world(browser, tmp_path)
     pupil, boss = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
     # A gesture that is undone, taken back or read anew is about a body that is locked then.
     assert pupil.ask('change', name='a/0', properties={'friction': 0.3})['ok']
@@ -286,9 +292,7 @@ def test_a_pupil_has_no_request_for_a_locked_body_carried_out(
 def test_a_hand_lets_go_of_what_is_locked_meanwhile(
     browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / 'locked.yaml').write_text(WORLD)
-    browser.physsim.load(tmp_path / 'locked.yaml')
-    browser.physsim.step()
+    load_world(browser, tmp_path)
     pupil, boss = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
     assert pupil.ask('grab', point=ON)['ok']
     assert boss.ask('lock', names=['a/*'])['ok']
@@ -304,9 +308,7 @@ def test_what_waits_while_a_body_is_locked_is_refused_in_its_turn(
     browser: Browser, tmp_path: Path
 ) -> None:
     """A long seek is under way: the right is there when the message comes, and not later."""
-    (tmp_path / 'locked.yaml').write_text(WORLD)
-    browser.physsim.load(tmp_path / 'locked.yaml')
-    browser.physsim.step()
+    load_world(browser, tmp_path)
     node = browser.physsim.node
     before = node.control.locked_bodies
     origin = Origin('x', check=lambda: check_unchanged(Role.DRAW, before, node.control))

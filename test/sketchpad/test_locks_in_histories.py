@@ -15,7 +15,7 @@ from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser, Page
-from .test_locks import ATTEMPTS, tell, WORLD
+from .test_locks import ATTEMPTS, load_world, tell
 
 # A message: its kind and its fields.
 Message = tuple[str, dict[str, Any]]
@@ -101,9 +101,7 @@ def test_no_message_of_a_pupil_changes_a_locked_body_whatever_came_before(
     browser: Browser, tmp_path: Path, seed: int
 ) -> None:
     random, physsim = Random(seed), browser.physsim
-    (tmp_path / 'locked.yaml').write_text(WORLD)
-    physsim.load(tmp_path / 'locked.yaml')
-    physsim.step()
+    load_world(browser, tmp_path)
     pupils = [browser.open_page() for _ in range(2)]
     boss = browser.open_page(cookie=browser.cookie_of(Role.TEACH))
     for _ in range(LENGTH):
@@ -122,9 +120,7 @@ def test_no_message_of_a_pupil_changes_a_locked_body_whatever_came_before(
 def test_a_pupil_takes_back_what_concerns_no_locked_body_and_nothing_else(
     browser: Browser, tmp_path: Path
 ) -> None:
-    (tmp_path / 'locked.yaml').write_text(WORLD)
-    browser.physsim.load(tmp_path / 'locked.yaml')
-    browser.physsim.step()
+    load_world(browser, tmp_path)
     pupil, boss = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
     assert pupil.spawn('c/0', y=30.0)['ok']
     for name, code in (('c/0', ''), ('b/0', 'frozen')):

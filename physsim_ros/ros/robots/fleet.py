@@ -84,7 +84,7 @@ class Fleet:
         self._boundary = boundary
         self._expected = expected
         self._scene: Scene | None = None
-        # What is left to do so that the topics are those of the robots of that scene.
+        # The rest of the work after which the topics are those of the robots of that scene.
         self._updating: Iterator[None] = iter(())
         # Beams and angles that the parameters set for all lasers.
         self._lasers: dict[str, Any] = {}

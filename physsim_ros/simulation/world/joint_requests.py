@@ -73,7 +73,7 @@ def join(live: LiveSpace, request: Join) -> Answer:
             seat = seat._replace(phase=_phase(space, a, b, properties))
     else:
         phase = _phase(space, a, b, properties)
-        seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
+        seat = seat_of(request.kind, points, _pose(space, a), _pose(space, b), phase)
         guides, length = _rope(space, properties.over or (), points)
         seat = seat._replace(length=length) if guides else seat
         guides = guides or tuple(Guide(name, 0.0, 0.0) for name in properties.guides)
@@ -311,7 +311,7 @@ def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> Non
         raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
 
 
-def _seat(
+def seat_of(
     kind: JointKind, points: tuple[Point, ...], pose_a: Pose, pose_b: Pose, phase: float
 ) -> Seat:
     """Return the seat of a joint that is drawn with points of the world [m]."""
