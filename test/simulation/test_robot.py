@@ -199,8 +199,8 @@ def test_a_moment_of_another_physics_rate_is_refused_and_changes_nothing():
     assert another.world.digest() == digest
 
 
-# Ways to replace a world: each takes a robot in a used world and one in a fresh world. Both must be
-# alike then.
+# Ways to replace a world, by a robot in a used world and one in a fresh world. Both must be alike
+# then.
 BEGINNINGS: dict[str, Callable[[Robot, Robot], object]] = {
     'begin': lambda used, fresh: used.simulation.begin(fresh.simulation.loaded),
     'reset': lambda used, _: used.simulation.reset(),
