@@ -106,9 +106,9 @@ class Guarded(RequestHandler):
         if self.needs_cookie and self.role is None:
             self.refuse(403, 'open the address that the node has printed: it holds the token')
 
-    async def head(self, *arguments: str) -> None:
+    def head(self, *arguments: str) -> Awaitable[None] | None:
         """Answer as `get` does; tornado sends the headers alone."""
-        await self.get(*arguments)
+        return self.get(*arguments)
 
     def on_finish(self) -> None:
         """End the turn of the request."""
