@@ -20,4 +20,4 @@ def test_pairs_that_meet_in_one_round_are_joined_at_a_cost_by_their_count(parts)
         return lambda: lib.call_join_impacts(count)
 
     assert lib.call_join_impacts(100) == 200
-    assert growth(pairs, 4000) < MOST
+    assert growth(pairs, 4000, MOST) < MOST
