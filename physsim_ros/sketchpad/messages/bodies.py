@@ -70,13 +70,13 @@ def _velocity(value: object, name: str) -> Twist:
 
 
 def _poses(value: object, name: str) -> list[Pose]:
-    if not isinstance(value, list):
-        raise BadProperty(f'{name} must be a list of poses', field=name)
+    if not isinstance(value, list) or not value:
+        raise BadProperty(f'{name} must be a list of at least one pose', field=name)
     return [fields.three(each, name, 'x', 'y', 'yaw') for each in value]
 
 
 def _followed(value: object, name: str) -> frozenset[str]:
-    return frozenset(fields.names(value, name) if value else ())
+    return frozenset(fields.names(value, name) if value != [] else ())
 
 
 # Bodies

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import pytest
+
 from ..costs import growth
 
 # Trees and sorting make it 4.6; the square, beside what each pair costs anyhow, 8.5.
 MOST = 6.5
 
 
+@pytest.mark.cost
 def test_pairs_that_meet_in_one_round_are_joined_at_a_cost_by_their_count(parts):
     _, lib = parts
 
