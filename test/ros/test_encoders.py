@@ -27,6 +27,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
+from physsim_ros.model.spelling import canonical
 from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder, MOST_NEW
 from physsim_ros.ros.encoders.streams import (
     ClockEncoder,
@@ -313,8 +314,8 @@ numbers = st.floats(1e-9, 1e12)
 labels = st.text(
     st.characters(exclude_categories=('Cc', 'Cs', 'Cf', 'Zl', 'Zp'))
     | st.sampled_from('\n[{\ufeff'),
-    max_size=200,
-)
+    max_size=60,
+).map(canonical)
 
 
 bodies = st.builds(

@@ -199,6 +199,9 @@ def stretches_of(kind: KindOfFile) -> dict[str, float]:
                     operate(watched, text)
                     break
                 except WorldFull:
+                    if operate is not load:
+                        # A world whose text is too long is refused once that is written.
+                        break
                     # The limits of a world are reached before that of a file.
                     length = int(SHORTER * length)
                     text = text_full_of(kind, length)

@@ -314,6 +314,6 @@ class _JointColumns:
 
 def _numbers(counts: NDArray[np.intp]) -> NDArray[np.intp]:
     """Return 0, 1, ... up to each count, one after the other."""
-    ends = np.cumsum(counts)
-    numbers: NDArray[np.intp] = np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+    starts = np.cumsum(counts) - counts
+    numbers: NDArray[np.intp] = np.arange(counts.sum()) - np.repeat(starts, counts)
     return numbers
