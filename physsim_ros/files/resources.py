@@ -80,13 +80,18 @@ def files_by_name(directory: Path, *suffixes: str) -> dict[str, Path]:
     """
     Return the files of a directory by their plain names, in order; empty where it cannot be read.
 
+    Files whose names are not printable, or not UTF-8, are left out: no message can name them.
+
     :param suffixes: of the files, with the dot
     """
     try:
         return {
             path.stem: path
             for path in sorted(directory.iterdir())
-            if path.suffix in suffixes and not path.name.startswith('.') and path.is_file()
+            if path.suffix in suffixes
+            and path.name.isprintable()
+            and not path.name.startswith('.')
+            and path.is_file()
         }
     except OSError:
         return {}

@@ -120,7 +120,7 @@ class Pages:
             sys.stdout.flush()
 
     def _wake(self) -> None:
-        """Queue the handling of messages; called on the thread of the sketchpad."""
+        """Queue the handling of messages; called on another thread."""
         executor = self._node.executor
         # A started node handles them at its next tick.
         if not self._loop.started and executor is not None:

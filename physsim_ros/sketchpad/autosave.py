@@ -23,7 +23,7 @@ import time
 from typing import TypeAlias
 
 import numpy as np
-from physsim_ros.files import begin_on_thread, make_directory, read_bytes, write_file
+from physsim_ros.files import begin_on_thread, make_directory, read_bytes, read_parts, write_file
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
@@ -39,6 +39,8 @@ LONGEST = 2**20
 _BY, MOST_NAMES, _MOST_BY = '# drawn by: ', 12, 2**12
 # Topics of requests after which the world is as it was loaded.
 _FROM_FILE = frozenset({'~/load_world', '~/reset'})
+# Size of the file [bytes]; a character has up to four.
+_MOST_BYTES = _MOST_BY + 4 * LONGEST
 _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
 # Of its events.
 _TOPIC = 'autosave'
@@ -93,8 +95,9 @@ class Autosave:
         """Return the names of those who drew the unsaved world of the last start."""
         # There is no such world, or a person has spoilt its file.
         with suppress(OSError, ValueError, RecursionError):
-            with self._unsaved.open(encoding='utf-8') as file:
-                line = file.readline(_MOST_BY)
+            # What stands there may be no file, and never end.
+            start = next(read_parts(self._unsaved, _MOST_BYTES), b'')
+            line = start[:_MOST_BY].partition(b'\n')[0].decode()
             names = json.loads(line.removeprefix(_BY)) if line.startswith(_BY) else []
             if isinstance(names, list):
                 return [str(each) for each in names[:MOST_NAMES]]
@@ -106,8 +109,7 @@ class Autosave:
 
         :raises OSError: there is no such world
         """
-        # A character has up to four bytes.
-        return read_bytes(self._unsaved, _MOST_BY + 4 * LONGEST)
+        return read_bytes(self._unsaved, _MOST_BYTES)
 
     def forget_unsaved(self) -> str:
         """Delete the unsaved world of the last start, and return a message about it."""

@@ -10,13 +10,14 @@ Law: a session changes nothing itself; it submits requests, and every message ha
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
 import time
 from typing import Any, NamedTuple
 
 from physsim_ros.drawing import DrawingSession
-from physsim_ros.files import on_thread, OwnWorlds
+from physsim_ros.files import OwnWorlds
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.error_boundary import ErrorBoundary
@@ -27,6 +28,7 @@ from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
+from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts
@@ -62,6 +64,7 @@ class Shared(NamedTuple):
     :ivar own_worlds: of the user
     :ivar autosave: of the world
     :ivar results: of lessons in the world
+    :ivar file_work: that messages ask for
     :ivar list_worlds: sends the list of worlds to the page of a number, or to all
     :ivar ask_to_leave: asks the pupils who have come until now to leave
     """
@@ -73,6 +76,7 @@ class Shared(NamedTuple):
     own_worlds: OwnWorlds
     autosave: Autosave
     results: Results
+    file_work: FileWork
     list_worlds: Callable[[int | None], None]
     ask_to_leave: Callable[[], None]
 
@@ -254,17 +258,16 @@ class PageSession:
         :param work: returns the message of the answer; raises a Refusal
         """
 
-        async def answer() -> list[Answer]:
-            writing = on_thread(work, finishes=True)
+        def answer(done: Future[str]) -> None:
             try:
-                message = await self.world.boundary.slices_of_message(origin.topic, writing)
+                with self.world.boundary.message(origin.topic):
+                    message = done.result()
             except Refusal as refusal:
                 self.refuse(origin, refusal)
             else:
                 self.answer_page(origin, message)
-            return []
 
-        self.call(origin, answer, Wait.NONE)
+        self.shared.file_work.begin(work, answer)
 
     def perform(self, origin: Origin, action: Sliced[str], wait: Wait = Wait.NONE) -> None:
         """

@@ -27,6 +27,7 @@ _MOST_BYTES = 2**20
 # The fields `person`, `lesson` (its title), `answer` as typed, `right`, `at` [s since 1970], and
 # `tries` up to the first right answer.
 Result = dict[str, Any]
+_TYPES = {'person': str, 'lesson': str, 'answer': str, 'right': bool, 'at': int, 'tries': int}
 
 
 def results_file(world_dir: Path) -> Path:
@@ -39,9 +40,22 @@ def read_results(path: Path) -> list[Result]:
     # A file that a person has spoilt.
     with suppress(OSError, ValueError, RecursionError):
         results = json.loads(read_bytes(path, _MOST_BYTES))
-        if isinstance(results, list) and all(isinstance(each, dict) for each in results):
-            return results
+        # JSON may escape half of a surrogate pair, which no file holds.
+        _text_of(results)
+        if isinstance(results, list):
+            return [each for each in results if _is_result(each)][-MOST_RESULTS:]
     return []
+
+
+def _is_result(value: object) -> bool:
+    """Return whether a value has the fields of a result, and nothing else."""
+    return (
+        isinstance(value, dict) and {name: type(field) for name, field in value.items()} == _TYPES
+    )
+
+
+def _text_of(results: object) -> bytes:
+    return json.dumps(results, ensure_ascii=False).encode()
 
 
 class Results:
@@ -53,9 +67,7 @@ class Results:
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._results = {
-            (str(each.get('person')), str(each.get('lesson'))): each for each in read_results(path)
-        }
+        self._results = {(each['person'], each['lesson']): each for each in read_results(path)}
 
     def __iter__(self) -> Iterator[Result]:
         """Iterate over the results, the latest last."""
@@ -69,7 +81,7 @@ class Results:
         :raises OSError: the file cannot be written; nothing is noted
         """
         before = self._results.get((person, lesson), {})
-        tries = int(before.get('tries', 0)) + 1
+        tries = before.get('tries', 0) + 1
         result = {
             'person': person,
             'lesson': lesson,
@@ -102,7 +114,6 @@ class Results:
 
     def _replace(self, results: dict[tuple[str, str], Result]) -> None:
         """Have other results, once they are in the file."""
-        content = json.dumps(list(results.values()), ensure_ascii=False)
         make_directory(self._path.parent)
-        write_file(self._path, content.encode(), mode=0o600)
+        write_file(self._path, _text_of(list(results.values())), mode=0o600)
         self._results = results

@@ -20,7 +20,7 @@ import re
 from physsim_ros.drawing import SceneQuery
 from physsim_ros.model import requests
 from physsim_ros.model.errors import BadProperty, Frozen, TeacherOnly, ViewOnly
-from physsim_ros.model.names import shown_name
+from physsim_ros.model.names import shown_name, WORLD
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.line import Node
@@ -181,7 +181,8 @@ def _check_names(names: Iterable[str], world: WorldControl) -> None:
     """
     locks = locks_of(world.locked_bodies)
     for name in names:
-        if locks.has(name):
+        # Patterns are those of bodies.
+        if name != WORLD and locks.has(name):
             raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
 
 

@@ -23,6 +23,7 @@ from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
+from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.message import answer_content, asker_key, Message
 from physsim_ros.sketchpad.page_session import answers_of, PageSession, Shared
@@ -45,7 +46,7 @@ class Sketchpad:
     :param world: that the pages draw in
     :param address: to listen on
     :param port: to listen on, or the first free one after it
-    :param wake: called on the server's thread when a message has come
+    :param wake: called on another thread when a message has come, or a file is written
     :raises PhysSimError: it cannot listen there
 
     :ivar name: of the output
@@ -87,6 +88,7 @@ class Sketchpad:
             own_worlds,
             self._autosave,
             results,
+            FileWork(wake),
             self._server.list_worlds,
             self._server.ask_to_leave,
         )
@@ -174,10 +176,11 @@ class Sketchpad:
 
     def _do_periodic_work(self, now: float) -> None:
         """
-        Keep hands and send pasts, autosave the world, and tell where its recording is shown.
+        Note the ends of work on files, keep hands, send pasts, autosave, tell of the recording.
 
         :param now: steady time [s]
         """
+        self._shared.file_work.note_ends()
         for session in self._sessions.values():
             session.keep_hand(now)
         self._shared.pasts.send_due(now)

@@ -176,11 +176,11 @@ def test_a_polygon_goes_on_past_what_is_not_near_enough_to_its_first_corner() ->
     assert len(spawn.shape.outline) == 4
 
 
-def test_a_corner_that_is_clicked_twice_is_one() -> None:
-    spawn = drawn(
-        Tool.POLYGON, (0.0, 0.0), (2.0, 0.0), (2.0, 0.001), (2.0, 2.0), (2.0, 2.0), (0.0, 0.0)
-    )
-    assert len(spawn.shape.outline) == 3
+# A tenth of `snap` is the least length of a side.
+@pytest.mark.parametrize(('apart', 'corners'), [(0.0, 3), (0.001, 3), (0.0999, 3), (0.1, 4)])
+def test_a_corner_that_is_clicked_twice_is_one(apart: float, corners: int) -> None:
+    clicks = (0.0, 0.0), (2.0, 0.0), (2.0, apart), (2.0, 2.0), (2.0, 2.0), (0.0, 0.0)
+    assert len(drawn(Tool.POLYGON, *clicks, snap=1.0).shape.outline) == corners
 
 
 def test_a_polygon_has_as_many_corners_as_an_outline_may_have_and_one_more_drops_it() -> None:

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 import itertools
-import sys
 import tracemalloc
 
 import numpy as np
@@ -29,6 +28,7 @@ from physsim_ros.simulation.world.body_description import new_body
 import pytest
 
 from ..building import DISC
+from ..work import calls_of
 
 # Between 2, where work is proportional, and 4, where it grows by the square.
 TWICE = 2.5
@@ -63,21 +63,11 @@ NOBODY = crowd(0, DISC, anchored=True)
 
 def work(act: Callable[[], object]) -> Floats:
     """Return how often an act calls functions, of Python or C, and its greatest memory [bytes]."""
-    calls = 0
-
-    def note(_frame: object, event: str, _argument: object) -> None:
-        nonlocal calls
-        calls += event in {'call', 'c_call'}
-
     tracemalloc.start()
-    sys.setprofile(note)
     try:
-        act()
+        return np.array((calls_of(act), tracemalloc.get_traced_memory()[1]))
     finally:
-        sys.setprofile(None)
-        _, most = tracemalloc.get_traced_memory()
         tracemalloc.stop()
-    return np.array((calls, most))
 
 
 @pytest.mark.parametrize('kind', STROKES)
@@ -111,7 +101,7 @@ def test_a_stroke_is_read_with_the_newest_strokes_alone() -> None:
         reading = session.stroke(saw(number), '', NOBODY, began=0.5 * number)
         assert reading.meaning == 'wall'
 
-    calls = [work(partial(draw, number))[0] for number in range(MOST_STROKES + 4)]
+    calls = [calls_of(partial(draw, number)) for number in range(MOST_STROKES + 4)]
 
     grown = calls[:MOST_STROKES]
     assert grown == sorted(grown)
@@ -202,27 +192,26 @@ def test_a_cut_into_too_many_pieces_is_refused_with_little_work(shapes):
     # Values that are kept of a scene are made first.
     refuse()
     # As many as of a hundred boxes, each cut in two.
-    assert work(refuse)[0] < 100_000
+    assert calls_of(refuse) < 100_000
 
 
 def test_a_cut_beside_twice_as_many_bodies_is_hardly_more_work() -> None:
     """Of bodies whose circles the stroke meets, and whose boxes it does not."""
     stick = Box(width=100.0, height=0.1)
 
-    def beside(count: int) -> Floats:
+    def beside(count: int) -> int:
         sticks = [(stick, (50.0, 1.0 + 0.11 * number, 0.0)) for number in range(count)]
         query = query_of([(BOX, (1.0, 0.5, 0.0)), *sticks])
         assert len(knife.cut(*ACROSS, query).pieces) == 2
-        return work(lambda: knife.cut(*ACROSS, query))
+        return calls_of(lambda: knife.cut(*ACROSS, query))
 
-    some, more = beside(200), beside(400)
-    assert (more - some)[0] < 200 * 5
+    assert beside(400) - beside(200) < 200 * 5
 
 
 def test_a_joint_of_a_body_that_is_cut_is_compared_with_the_pieces_beside_it() -> None:
     line = Chain(points=tuple((0.1 * n, (-1.0) ** (n // 5)) for n in range(900)), thickness=0.02)
 
-    def jointed(count: int) -> Floats:
+    def jointed(count: int) -> int:
         ends = [line.points[5 * number] for number in range(count)]
         joints = tuple(
             Joint(
@@ -237,8 +226,7 @@ def test_a_joint_of_a_body_that_is_cut_is_compared_with_the_pieces_beside_it() -
         )
         query = query_of([(line, (0.0, 0.0, 0.0))], joints)
         assert len(knife.cut(*ACROSS, query).pieces) > 100
-        return work(lambda: knife.cut(*ACROSS, query))
+        return calls_of(lambda: knife.cut(*ACROSS, query))
 
-    some, more = jointed(60), jointed(120)
     # Of some 180 pieces, the circles of all.
-    assert (more - some)[0] < 60 * 2 * 1_000
+    assert jointed(120) - jointed(60) < 60 * 2 * 1_000

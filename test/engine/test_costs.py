@@ -10,9 +10,12 @@ from physsim_ros.model.requests import Delete, DeleteBodies
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
+import pytest
 
 from .costs import growth, MOST
 from ..building import spawn
+
+pytestmark = pytest.mark.cost
 
 
 def landing(count: int) -> Callable[[], object]:

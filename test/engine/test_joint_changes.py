@@ -125,38 +125,6 @@ def test_a_joint_that_is_changed_keeps_what_is_not_said():
     assert (joint.properties.stiffness, joint.properties.damping) == (9.0, 1.0)
 
 
-# To the bit
-
-
-def machine() -> World:
-    world = World()
-    for number in range(6):
-        spawn(world, f'a/{number}', Box(width=1.0, height=0.3), (number * 0.9, 3.0, 0.1 * number))
-    spawn(world, 'ground/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
-    for number, kind in enumerate(KINDS):
-        request = joining(
-            kind,
-            [(number * 0.6, 3.0), (number * 0.6 + 0.9, 3.0)][: kind.points],
-            f'joint/{number}',
-            a=f'a/{number % 6}',
-            b='world' if number % 3 == 0 else f'a/{(number + 1) % 6}',
-            **PROPERTIES.get(kind, {}),
-        )
-        world.apply(request)
-    return world
-
-
-def test_a_world_goes_on_from_a_checkpoint_to_the_bit():
-    world = machine()
-    world.step(200)
-    key = world.renew()
-    world.step(300)
-    first = world.digest()
-    world.resume(key)
-    world.step(300)
-    assert world.digest() == first
-
-
 @pytest.mark.parametrize('replaced', [False, True])
 def test_a_joint_that_is_made_under_the_name_of_another_has_no_force_yet(replaced):
     world = pair()

@@ -91,7 +91,7 @@ def test_a_machine_among_bodies_that_come_goes_on_as_one_that_knows_nothing():
     assert known.digest() == fresh.digest()
 
 
-@pytest.mark.memory
+@pytest.mark.cost
 def test_a_thousand_joints_of_one_body_are_linear_in_memory():
     # Its rows would fill a band of 2,000 by 2,000, from 4 million pairs.
     world = World()

@@ -11,7 +11,6 @@ from physsim_ros.model.shapes import Box, Chain, Disc, hull_of, Triangles
 import pytest
 
 from ..laws.scenes import DT, floor, G, run, simulation, spawn
-from ..outside import run_python
 
 WATER = {'density': 10.0, 'viscosity': 1.0}
 
@@ -226,32 +225,3 @@ def test_a_sleeping_raft_that_is_struck_floats_whatever_is_requested_far_away(he
     # g for a sub-step is 10 mm/s.
     assert struck_raft(height, rebuilt=True) == pytest.approx(velocity, abs=1e-6)
     assert np.abs(velocity).max() > 0.1
-
-
-# Prints by how much the memory of a process grows at most in the first step of bodies and regions.
-FIRST_STEP = """
-import re
-from pathlib import Path
-
-from physsim_ros.model.shapes import Disc
-from test.laws.scenes import simulation, spawn
-
-
-def memory(kind):
-    text = Path('/proc/self/status').read_text()
-    return int(re.search(rf'{kind}:\\s+(\\d+) kB', text)[1]) / 1024.0
-
-
-sim = simulation()
-for number in range(1000):
-    medium = {'sensor': True, 'medium': {'density': 10.0}, 'anchored': True}
-    spawn(sim, f'pool/{number}', Disc(radius=0.2), (number, 10.0, 0.0), **medium)
-    spawn(sim, f'disc/{number}', Disc(radius=0.2), (number, 0.0, 0.0))
-before = memory('VmSize')
-sim.world.step(1)
-print(memory('VmPeak') - before)
-"""
-
-
-def test_memory_of_the_first_step_is_not_that_of_each_body_in_each_region():
-    assert float(run_python('-c', FIRST_STEP)) < 50.0

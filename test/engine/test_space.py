@@ -268,6 +268,7 @@ def test_a_point_is_of_a_body_up_to_a_hundred_millionth_of_a_metre_from_it(world
     assert world.space.bodies.at((0.5 + 1e-8, 0.0)) == []
 
 
+@pytest.mark.cost
 def test_many_pieces_in_a_row_enter_the_engine_in_any_place_of_its_tree(monkeypatch):
     """One after the other they make a tree as deep as there are pieces."""
     points = tuple((0.06 * number, math.sin(0.1 * number)) for number in range(1000))
@@ -278,7 +279,7 @@ def test_many_pieces_in_a_row_enter_the_engine_in_any_place_of_its_tree(monkeypa
     def duration(block: int) -> float:
         monkeypatch.setattr(bodies, '_BLOCK', block)
         pm_space = pymunk.Space()
-        made = [bodies.build_body(chain).pm_body for _ in range(20)]
+        made = [bodies.build_body(chain).pm_body for _ in range(6)]
         for number, pm_body in enumerate(made):
             pm_body.position = 0.0, 3.0 * number
         began = time.thread_time()

@@ -7,31 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import gc
-import sys
 
 from physsim_ros.files import load_mapping, state_from
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.sketchpad.message import json_object
 import pytest
 
+from ..work import calls_of
+
 # Between 2, where work is proportional, and 4, where it grows by the square.
 TWICE = 2.5
-
-
-def calls_of(act: Callable[[], object]) -> int:
-    """Return how often an act calls functions, of Python or C."""
-    calls = 0
-
-    def note(_frame: object, event: str, _argument: object) -> None:
-        nonlocal calls
-        calls += event in {'call', 'c_call'}
-
-    sys.setprofile(note)
-    try:
-        act()
-    finally:
-        sys.setprofile(None)
-    return calls
 
 
 def text_of_row(count: int, members: str) -> str:

@@ -35,13 +35,13 @@ def test_a_relation_holds_for_a_scene(relation, scene):
 
 @pytest.mark.parametrize('scene', [name for name, scene in SCENES.items() if scene.chaotic])
 def test_chaos_is_seen_by_a_displacement_that_grows(scene):
-    grown = []
-    for size, seed in itertools.product((1e-12, 1e-9, 1e-7), range(4)):
+    def growth(size, seed):
         moved = begin(changes.shaken(SCENES[scene].state, by=size, seed=seed))
         seen = play(moved, SCENES[scene].seconds)
-        grown.append(difference(film(SCENES[scene]), seen).way / size)
+        return difference(film(SCENES[scene]), seen).way / size
 
-    assert max(grown) >= 1000.0
+    displacements = itertools.product((1e-9, 1e-7, 1e-12), range(4))
+    assert any(growth(*each) >= 1000.0 for each in displacements)
 
 
 def test_exceptions_are_those_of_crossings_that_there_are():
@@ -58,8 +58,3 @@ def test_each_exception_has_one_reason():
     ]
     assert len(told) == len(set(told))
     assert UNKNOWN not in REASONS
-
-
-def test_there_are_a_hundred_scenes_and_eighteen_relations():
-    assert len(SCENES) >= 100
-    assert len(RELATIONS) >= 18

@@ -3,11 +3,27 @@
 
 """Fixtures of the tests in this folder."""
 
+from collections.abc import Generator
+
 from physsim_ros.simulation.world import World
 import pytest
 
 from .driven import Driven
 from ..building import BOX, NOWHERE, spawning
+
+
+@pytest.fixture
+def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return a list to which each world adds the number of steps that it is to make."""
+    asked: list[int] = []
+    slices_of_steps = World.slices_of_steps
+
+    def counted(world: World, count: int) -> Generator[None]:
+        asked.append(count)
+        return slices_of_steps(world, count)
+
+    monkeypatch.setattr(World, 'slices_of_steps', counted)
+    return asked
 
 
 @pytest.fixture

@@ -3,13 +3,14 @@
 
 """Hands grab bodies, drag, throw and let go."""
 
+from dataclasses import replace
 import math
 
 import numpy as np
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
 from physsim_ros.model.requests import Anchor, Delete, DeleteAll, Grab, LetGo, MoveHand, Restore
 from physsim_ros.model.settings import MOST_HANDS, WorldSettings
-from physsim_ros.model.shapes import Box
+from physsim_ros.model.shapes import Box, Shape
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.entries import Origin
@@ -35,24 +36,38 @@ def dragged(world: World, to: Point, steps: int, hand: str = 'h') -> list[np.nda
     return twists
 
 
-@pytest.mark.parametrize('mass', [1e-3, 1.0, 1e6])
-@pytest.mark.parametrize(('shape', 'arm'), [(DISC, 0.0), (ROD, ARM)])
-def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(mass, shape, arm, world):
+def gaps_of(shape: Shape, arm: float, mass: float = 1.0, damping: float = 0.0) -> np.ndarray:
+    """Return how far a body is below the hand that draws it up, after each of 120 steps [m]."""
+    world = World(settings=replace(NOWHERE, damping=damping))
     spawn(world, 'a/0', shape, mass=mass)
     world.apply(Grab(hand='h', point=(arm, 0.0)))
-    world.apply(MoveHand(hand='h', point=(arm + 0.05, 0.0)))
+    world.apply(MoveHand(hand='h', point=(arm, 0.05)))
     gaps = []
     for _ in range(120):
         world.step(1)
         anchor, hand = world.snapshot().grip_lines[0]
-        gaps.append(hand[0] - anchor[0])
+        gaps.append(hand[1] - anchor[1])
+    return np.array(gaps)
+
+
+@pytest.mark.parametrize('mass', [1e-3, 1.0, 1e6])
+@pytest.mark.parametrize(('shape', 'arm'), [(DISC, 0.0), (ROD, ARM)])
+def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(mass, shape, arm):
+    gaps = gaps_of(shape, arm, mass)
 
     # Critically damped: (1 + w t) e^(-w t), to the error of the implicit method, of order w dt.
     times = DT * np.arange(1, 121)
     omega = 2.0 * math.pi * 5.0
     wanted = 0.05 * (1.0 + omega * times) * np.exp(-omega * times)
-    assert np.abs(np.array(gaps) - wanted).max() < 0.05 * omega * DT
+    assert np.abs(gaps - wanted).max() < 0.05 * omega * DT
     assert min(gaps) > -1e-9
+
+
+def test_damping_slows_a_rod_that_is_turned_by_its_hand_as_a_disc():
+    turned, pulled = gaps_of(ROD, ARM, damping=0.99), gaps_of(DISC, 0.0, damping=0.99)
+
+    # To the cube of the angle.
+    assert turned == pytest.approx(pulled, abs=1e-5)
 
 
 @pytest.mark.parametrize('gravity', [(0.0, -9.81), (0.0, -1.62), (0.0, 0.0)])

@@ -8,7 +8,6 @@ from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.entries import Amend, Origin, TakeBack, Unread, Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import World
 import pytest
 
 from .driven import FLOOR, SECOND, take_back, world_after
@@ -370,20 +369,6 @@ def of_anna_and_ben(seconds: int) -> Simulation:
     simulation = world_after(*timed, frames=60 * seconds + 2)
     simulation.speed = 0.0
     return simulation
-
-
-@pytest.fixture
-def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """Return a list to which each call of the engine adds its number of steps."""
-    made: list[int] = []
-    step = World.step
-
-    def counted(world: World, count: int) -> tuple[str, ...]:
-        made.append(count)
-        return step(world, count)
-
-    monkeypatch.setattr(World, 'step', counted)
-    return made
 
 
 def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were_done(steps):

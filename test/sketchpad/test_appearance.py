@@ -266,6 +266,10 @@ def test_on_a_telephone_words_and_choices_are_whole(
     sheet.page.get_by_role('button', name='Umbenennen').wait_for()
     assert sheet.page.evaluate(BROKEN) == []
     sheet.page.keyboard.press('Escape')
+    sheet.press('Hilfe')
+    sheet.page.get_by_text('Was der Stift versteht').wait_for()
+    assert sheet.page.evaluate(BROKEN) == []
+    sheet.page.keyboard.press('Escape')
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     sheet.press('Mehr')

@@ -140,6 +140,11 @@ def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) ->
         assert again.unsaved_by == []
     again.forget_unsaved()
     assert again.unsaved_by == []
+    # Whoever opened it to read would wait for somebody who writes.
+    os.mkfifo(tmp_path / '.unsaved.yaml')
+    assert again.unsaved_by == []
+    with pytest.raises(OSError, match='not a regular file'):
+        again.unsaved_content()
 
 
 def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) -> None:

@@ -241,10 +241,10 @@ def test_a_socket_to_no_seat_is_refused_and_no_error(
     assert 'failure' not in capsys.readouterr().err
 
 
-def place(sheet: Sheet, number: int) -> str:
-    """Return the place of the card of a seat."""
-    value: str = sheet.page.locator('#seats li').nth(number).evaluate('card => card.style.order')
-    return value
+def names_on(sheet: Sheet) -> list[str]:
+    """Return the names on the cards of a teacher's page, in the order in which Tab comes there."""
+    names: list[str] = sheet.page.locator('#seats li a').all_inner_texts()
+    return names
 
 
 def come(chromium: Any, address: str, name: str) -> Sheet:
@@ -380,19 +380,25 @@ def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
     sheet.page.get_by_text('2 of 2 here').wait_for()
     anna.page.get_by_role('textbox', name='Your answer').fill('1.01')
     anna.press('Check')
-    card = sheet.page.locator('#seats li').first
+    card = sheet.page.locator('#seats li').filter(has_text='Anna')
     card.get_by_text('1.01 s ✓ right').wait_for()
+    more = card.get_by_role('button', name='More')
+    more.focus()
     ben.press('Raise your hand')
     sheet.page.get_by_text('2 of 2 here · hands raised: 1').wait_for()
     # Hands come first, the earliest before others; then people by their names.
-    sheet.until(lambda: [place(sheet, each) for each in range(2)] == ['1', '0'], 'an order')
+    sheet.until(lambda: names_on(sheet) == ['Ben', 'Anna'], 'an order')
+    # Who works by keys stays where they are.
+    assert more.evaluate('each => each === document.activeElement')
     anna.press('Raise your hand')
     sheet.page.get_by_text('hands raised: 2').wait_for()
-    assert [place(sheet, each) for each in range(2)] == ['1', '0']
-    sheet.page.locator('#seats li').nth(1).get_by_role('button', name='Lower the hand').click()
+    assert names_on(sheet) == ['Ben', 'Anna']
+    sheet.page.locator('#seats li').filter(has_text='Ben').get_by_role(
+        'button', name='Lower the hand'
+    ).click()
     ben.page.get_by_role('button', name='Raise your hand', pressed=False).wait_for()
-    sheet.until(lambda: [place(sheet, each) for each in range(2)] == ['0', '1'], 'an order')
-    card.get_by_role('button', name='More').click()
+    sheet.until(lambda: names_on(sheet) == ['Anna', 'Ben'], 'an order')
+    more.click()
     sheet.page.get_by_label('Message to Anna').fill('Well done')
     sheet.page.get_by_role('dialog').get_by_role('button', name='Send').click()
     anna.page.get_by_text('Teacher: Well done').wait_for()

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 import json
 import math
 from pathlib import Path
+from threading import Event
 import time
 from types import ModuleType
 from typing import Any
@@ -16,11 +17,13 @@ from urllib.parse import quote
 
 from physsim_ros.files import shipped_lessons
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.lesson import LONGEST_TITLE
 from physsim_ros.ros import node_control, world_files
 from physsim_ros.simulation.world import Beginning, beginning_of
-from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad import file_work, results, Role
 from physsim_ros.sketchpad.messages.classroom import LONGEST_ANSWER, LONGEST_MESSAGE
-from physsim_ros.sketchpad.results import Results, results_file
+from physsim_ros.sketchpad.messages.fields import LONGEST_PERSON
+from physsim_ros.sketchpad.results import MOST_RESULTS, Results, results_file
 from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server.access import Access
 from physsim_ros.testing import PhysSim
@@ -577,6 +580,50 @@ def test_results_stay_and_an_answer_that_was_right_is_not_lost(
     assert results() == []
 
 
+def test_neither_world_nor_pages_wait_for_a_slow_disk_and_no_answer_is_lost(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pages = [browser.open_page() for _ in range(3)]
+    for number, page in enumerate(pages):
+        assert page.ask('person', name=f'Pupil {number}')['ok']
+    write_file, goes_on = results.write_file, Event()
+
+    def write_slowly(path: Path, data: bytes, *, mode: int) -> None:
+        assert goes_on.wait(20.0), 'the world waits'
+        write_file(path, data, mode=mode)
+
+    monkeypatch.setattr(results, 'write_file', write_slowly)
+    monkeypatch.setattr(file_work, 'MOST_WORK', 6)
+    answer = {'lesson': 'Lever', 'right': True}
+    sent = [(page, page.send('answered', answer='2', **answer)) for page in 2 * pages]
+    for page in pages:
+        # Those before have come.
+        assert page.ask('drop')['ok']
+    assert pages[0].ask('answered', answer='3', **answer)['code'] == 'busy'
+    assert pages[0].spawn('a/0')['ok']
+    before = browser.physsim.time
+    browser.physsim.run(0.1)
+    assert browser.physsim.time > before
+    assert not any(page.answers(id_) for page, id_ in sent)
+    goes_on.set()
+    for page, id_ in sent:
+        page.until(lambda page=page, id_=id_: page.answers(id_))
+        assert page.answers(id_)[0]['ok']
+    kept = [
+        (each['person'], each['answer']) for each in results.read_results(results_file(tmp_path))
+    ]
+    assert kept == [(f'Pupil {number}', '2') for number in range(3)]
+
+
+def test_the_greatest_results_fit_into_their_file(tmp_path: Path) -> None:
+    kept, sign = Results(results_file(tmp_path)), '\N{GRINNING FACE}'
+    for number in range(MOST_RESULTS + 1):
+        person = f'{number}{sign * LONGEST_PERSON}'[:LONGEST_PERSON]
+        kept.note(person, sign * LONGEST_TITLE, sign * LONGEST_ANSWER, right=True)
+    assert list(Results(results_file(tmp_path))) == list(kept)
+    assert len(list(kept)) == MOST_RESULTS
+
+
 def test_an_answer_that_cannot_be_written_is_refused_and_not_counted(tmp_path: Path) -> None:
     results = Results(results_file(tmp_path))
     results.note('Anna', 'Lever', '1', right=False)
@@ -592,7 +639,12 @@ def test_an_answer_that_cannot_be_written_is_refused_and_not_counted(tmp_path: P
 
 
 def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path) -> None:
-    for text in ('', '{', '[1]', '{}', '[{}]', '\udcff', '[' * 100_000):
+    one = (
+        '{"person": "Anna", "lesson": "Lever", "answer": "", "right": false, "at": 1, "tries": %s}'
+    )
+    spoilt = (f'[{one % tries}]' for tries in ('"x"', 'Infinity', '[]', 'true', '1, "x": NaN'))
+    half = '[{"person": "\\ud800"}]'
+    for text in ('', '{', '[1]', '{}', '[{}]', '\udcff', '[' * 100_000, half, *spoilt):
         results_file(tmp_path).write_text(text, errors='surrogateescape')
         assert (
             Results(results_file(tmp_path)).note('Anna', 'Lever', '1', right=False)['tries'] == 1

@@ -42,6 +42,25 @@ def test_bodies_are_copied_cut_pasted_and_all_selected_by_keys(sheet: Sheet) -> 
     assert sheet.page.get_by_role('menuitem', name='Paste').count() == 0
 
 
+def test_a_text_that_is_selected_is_copied_as_a_text(sheet: Sheet) -> None:
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name='9. Pendulum').click()
+    sheet.wait('"bob/0" in physsim.bodies && physsim.time === 0')
+    sheet.page.evaluate(
+        'document.addEventListener("copy", () => { window.copied = String(getSelection()); })'
+    )
+    sheet.page.mouse.click(*sheet.place(*sheet.pose('bob/0')[:2]))
+    sheet.page.locator('#lesson .question').click(click_count=3)
+    sheet.page.keyboard.press('Control+c')
+    assert sheet.page.evaluate('window.copied').startswith('How long does a pendulum of 2.5 m')
+    # On the canvas, bodies are copied, though the text is still selected.
+    sheet.page.locator('#world').focus()
+    sheet.page.keyboard.press('Control+c')
+    sheet.page.get_by_role('status').get_by_text('Copied', exact=True).wait_for()
+    sheet.press('Undo')
+    sheet.wait('"ball/0" in physsim.bodies')
+
+
 def test_the_right_button_opens_a_menu_of_the_body_there(sheet: Sheet) -> None:
     menu = sheet.page.get_by_role('menu')
     sheet.page.mouse.click(*sheet.place(4.0, 0.5), button='right')

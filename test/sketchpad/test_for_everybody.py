@@ -88,6 +88,51 @@ def test_a_button_that_is_pressed_by_a_key_keeps_the_focus(sheet: Sheet) -> None
         assert button.evaluate('each => each === document.activeElement'), name
 
 
+def test_keys_belong_to_the_control_that_has_the_focus(sheet: Sheet) -> None:
+    pen = sheet.page.get_by_role('button', name='Pen', exact=True)
+    sheet.press('Pen')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    ways = sheet.page.get_by_label('Lets others pass')
+    ways.focus()
+    sheet.page.keyboard.press('ArrowDown')
+    assert ways.input_value() == '0,1'
+    # By its first letters an option is chosen.
+    sheet.page.keyboard.press('d')
+    assert ways.input_value() == '0,-1'
+    numbers = sheet.page.locator('.typed')
+    for key in ('Enter', 'Space'):
+        before = numbers.evaluate('each => each.open')
+        numbers.locator('summary').focus()
+        sheet.page.keyboard.press(key)
+        assert numbers.evaluate('each => each.open') != before
+    sheet.page.get_by_role('button', name='Delete body').focus()
+    sheet.page.keyboard.press('h')
+    assert pen.get_attribute('aria-pressed') == 'true'
+    assert sheet.page.evaluate('physsim.speed') == 0
+
+
+def test_letters_are_no_keys_where_somebody_does_not_want_them(sheet: Sheet) -> None:
+    sheet.press('Pen')
+    sheet.press('Help')
+    sheet.page.get_by_label('Letters and digits as keys').uncheck()
+    sheet.page.keyboard.press('Escape')
+    hand, pen = (
+        sheet.page.get_by_role('button', name=name, exact=True) for name in ('Hand', 'Pen')
+    )
+    sheet.page.keyboard.press('h')
+    assert pen.get_attribute('aria-pressed') == 'true'
+    sheet.page.keyboard.press('?')
+    assert sheet.page.get_by_role('dialog').count() == 0
+    # What has no letter works on.
+    sheet.page.keyboard.press('Control+a')
+    sheet.page.get_by_role('heading', name='3 bodies').wait_for()
+    sheet.press('Help')
+    sheet.page.get_by_label('Letters and digits as keys').check()
+    sheet.page.keyboard.press('Escape')
+    sheet.page.keyboard.press('h')
+    assert hand.get_attribute('aria-pressed') == 'true'
+
+
 def test_words_stand_at_icons_where_somebody_wants_them(sheet: Sheet) -> None:
     word = sheet.page.get_by_role('button', name='Spring', exact=True).get_by_text('Spring')
     assert not word.is_visible()
@@ -150,8 +195,9 @@ def test_buttons_of_the_legend_are_as_large_as_a_finger(chromium: Any, address: 
         size = {'width': width, 'height': height}
         sheet = Sheet(chromium, address, viewport=size, has_touch=True, is_mobile=True)
         sheet.press('Show forces')
-        buttons = sheet.page.locator('#legend button:visible').all()
-        boxes = [each.bounding_box() for each in buttons]
+        buttons = sheet.page.locator('#legend button:visible')
+        buttons.first.wait_for()
+        boxes = [each.bounding_box() for each in buttons.all()]
         assert boxes
         assert all(min(box['width'], box['height']) >= 44 for box in boxes)
         sheet.close()

@@ -57,3 +57,13 @@ def test_pages_go_on_while_lessons_are_read_which_is_done_once_for_all_that_ask(
         # One for those that asked before the files were read, and one for those after.
         assert len(page.of_type('worlds')) <= 2
     assert len(read) == 2
+
+
+def test_files_that_no_message_can_name_are_left_out(browser: Browser, tmp_path: Path) -> None:
+    for name in ('own', 'new\nline', '\udcff'):
+        (tmp_path / f'{name}.yaml').write_text('format: 1')
+    page = browser.open_page()
+    own = [each['name'] for each in page.last('worlds')['worlds'] if not each['shipped']]
+    assert own == ['own']
+    # The refusal tells the nearest name.
+    assert page.ask('open', name='owm')['code'] == 'bad_world_file'

@@ -6,6 +6,7 @@
 import asyncio
 from contextlib import ExitStack, suppress
 import json
+from pathlib import Path
 import socket
 
 from physsim_ros.sketchpad import Role
@@ -60,6 +61,26 @@ def test_every_answer_forbids_foreign_and_inline_scripts(browser: Browser) -> No
         assert "default-src 'none'" in policy
         assert 'unsafe' not in policy
         assert response.headers['X-Content-Type-Options'] == 'nosniff'
+
+
+@pytest.mark.parametrize(
+    'path',
+    ['/', '/session', '/page/app.js', '/gallery/car.svg', '/world/own.yaml', '/results', '/none'],
+)
+def test_head_is_answered_as_get_without_the_content(
+    browser: Browser, tmp_path: Path, path: str
+) -> None:
+    (tmp_path / 'own.yaml').write_text('format: 1')
+    head, get = (browser.fetch(path, method=method) for method in ('HEAD', 'GET'))
+    assert (head.code, head.body) == (get.code, b'')
+    for name in ('Content-Type', 'Content-Security-Policy'):
+        assert head.headers[name] == get.headers[name]
+
+
+def test_a_socket_is_opened_by_get_alone(browser: Browser) -> None:
+    headers = {'Origin': browser.base, 'Upgrade': 'websocket', 'Connection': 'Upgrade'}
+    headers |= {'Sec-WebSocket-Key': 'AAAAAAAAAAAAAAAAAAAAAA==', 'Sec-WebSocket-Version': '13'}
+    assert browser.fetch('/ws', method='HEAD', headers=headers).code == 405
 
 
 @pytest.mark.parametrize(
@@ -194,6 +215,10 @@ WRONG: dict[str, list[str | bytes]] = {
         '{"type": "service", "name": "quit"}',
         '{"type": "draw_with", "color": "red; }"}',
         '{"type": "show", "velocities": 1}',
+        '{"type": "place", "names": ["a/1"], "poses": []}',
+        '{"type": "follow", "names": false}',
+        '{"type": "stroke", "points": [[0, 0, -1e308], [1, 1, 1e308], [2, 0, 0]]}',
+        '{"type": "answered", "lesson": "' + 'l' * 81 + '", "answer": "1", "right": true}',
     ],
     'bad_size': ['{"type": "spawn", "body": {"name": "a/1", "circle": {"radius": -1}}}'],
     'bad_world_file': [

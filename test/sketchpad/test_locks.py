@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import Tool
-from physsim_ros.model import requests
+from physsim_ros.model import names, requests
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import Frozen
 from physsim_ros.model.motor_command import CommandPoint, MotorCommand
@@ -232,6 +232,18 @@ def test_each_kind_of_message_is_for_the_roles_of_its_right(
             assert pages[role].ask(name, **fields)['code'] == refused, (name, role)
         if right is Right.CHANGE:
             assert pupil.ask(name, **fields)['code'] == 'frozen', name
+
+
+def test_a_pattern_is_one_of_bodies_and_not_of_the_background(
+    browser: Browser, tmp_path: Path
+) -> None:
+    pupil, boss = opened(browser, tmp_path)
+    assert boss.ask('lock', names=['w*', 'world'])['ok']
+    for number, b in enumerate(('', names.WORLD)):
+        joint = requests.Join(name=f'pin/{number}', kind='pin', a='b/0', b=b, points=((4.0, 5.0),))
+        check_locked(Role.DRAW, [joint], browser.physsim.node.control)
+    assert pupil.ask('click', tool='anchor', point=[4.0, 5.0])['ok']
+    assert pupil.spawn('w/0', 8.0)['code'] == 'frozen'
 
 
 # A request of each type that the world carries out, about body `b/0` or what is joined to it.

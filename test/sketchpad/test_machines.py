@@ -67,7 +67,7 @@ def test_a_copy_of_a_part_is_a_whole_robot(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.page.mouse.click(*sheet.place(-1.8, 2.0))
     heading(sheet, 'Upper arm/0/upper/0')
-    sheet.press('Copy')
+    sheet.press('Copy beside')
     sheet.wait('count => Object.keys(physsim.bodies).length === count', BODIES + 3)
     sheet.page.get_by_role('status').get_by_text('Copied a robot').wait_for()
     assert {name.partition('/')[0] for name in sheet.names() - before} == {'drawn'}

@@ -262,7 +262,7 @@ def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
     panel.get_by_label('Bounciness', exact=True).fill('0.9')
     panel.get_by_label('Anchored').check()
     sheet.page.get_by_text('changed').first.wait_for(state='attached')
-    sheet.press('Copy')
+    sheet.press('Copy beside')
     sheet.wait('Object.keys(physsim.bodies).length === 4')
     sheet.press('Delete body')
     sheet.wait('!("ball/0" in physsim.bodies)')

@@ -292,6 +292,30 @@ def test_a_run_that_is_sent_is_replayed_to_the_bit(browser: Browser) -> None:
     assert teacher.ask('open_text', world=long)['code'] == 'bad_property'
 
 
+def test_pages_go_on_while_the_text_of_a_world_is_read(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page, teacher = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
+    load_mapping, goes_on = worlds.load_mapping, threading.Event()
+
+    def load_slowly(text: str, *, field: str) -> Any:
+        assert goes_on.wait(20.0), 'the pages wait'
+        return load_mapping(text, field=field)
+
+    monkeypatch.setattr(worlds, 'load_mapping', load_slowly)
+    node = browser.physsim.node
+    node.start()
+    opening = teacher.send('open_text', world='format: 1')
+    page.send('ping')
+    page.last('pong')
+    for _ in range(20):
+        node.tick(time.monotonic_ns())
+    assert not teacher.answers(opening)
+    goes_on.set()
+    teacher.until(lambda: node.tick(time.monotonic_ns()) or teacher.answers(opening))
+    assert teacher.answers(opening)[0]['ok']
+
+
 def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:

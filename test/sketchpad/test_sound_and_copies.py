@@ -22,6 +22,7 @@ bodies:
   - {name: box/0, box: {width: 1, height: 1}, at: [-1, 0.5]}
 joints:
   - {name: rod/0, kind: rod, a: ball/0, b: box/0, points: [[-3, 4], [-1, 0.5]]}
+  - {name: rod/1, kind: rod, a: box/0, points: [[-1, 0.5], [-1, 3]]}
 """
 
 
@@ -64,3 +65,13 @@ def test_bodies_of_the_lasso_are_copied_beside_with_their_joint(sheet: Sheet) ->
     sheet.page.get_by_role('status').get_by_text('Copied 2 bodies').wait_for()
     sheet.press('Undo')
     sheet.wait('Object.keys(physsim.bodies).length === 2')
+
+
+def test_a_body_is_copied_beside_with_its_joint_to_the_background(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(-1.0, 0.4))
+    sheet.press('Copy beside')
+    sheet.wait('"drawn/0" in physsim.bodies')
+    # By its width and half a metre.
+    assert sheet.pose('drawn/0')[:2] == pytest.approx([0.5, 0.5])
+    sheet.page.get_by_role('status').get_by_text('Copied one body').wait_for()

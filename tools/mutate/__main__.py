@@ -44,7 +44,7 @@ def candidates(words: list[str]) -> list[Mutation]:
 def tests_of(path: Path) -> list[str]:
     """Return the folders whose fast tests have to notice a mutation of a file."""
     if path.parts[1] == 'engine':
-        return ['test/engine', 'test/laws']
+        return ['test/engine', 'test/laws', 'test/relations']
     folder = f'test/{path.parts[1]}'
     # Limits are promised by documents, whatever folder they are of.
     return [folder, 'test/test_limits.py'] if (ROOT / folder).is_dir() else ['test']

@@ -9,10 +9,10 @@ UndefinedBehaviorSanitizer. What the core is handed are arrays of NumPy, which t
 heap, so that their ends are known, too. The first defect ends the run with the report of the
 sanitizer, and the exit code is 1.
 
-The tests are the laws and those of the engine, but for slow ones, and for those that weigh the
-process, since AddressSanitizer keeps for a while what is freed. `HISTORIES=40 make sanitize`
-chooses the number of histories, which is 200, and `make sanitize ARGS='test/drawing -k time'`
-other tests; those over ROS do not run there.
+The tests are the laws and those of the engine, but for slow ones, and for those that measure
+memory or CPU time: AddressSanitizer keeps for a while what is freed, and checks take time.
+`HISTORIES=40 make sanitize` chooses the number of histories, which is 200, and
+`make sanitize ARGS='test/drawing -k time'` other tests; those over ROS do not run there.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def run_tests(tree: Path, words: list[str]) -> tuple[int, str]:
     pytest = [sys.executable, '-m', 'pytest', '-p', 'no:faulthandler', '--exitfirst']
     # A worker that is ended has no time to hand over what pytest has captured.
     pytest += ['--capture=sys', '--numprocesses=auto', '--maxprocesses=8', '--dist=worksteal']
-    pytest += ['--max-worker-restart=0', '-m', 'not slow and not memory']
+    pytest += ['--max-worker-restart=0', '-m', 'not slow and not cost']
     with TemporaryFile(mode='w+', errors='replace') as errors:
         done = subprocess.run(
             [*pytest, *words], cwd=tree, env=environment(tree), stderr=errors, check=False

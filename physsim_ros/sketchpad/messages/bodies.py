@@ -29,6 +29,7 @@ from physsim_ros.model.requests import (
     DriveRobot,
     Join,
     MoveBodies,
+    Request,
     Spawn,
     Unjoin,
 )
@@ -70,13 +71,13 @@ def _velocity(value: object, name: str) -> Twist:
 
 
 def _poses(value: object, name: str) -> list[Pose]:
-    if not isinstance(value, list):
-        raise BadProperty(f'{name} must be a list of poses', field=name)
+    if not isinstance(value, list) or not value:
+        raise BadProperty(f'{name} must be a list of at least one pose', field=name)
     return [fields.three(each, name, 'x', 'y', 'yaw') for each in value]
 
 
 def _followed(value: object, name: str) -> frozenset[str]:
-    return frozenset(fields.names(value, name) if value else ())
+    return frozenset(fields.names(value, name) if value != [] else ())
 
 
 # Bodies
@@ -110,16 +111,23 @@ def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list
 def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
     """Add a body like another one, of a part the whole robot, at rest, at a point [m]."""
     requests = page.drawing.copy(name, to, page.world.current_snapshot())
-    # Of a robot with parts there are several answers.
-    told: dict[str, Any] = {'message': 'copied a robot', 'values': (request_count(len(requests)),)}
-    page.submit(origin, requests, **told if len(requests) > 1 else {})
+    _submit_copies(page, origin, requests)
 
 
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
 def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Add bodies like others, with the joints among them, at rest, at a distance [m]."""
     requests = page.drawing.copy_machine(names, by, page.world.current_snapshot())
-    message = f'copied {counted(len(names), "body")}'
+    _submit_copies(page, origin, requests)
+
+
+def _submit_copies(page: PageSession, origin: Origin, requests: tuple[Request, ...]) -> None:
+    """Submit the requests for copies; before several answers stands one for all."""
+    if len(requests) == 1:
+        page.submit(origin, requests)
+        return
+    robots = [each.properties.robot is not None for each in requests if isinstance(each, Spawn)]
+    message = 'copied a robot' if robots == [True] else f'copied {counted(len(robots), "body")}'
     page.submit(origin, requests, message=message, values=(request_count(len(requests)),))
 
 

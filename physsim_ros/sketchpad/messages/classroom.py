@@ -10,6 +10,7 @@ import re
 
 from physsim_ros.model.checks import flag, Whole
 from physsim_ros.model.errors import BadProperty, NothingThere
+from physsim_ros.model.lesson import LONGEST_TITLE
 from physsim_ros.model.requests import DeleteBodies
 from physsim_ros.simulation.entries import Origin, TakeBack, Unread
 from physsim_ros.sketchpad.message import message
@@ -32,6 +33,14 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
     return patterns
 
 
+def _title(value: object, name: str) -> str:
+    """Return the title of a lesson."""
+    title = fields.text(value, name)
+    if len(title) > LONGEST_TITLE:
+        raise BadProperty(f'{name} has more than {LONGEST_TITLE} characters', field=name)
+    return title
+
+
 @message('person', 'page', Right.DRAW, name=fields.person)
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
@@ -43,7 +52,7 @@ def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     page.answer_page(origin, f'you are {name}')
 
 
-@message('answered', 'page', Right.DRAW, lesson=fields.text, answer=fields.text, right=flag)
+@message('answered', 'page', Right.DRAW, lesson=_title, answer=fields.text, right=flag)
 def note_answer(
     page: PageSession, origin: Origin, lesson: str, answer: str, *, right: bool
 ) -> None:

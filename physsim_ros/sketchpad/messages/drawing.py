@@ -14,7 +14,7 @@ import numpy as np
 from physsim_ros.drawing import Reading, submit_reading, Tool
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import number, shown
+from physsim_ros.model.checks import LONGEST, number, shown
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import BadProperty, Malformed, NotRecognised
 from physsim_ros.model.requests import Grab, LetGo, MoveHand
@@ -42,8 +42,10 @@ def _samples(value: object, name: str) -> Floats:
         raise Malformed('a sample of the stroke is not finite', field=name) from error
     if not np.isfinite(samples).all():
         raise Malformed('a sample of the stroke is not finite', field=name)
-    if len(samples):
-        samples[:, 2] -= samples[0, 2]
+    with np.errstate(over='ignore'):
+        samples[:, 2] -= samples[:1, 2]
+    if (np.abs(samples[:, 2]) > LONGEST).any():
+        raise BadProperty(f'a stroke takes at most {LONGEST:g} s', field=name)
     return samples
 
 

@@ -63,11 +63,10 @@ def _world_name(value: object, name: str) -> str:
     return checked
 
 
-def _world_text(value: object, name: str) -> dict[str, Any]:
-    """Return the mapping of the text of a world file, on the server's thread."""
+def _world_text(value: object, name: str) -> str:
     if not isinstance(value, str) or len(value) > MOST_SENT:
         raise BadProperty(f'{name} must be text of at most {MOST_SENT} characters', field=name)
-    return load_mapping(value, field=name)
+    return value
 
 
 # Time
@@ -185,9 +184,15 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
 
 
 @message('open_text', '~/load_world', Right.TEACH, world=_world_text)
-def open_text(page: PageSession, origin: Origin, world: dict[str, Any]) -> None:
+def open_text(page: PageSession, origin: Origin, world: str) -> None:
     """Begin with the world of a text, as that of a run, at time 0, which undo reverts."""
-    page.perform(origin, partial(open_content, page.world.simulation, world), Wait.FOR_SEEK)
+
+    async def load() -> str:
+        # YAML of a megabyte takes a second to be read, and some a dozen.
+        content = await on_thread(partial(load_mapping, world, field='world'))
+        return await open_content(page.world.simulation, content)
+
+    page.perform(origin, load, Wait.FOR_SEEK)
 
 
 @message('share', '~/save_world', Right.DRAW, run=Optional(flag))

@@ -177,7 +177,10 @@ function arrange() {
   const hands = cards.filter(({raisedAt}) => raisedAt), here = cards.filter(({pupil}) => pupil);
   const order = [...cards].sort((one, other) => (one.raisedAt || Infinity) - (other.raisedAt || Infinity) ||
     Number(!one.person) - Number(!other.person) || one.person.localeCompare(other.person, language));
-  order.forEach(({element}, place) => { element.style.order = String(place); });
+  const seats = elementOf('seats'), focused = document.activeElement;
+  if (order.some(({element}, place) => element !== seats.children[place])) seats.append(...order.map(({element}) => element));
+  // What is moved loses the focus.
+  if (focused instanceof HTMLElement) focused.focus({preventScroll: true});
   showText(elementOf('present'), [t('{count} of {all} here', {count: here.length, all: cards.length}),
     ...hands.length ? [t('hands raised: {count}', {count: hands.length})] : []].join(' · '));
 }

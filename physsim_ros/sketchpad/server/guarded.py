@@ -106,6 +106,10 @@ class Guarded(RequestHandler):
         if self.needs_cookie and self.role is None:
             self.refuse(403, 'open the address that the node has printed: it holds the token')
 
+    def head(self, *arguments: str) -> Awaitable[None] | None:
+        """Answer as `get` does; tornado sends the headers alone."""
+        return self.get(*arguments)
+
     def on_finish(self) -> None:
         """End the turn of the request."""
         self.turns.end()
@@ -197,6 +201,9 @@ class GuardedUpload(Guarded):
 
 class GuardedSocket(Guarded, WebSocketHandler):
     """A web socket of a page of this server, with a token bucket for its messages."""
+
+    # RFC 6455, section 4.1; the headers of a handshake are no answer.
+    SUPPORTED_METHODS = ('GET',)
 
     def initialize(self) -> None:
         """Fill the bucket."""

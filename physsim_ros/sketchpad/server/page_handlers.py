@@ -133,10 +133,10 @@ class Missing(Guarded):
         """Answer that there is nothing."""
         self.refuse(404, 'there is nothing here')
 
-    post = head = delete = patch = put = options = get
+    post = delete = patch = put = options = get
 
 
-class PageFiles(Guarded, StaticFileHandler):
+class PageFiles(Guarded, StaticFileHandler):  # type: ignore[misc] # both know `head`
     """The files of the page; scripts and styles without comments and indentation, line by line."""
 
     def validate_absolute_path(self, root: str, absolute_path: str) -> str | None:

@@ -74,32 +74,20 @@ def test_an_installed_core_without_sources_is_loaded(folder):
     assert load().core_sources() != core.ffi.NULL
 
 
-@pytest.mark.parametrize('share', [0.0, 1e-4, 0.3, 0.99])
-def test_a_part_of_a_core_is_told_with_the_command_and_ends_no_process(folder, share):
+def files_that_are_no_core():
+    """Return beginnings of the core, other files, and another library."""
     data = COMPILED.read_bytes()
-    (folder / COMPILED.name).write_bytes(data[: int(share * len(data))])
+    parts = (data[: int(share * len(data))] for share in (0.0, 1e-4, 0.3, 0.99))
+    others = (b'#!/bin/sh\n', b'\x7fELF' + bytes(60), b'MZ' * 500)
+    return [*parts, *others, Path(pymunk._chipmunk.__file__).read_bytes()]  # noqa: SLF001
 
-    with pytest.raises(ImportError, match=r'cannot be loaded, .* run `pip install'):
-        load()
 
-
-@pytest.mark.parametrize('content', [b'#!/bin/sh\n', b'\x7fELF' + bytes(60), b'MZ' * 500])
-def test_what_is_no_core_is_told_with_the_command(folder, content):
+@pytest.mark.parametrize('content', files_that_are_no_core(), ids=lambda data: f'{len(data)} B')
+def test_what_is_no_core_is_told_with_the_command_and_ends_no_process(folder, content):
     (folder / COMPILED.name).write_bytes(content)
 
     with pytest.raises(ImportError, match=r'cannot be loaded, .* run `pip install'):
         load()
-
-
-def test_a_library_of_something_else_is_told_with_the_command(folder):
-    shutil.copy(pymunk_library(), folder / COMPILED.name)
-
-    with pytest.raises(ImportError, match=r'cannot be loaded, .* run `pip install'):
-        load()
-
-
-def pymunk_library():
-    return pymunk._chipmunk.__file__  # noqa: SLF001 - some library
 
 
 def test_declarations_of_other_headers_are_told_with_the_command(monkeypatch):

@@ -16,7 +16,7 @@ psutil = pytest.importorskip('psutil')
 NOWHERE = WorldSettings(gravity=(0.0, 0.0))
 
 
-@pytest.mark.memory
+@pytest.mark.cost
 def test_a_crowd_of_fast_bodies_is_not_paired_with_all_of_itself():
     world = World(settings=NOWHERE)
     process = psutil.Process()

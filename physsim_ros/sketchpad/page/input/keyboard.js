@@ -8,7 +8,8 @@ import {ARROWS} from '../ui/toolbar.js';
 
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
-const TEXTS = 'textarea, input:not([type=range], [type=checkbox], [type=color], [type=file])'; // receive all keys
+const TEXTS = 'textarea, select, input:not([type=range], [type=checkbox], [type=color], [type=file])'; // receive all keys
+const PRESSED = 'a, button, summary, input:not([type=range])'; // Space, Enter and arrow keys are theirs
 const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 
@@ -60,6 +61,8 @@ export class Keyboard {
     if (parts.dialog.isOpen || parts.people.viewOnly || event.altKey) return;
     if (target instanceof HTMLInputElement && target.type === 'range' && MOVES_RANGE.test(key)) return;
     if (event.ctrlKey || event.metaKey) {
+      // A text that somebody has selected on the page is copied by the browser.
+      if (target !== parts.view.canvas && key === 'c' && String(getSelection())) return;
       const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
       if (undo || redo) parts.time.callService(undo ? 'undo' : 'redo');
       const edit = {c: () => parts.selection.keep(false), x: () => parts.selection.keep(true), d: () => parts.selection.duplicate(), a: () => parts.selection.selectAll(),
@@ -73,8 +76,7 @@ export class Keyboard {
       event.preventDefault();
       return;
     }
-    const button = target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement ||
-      target instanceof HTMLInputElement && target.type !== 'range';
+    const control = target instanceof Element ? target : null, button = control?.matches(PRESSED);
     if (key === ' ' && !button) {
       if (!event.repeat) this.since = event.timeStamp;
       parts.gestures.space = true;
@@ -84,7 +86,7 @@ export class Keyboard {
       parts.cursor.move(...ARROWS[key], event.shiftKey);
     } else if (target === parts.view.canvas && parts.driving.press(event.code)) {
       // Tools that have these keys have them again when no robot is selected.
-    } else if (key in this.keys) {
+    } else if (key in this.keys && (key.length > 1 || parts.settings.letters && !control?.closest('aside, section'))) {
       this.keys[key]();
     } else return;
     event.preventDefault();

@@ -93,7 +93,9 @@ export class Selection extends Emitter {
   paste(at) {
     const {world, connection} = this.parts, {kept} = this, names = kept.names.filter((name) => world.row(name) >= 0);
     if (!names.length) return;
-    const [left, low, right, high] = world.boundsOfAll(names);
+    // Of a part the whole robot is copied.
+    const whole = names.map((name) => world.robotOf(name) ?? world.body(name));
+    const [left, low, right, high] = world.boundsOfAll(whole.flatMap((body) => body ? [body.name, ...body.robot?.parts ?? []] : []));
     connection.send(kept.cut ? 'move_bodies' : 'copy_machine', {names, by: at ? [at[0] - (left + right) / 2, at[1] - (low + high) / 2] : [right - left + BESIDE, 0]});
     kept.cut = false;
   }

@@ -15,7 +15,6 @@ import {materialFields} from './world_panel.js';
 /** @import {Body, Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
-const BESIDE = 0.5; // m: where a copy is put
 const MOST_JOINTS = 12; // that are listed
 
 /**
@@ -55,7 +54,7 @@ export function bodyContent(parts, [name], render) {
       ...forceFields(parts, body, change),
       ...body.robot ? [] : mediumFields(parts, body, change),
       inRow(
-        textButton(t('Copy'), () => copy(parts, name)),
+        textButton(t('Copy beside'), () => parts.selection.duplicate()),
         textButton(t('Delete body'), () => parts.selection.deleteSelected(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
       ...parts.trail.switches(name), parts.meters.field(name),
@@ -91,13 +90,4 @@ function oneWayFields({one_way: way, closed_sides: closed}, change) {
 function jointRow({world, selection}, name) {
   const row = world.row(name), joints = world.scene.joints.filter(({a, b}) => a === row || b === row).slice(0, MOST_JOINTS);
   return inRow(...joints.map((joint) => textButton(capital(thingWord(joint.kind)), () => selection.show('joint', [joint.name]))));
-}
-
-/**
- * @param {Parts<'connection' | 'world'>} parts
- * @param {string} name of the body
- */
-function copy({world, connection}, name) {
-  const row = world.row(name);
-  if (row >= 0) connection.send('copy', {name, to: [world.frame.x[row] + BESIDE, world.frame.y[row] + BESIDE]});
 }

@@ -151,8 +151,7 @@ export class Tips {
 
   /** @param {?EventTarget} target */
   #show(target) {
-    const owner = target instanceof Element ?
-      /** @type {?HTMLElement} */ (target.closest('button, a')) : null;
+    const owner = target instanceof Element ? /** @type {?HTMLElement} */ (target.closest('button, a')) : null;
     if (owner === this.owner) return;
     this.#hide();
     if (!owner?.title) return;
@@ -165,8 +164,7 @@ export class Tips {
     const tip = this.tip.getBoundingClientRect();
     const tools = owner.closest('#tools'), column = tools && tools.clientHeight > tools.clientWidth;
     const x = column ? right + GAP : left + (width - tip.width) / 2;
-    const y = column ? top + (height - tip.height) / 2 :
-      top > innerHeight / 2 ? top - tip.height - GAP : bottom + GAP;
+    const y = column ? top + (height - tip.height) / 2 : top > innerHeight / 2 ? top - tip.height - GAP : bottom + GAP;
     this.tip.style.left = `${Math.max(Math.min(x, innerWidth - tip.width - GAP), GAP)}px`;
     this.tip.style.top = `${y}px`;
   }

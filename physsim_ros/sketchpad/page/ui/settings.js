@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What a reader chooses in the help for this browser: the language, words at icons, sentences about what moves. */
+/** What a reader chooses in the help for this browser: the language, words at icons, keys, sentences about what moves. */
 
 import {checkField, languageField} from '../dom.js';
 import {isRoomy} from '../view/room.js';
@@ -7,7 +7,7 @@ import {t} from '../strings.js';
 
 /** @import {Parts} from '../types.js' */
 
-const WORDS = 'physsim-words', SPEAKS = 'physsim-speaks'; // keys
+const WORDS = 'physsim-words', SPEAKS = 'physsim-speaks', LETTERS = 'physsim-letters'; // keys
 
 export class Settings {
   /** @param {Parts<'connection' | 'dialog' | 'frames' | 'notes' | 'world'>} parts */
@@ -29,6 +29,11 @@ export class Settings {
     return localStorage.getItem(SPEAKS) === '1';
   }
 
+  /** @returns {boolean} whether keys of one character choose tools and work time (WCAG 2.2, 2.1.4) */
+  get letters() {
+    return localStorage.getItem(LETTERS) !== '0';
+  }
+
   showHelp() {
     const {dialog, notes} = this.parts;
     notes.load(import('./help.js'), ({showHelp}) => showHelp(dialog, this.#fields()));
@@ -47,7 +52,8 @@ export class Settings {
     return [languageField(), checkField(t('Words at icons'), this.words, (checked) => {
       localStorage.setItem(WORDS, checked ? '1' : '0');
       this.#showWords();
-    }), checkField(t('Tell what moves, for screen readers'), this.speaks, (checked) => {
+    }), checkField(t('Letters and digits as keys'), this.letters, (checked) => localStorage.setItem(LETTERS, checked ? '1' : '0')),
+    checkField(t('Tell what moves, for screen readers'), this.speaks, (checked) => {
       localStorage.setItem(SPEAKS, checked ? '1' : '0');
       this.#want();
     })];
