@@ -34,8 +34,9 @@ class JointColors:
     """
 
     def __init__(self, scene: Scene) -> None:
+        full = full_scale_force(scene)
         self._full_scale = np.array(
-            [joint.properties.break_force or full_scale_force(scene) for joint in scene.joints]
+            [joint.properties.break_force or full for joint in scene.joints]
         )
         self._along_line = np.array(
             [joint.kind.schema.along_line for joint in scene.joints], dtype=bool

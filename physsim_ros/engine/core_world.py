@@ -56,8 +56,9 @@ class CoreWorld:
 
     :cvar left_out: stages that new worlds leave out, a sum of `STAGE_...` of
         `engine/core/core.h`; to measure what fails without them
-    :cvar longest_call: time after which a call of the core ends, within a step too, in new
-        worlds [s]: no signal ends a call, and a person hardly notices so long
+    :cvar longest_call: time in which a call of the core is to end, within a step too, in new
+        worlds [s]: no signal ends a call, and a person hardly notices so long. One sub-step is
+        made in any case
     """
 
     left_out = 0

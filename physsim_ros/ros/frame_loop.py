@@ -21,9 +21,9 @@ from physsim_ros.ros.robots import Fleet
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
 
-# Time after which a tick simulates no further publish period [ns], or where the last tick took
-# longer, no further step: requests, services and signals wait at most so long, which a person
-# hardly notices, or for one step. At speed 64 a frame has 64 periods.
+# Time in which a tick is to end [ns]: requests, services and signals wait at most so long, which a
+# person hardly notices, or for one slice of work, and for the outputs of a frame. At speed 64 a
+# frame has 64 periods.
 MOST_TICK_NS = 100_000_000
 # Time after which no further request is applied in a tick [ns]; or as long as the rest of the last
 # tick took, since in a crowded world each tick with a request makes the scene anew.
@@ -49,6 +49,21 @@ class _RequestTime:
         return self.ended > self._until
 
 
+class _TickTime:
+    """The time for the slices of work of a tick, from now on."""
+
+    def __init__(self) -> None:
+        self._began = self._ended = time.perf_counter_ns()
+        self._longest = 0
+
+    def is_overdue(self) -> bool:
+        """Return whether one more slice like the longest would end late; asked after each."""
+        now = time.perf_counter_ns()
+        self._longest = max(self._longest, now - self._ended)
+        self._ended = now
+        return now - self._began + self._longest > MOST_TICK_NS
+
+
 class FrameLoop:
     """
     Has a simulation make frames, and shows them.
@@ -65,8 +80,9 @@ class FrameLoop:
         self._simulation = simulation
         self._outputs = outputs
         self._fleet = fleet
-        # Duration of the last tick with a frame, without its requests [ns].
-        self._rest_ns = 0
+        # Duration of the last tick with a frame, without its requests [ns], and whether it had no
+        # time left.
+        self._rest_ns, self._was_overdue = 0, False
 
     def tick(self, now_ns: int) -> None:
         """
@@ -74,10 +90,10 @@ class FrameLoop:
 
         :param now_ns: steady time, monotonic [ns]
         """
-        began = time.perf_counter_ns()
+        began, tick_time = time.perf_counter_ns(), _TickTime()
         self._note_readers()
         self._take_commands()
-        if not self._fleet.update_topics(lambda: _is_overdue(began)):
+        if not self._fleet.update_topics(tick_time.is_overdue):
             self._simulation.playback.clock.restart()
             return
         frames: tuple[Frame, ...] = ()
@@ -85,15 +101,13 @@ class FrameLoop:
         request_time = _RequestTime(self._rest_ns)
         # In a rewind commands are ignored, and no controller is awaited.
         if self._simulation.speed < 0.0 or not self._fleet.waits():
-            # A short seek is finished first: its slices are no frames for controllers to answer.
-            self.finish_short_seek()
             frames = self._simulation.advance(
                 now_ns,
-                is_overdue=lambda: _is_overdue(began),
+                is_overdue=tick_time.is_overdue,
                 is_spent=request_time.is_spent,
                 # Controllers answer whole frames.
-                ends_frame=lambda: self._fleet.in_lockstep or _is_overdue(began),
-                by_steps=self._rest_ns > MOST_TICK_NS and not self._fleet.in_lockstep,
+                ends_frame=lambda: self._fleet.in_lockstep or tick_time.is_overdue(),
+                by_steps=self._was_overdue and not self._fleet.in_lockstep,
             )
         elif self._simulation.is_changed:
             # By a service, as a reset, after which a robot may be gone, or its scan.
@@ -107,6 +121,7 @@ class FrameLoop:
                 self._outputs.show_late()
                 return
         self._rest_ns = time.perf_counter_ns() - request_time.ended
+        self._was_overdue = tick_time.is_overdue()
         statistics = self._outputs.statistics
         if frames and not frames[-1].moved:
             statistics.reset_pace()
@@ -194,8 +209,7 @@ class FrameLoop:
 
     def finish_short_seek(self) -> None:
         """Have a seek be done at once if it is short; else the next ticks go on with it."""
-        began = time.perf_counter_ns()
-        self._simulation.finish_work(lambda: _is_overdue(began))
+        self._simulation.finish_work(_TickTime().is_overdue)
 
     def _take_commands(self) -> None:
         """Handle messages of pages, and submit commands of robots, which the past refuses."""
@@ -216,8 +230,3 @@ class FrameLoop:
         answers = self._simulation.requests.take_answers()
         self._outputs.report_answers(answers)
         return answers
-
-
-def _is_overdue(began: int) -> bool:
-    """Return whether a tick that began at a steady time [ns] has taken too long."""
-    return time.perf_counter_ns() - began > MOST_TICK_NS

@@ -72,14 +72,16 @@ def test_the_round_end_of_a_chain_is_seen_from_its_own_line():
     assert ranges.tolist() == pytest.approx([aside, 0.9, aside], abs=1e-12)
 
 
-def test_a_wall_ahead_is_as_far_as_it_is():
+@pytest.mark.parametrize('far', [2.0, 1e-6])
+def test_a_wall_ahead_is_as_far_as_it_is(far):
     world = plane()
-    spawn(world, 'wall/0', Box(width=0.2, height=10.0), (2.1, 0.0, 0.0), anchored=True)
+    spawn(world, 'wall/0', Box(width=0.2, height=10.0), (far + 0.1, 0.0, 0.0), anchored=True)
     row = add_robot(world, pose=(0.0, 0.0, 0.0))
 
-    ranges = scan(world, row, Laser(beams=3, angle=(-0.5, 0.5), range=(0.1, 5.0)))
+    ranges = scan(world, row, Laser(beams=3, angle=(-0.5, 0.5), range=(0.0, 5.0)))
 
-    assert ranges.tolist() == pytest.approx([2 / math.cos(0.5), 2.0, 2 / math.cos(0.5)], abs=1e-12)
+    aslant = far / math.cos(0.5)
+    assert ranges.tolist() == pytest.approx([aslant, far, aslant], rel=1e-9, abs=1e-12)
 
 
 def test_the_first_beam_and_the_way_round_are_those_of_the_robot():

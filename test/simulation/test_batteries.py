@@ -92,6 +92,9 @@ def test_a_program_reads_the_state_of_a_battery():
     robot.place(3.0, 0.0)
     simulation.run(3.0)
     assert robot.battery() == (1.0, 0.0, True)
+    robot.place(0.0, 0.0)
+    simulation.run(18.5)
+    assert robot.battery() == (0.0, 0.0, False)
 
     simulation.perform(body_request('b/0', robot={'drive': {'kind': 'omni'}}))
     assert Robot(simulation, 'b/0').battery() is None

@@ -4,6 +4,7 @@
 """A step that takes long is made in several calls, and where it is cut changes no bit."""
 
 from collections.abc import Callable
+import time
 
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
@@ -11,11 +12,12 @@ from physsim_ros.files import find_world, load_world, spawn_from
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
 import pytest
 from tools.bench.scenes import FREE, MACHINES, Scene
 
 from .driven import SECOND
-from ..building import DISC, spawning
+from ..building import DISC, spawn, spawning
 
 SCENES = {**FREE, **MACHINES}
 # A call of the core makes one sub-step, as of a world where that takes long.
@@ -68,6 +70,33 @@ def test_a_frame_takes_as_many_ticks_as_it_has_sub_steps(in_sub_steps):
     (first, _), (second, frame) = ticks_to_frames(simulation, 2, 100)[-2:]
     assert second - first >= SUB_STEPS - 1
     assert frame.snapshot.step % simulation.frame_steps == 0
+
+
+def calls_of_a_step(longest: float, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Return the durations of the calls that make a step of a crowd, each to end in a time [s]."""
+    with monkeypatch.context() as patch:
+        patch.setattr(CoreWorld, 'longest_call', longest)
+        world = World()
+    for number in range(500):
+        spawn(world, f'disc/{number}', DISC, (number % 50, number // 50, 0.0), velocity=(1.0, 0.0))
+    world.step(4)
+    took, slices, done = [], world.slices_of_steps(1), object()
+    while True:
+        began = time.perf_counter()
+        is_done = next(slices, done) is done
+        took.append(time.perf_counter() - began)
+        if is_done:
+            return took
+
+
+def test_a_call_of_the_core_begins_no_sub_step_that_would_end_too_late(monkeypatch):
+    def are_single() -> bool:
+        sub_step = min(calls_of_a_step(0.0, monkeypatch))
+        # One sub-step ends in that time, and two do not.
+        return len(calls_of_a_step(1.4 * sub_step, monkeypatch)) == lib.SUB_STEPS
+
+    # But where the machine is busy.
+    assert sum(are_single() for _ in range(9)) > 4
 
 
 def test_what_reads_the_world_meanwhile_finds_whole_steps(in_sub_steps):

@@ -436,7 +436,7 @@ typedef struct World {
     double gravitation, coulomb, attraction_power, softening;
     int64_t step;        // count of steps that the world has made
     int64_t age;         // count of steps since the space was built
-    double longest_call; // time after which a call of `core_step` makes no further sub-step [s]
+    double longest_call; // time in which a call of `core_step` is to end, if one sub-step does [s]
     double farthest;     // a body beyond this position, angle or velocity is lost [m, rad, m/s, rad/s]
     // The bodies with the background, the others as they are in the world.
     Body *bodies;

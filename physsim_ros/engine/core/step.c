@@ -138,14 +138,21 @@ static double wall_clock(void) {
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-// Whether a call that began at a moment has taken long; so it has where the clock was set back.
-static bool is_long(const World *world, double began) {
-    double took = wall_clock() - began;
-    return !(took >= 0.0 && took <= world->longest_call);
+// The time of a call of the core, which makes its work in parts.
+typedef struct {
+    double began; // [s]
+    double ended; // its last part [s]
+} CallTime;
+
+// End a part; whether another one as long as this would end too late. So it would where the clock was set back.
+static bool end_part(const World *world, CallTime *time) {
+    double now = wall_clock(), part = now - time->ended, took = now - time->began;
+    time->ended = now;
+    return !(part >= 0.0 && took >= 0.0 && took + part <= world->longest_call);
 }
 
 // Begin a step, before its first sub-step; false where the next call of the core goes on with that.
-static bool begin_step(World *world, double began) {
+static bool begin_step(World *world, CallTime *time) {
     Private *own = world->own;
     if (!own->choosing) {
         arena_reset(&own->arena);
@@ -156,7 +163,7 @@ static bool begin_step(World *world, double began) {
     }
     own->choosing = true;
     while (choose_velocity(world)) {
-        if (is_long(world, began)) {
+        if (end_part(world, time)) {
             return false;
         }
     }
@@ -177,14 +184,15 @@ static void end_step(World *world) {
 // its bits.
 int32_t core_step(World *world, int32_t count) {
     Private *own = world->own;
-    double began = wall_clock();
+    double now = wall_clock();
+    CallTime time = {.began = now, .ended = now};
     int32_t made = 0;
     own->kept = pow(world->space->damping, world->dt);
     own->push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     world->has_broken = world->has_lost = false;
     do {
         own->call_step = made;
-        if (own->sub_step == 0 && !begin_step(world, began)) {
+        if (own->sub_step == 0 && !begin_step(world, &time)) {
             world->within_step = true;
             break;
         }
@@ -196,7 +204,7 @@ int32_t core_step(World *world, int32_t count) {
             end_step(world);
             made++;
         }
-    } while (made < count && !is_long(world, began) && !world->has_broken && !world->has_lost);
+    } while (made < count && !end_part(world, &time) && !world->has_broken && !world->has_lost);
     own->all_active = true;
     return made;
 }

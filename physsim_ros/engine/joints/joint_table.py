@@ -199,11 +199,14 @@ class JointTable:
     @property
     def bounds(self) -> dict[str, NDArray[np.void]]:
         """Return `lower` and `upper` of the rows of each joint that has one which moves."""
-        pairs = zip(self.names, self._bounds, strict=True)
+        moves = (self.rows['law'] == lib.LAW_BOUNDS) & (self.rows['rate'] != 0.0)
+        if not moves.any():
+            return {}
+        joints = np.repeat(np.arange(len(self.names)), self.joints['row_count'])
+        bounds = self._bounds
         return {
-            name: rows[['lower', 'upper']].copy()
-            for name, rows in pairs
-            if (rows['rate'][rows['law'] == lib.LAW_BOUNDS] != 0.0).any()
+            self.names[number]: bounds[number][['lower', 'upper']].copy()
+            for number in np.unique(joints[moves]).tolist()
         }
 
     @property

@@ -18,6 +18,7 @@ from itertools import chain, islice
 import struct
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.appearance import JointGlyphs, segment_corners
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.garbage_collection import suspended_collection
@@ -270,19 +271,19 @@ class _JointColumns:
     def __init__(self, glyphs: JointGlyphs, starts: Sequence[int]) -> None:
         scene, self._glyphs = glyphs.scene, glyphs
         self._corners = segment_corners(glyphs.lengths.tolist())
-        offsets: list[int] = []
+        # Offsets of the first point of each marker, in numbers of 8 bytes.
+        firsts = (np.array(starts, np.intp) + _POSED.size) // 8
+        counts = np.array([joint.kind.points for joint in scene.joints], np.intp)
         # Of the points of the joints: number of the joint, and 0 for its first point, 1 for its
         # second.
-        points: list[tuple[int, int]] = []
-        for number, joint in enumerate(scene.joints):
-            first = (starts[2 * number] + _POSED.size) // 8
-            offsets += (first + 3 * each for each in range(joint.kind.points))
-            points += ((number, each) for each in range(joint.kind.points))
-        for number, count in enumerate(glyphs.segment_ends.tolist()):
-            first = (starts[2 * number + 1] + _POSED.size) // 8
-            offsets += (first + 3 * each for each in range(count))
-        self._offsets = np.array(offsets, np.intp)
-        self._points = tuple(np.array(points, np.intp).T)
+        self._points = np.repeat(np.arange(len(counts)), counts), _numbers(counts)
+        ends = glyphs.segment_ends
+        self._offsets = np.concatenate(
+            (
+                np.repeat(firsts[::2], counts) + 3 * self._points[1],
+                np.repeat(firsts[1::2], ends) + 3 * _numbers(ends),
+            )
+        )
         self._color_offsets = (np.array(starts, np.intp) + _COLORED) // 4
         self._sliders = np.array(
             [row for row, joint in enumerate(scene.joints) if joint.kind.schema.has_axis],
@@ -309,3 +310,10 @@ class _JointColumns:
         # The background is the last row.
         yaw = np.append(snapshot.poses[:, 2], 0.0)[scene.joint_rows[self._sliders, 1]]
         return rotated_each(scene.seats[self._sliders, 4:6], yaw)
+
+
+def _numbers(counts: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Return 0, 1, ... up to each count, one after the other."""
+    ends = np.cumsum(counts)
+    numbers: NDArray[np.intp] = np.arange(ends[-1]) - np.repeat(ends - counts, counts)
+    return numbers

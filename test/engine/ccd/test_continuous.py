@@ -365,7 +365,7 @@ def test_sticks_that_spin_through_each_other_have_a_bounded_number_of_impacts():
     for _ in range(8):
         swept = sim.world.space.core.swept
         sim.world.step(1)
-        # All 66 pairs, in ten rounds a sub-step at most (`ROUNDS` of `impact_islands.c`).
+        # All 66 pairs, in ten rounds a sub-step at most (`IMPACT_ROUNDS` of `impact_islands.c`).
         assert sim.world.space.core.swept - swept <= 66 * 10 * lib.SUB_STEPS
     assert np.isfinite(sim.world.snapshot().poses).all()
 
