@@ -2,16 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-`python -m tools.evaluation.fit`: the table of evidence for signs, from imitated hands.
+`python -m tools.evaluation.fit`: the table of evidence for signs and shapes, from imitated hands.
 
 A conditional logit whose terms are piecewise linear, fitted by Newton's method to strokes of the
 tuning half: the likelihood of the sign that was meant, and of its tail, less a penalty on the
-curvature of the terms and on their size. No stroke by people is among them.
+curvature of the terms and on their size. The evidence for the shapes of outlines is fitted by
+itself. No stroke by people is among them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 import csv
 from dataclasses import dataclass
 from io import StringIO
@@ -24,6 +25,7 @@ from physsim_ros.drawing.strokes import evidence
 from physsim_ros.drawing.strokes.evidence import CONSTANT, TABLE
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
+from physsim_ros.drawing.strokes.plain_forms import ELLIPSE, fits_of, SHAPES
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stages import Candidate
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -31,11 +33,13 @@ from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal
 
 from .outlines import Floats
-from .scenes import faulty_scenes, scenes
+from .scenes import faulty_scenes, OUTLINES, scenes
 from .several import joined_things
 
 # Strokes of each kind and of each fault, and things of several strokes.
 _COUNT = 100
+# Outlines of each kind, for one of each fault.
+_OUTLINES = 3
 # Knots of a term: quantiles of its measure among all candidates, and among those that were meant.
 _EVERY, _MEANT = (0.02, 0.25, 0.5, 0.75, 0.98), (0.02, 0.15, 0.85, 0.98)
 # Weights of the penalties on the second differences of a term's values, and on the values.
@@ -45,14 +49,17 @@ _ROUNDS = 10
 # Names of the signs, by the kinds of figures.
 _NAMES = tuple(sign.name for sign in SIGNS)
 
+# A row of the table: sign or shape, measure, knots and values.
+Row = tuple[str, str, Floats, Floats]
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Example:
     """
     A stroke with its candidates.
 
-    :param candidates: of all signs, with the name of each
-    :param meant: the index of the candidate that was meant; None where it was no sign
+    :param candidates: of all signs or shapes, with the name of each
+    :param meant: the index of the candidate that was meant; None where it was none
     """
 
     candidates: list[tuple[str, Candidate]]
@@ -83,7 +90,7 @@ class Block:
 
 
 def examples(count: int, half: str) -> Iterator[Example]:
-    """Yield strokes of all kinds, so many of each, with their candidates."""
+    """Yield strokes of all kinds, so many of each, with their candidates for signs."""
     for scene in itertools.chain(scenes(count, half), faulty_scenes(count, half)):
         samples, figure = scene.samples, scene.figure
         # The pen is where the tail is at its first or its last sample.
@@ -98,6 +105,20 @@ def examples(count: int, half: str) -> Iterator[Example]:
         yield _example(whole, thing.kind, whole[0] if thing.tail is None else thing.tail)
 
 
+def outlines(count: int, half: str) -> Iterator[Example]:
+    """Yield outlines of all kinds, so many with each fault, with their candidates for shapes."""
+    plain, faulty = scenes(_OUTLINES * count, half, OUTLINES), faulty_scenes(count, half, OUTLINES)
+    for scene in itertools.chain(plain, faulty):
+        try:
+            outline = resample_stroke(scene.samples).outline
+        except Refusal:
+            continue
+        candidate = Candidate(measures=fits_of(outline).measures, points=outline)
+        shape = ELLIPSE if scene.figure.smooth else scene.figure.kind
+        meant = SHAPES.index(shape) if shape in SHAPES else None
+        yield Example(candidates=[(name, candidate) for name in SHAPES], meant=meant)
+
+
 def _example(samples: Floats, kind: str, tail: Floats) -> Example:
     features = features_of(resample_stroke(samples))
     candidates = [(sign.name, each) for sign in SIGNS for each in sign.candidates(features)]
@@ -109,12 +130,12 @@ def _example(samples: Floats, kind: str, tail: Floats) -> Example:
     return Example(candidates=candidates, meant=right[0] if right else None)
 
 
-def fit(strokes: list[Example]) -> list[tuple[str, str, Floats, Floats]]:
-    """Return the rows of the table: sign, measure, knots and values."""
+def fit(names: Sequence[str], strokes: list[Example]) -> list[Row]:
+    """Return the rows of the table of the signs or shapes with these names."""
     rows: list[tuple[str, str, Floats]] = []
     blocks: list[Block] = []
     start = 0
-    for name in _NAMES:
+    for name in names:
         own = [[each for each in stroke.candidates if each[0] == name] for stroke in strokes]
         places = range(max(map(len, own)))
         there = [np.array([len(each) > place for each in own]) for place in places]
@@ -198,7 +219,9 @@ def table(count: int = _COUNT) -> str:
     file = StringIO()
     writer = csv.writer(file, lineterminator='\n')
     writer.writerow(('sign', 'measure', 'knots', 'values'))
-    for sign, measure, knots, values in fit(list(examples(count, 'tuning'))):
+    signs = fit(_NAMES, list(examples(count, 'tuning')))
+    shapes = fit(SHAPES, list(outlines(count, 'tuning')))
+    for sign, measure, knots, values in signs + shapes:
         writer.writerow((sign, measure, _text(knots, 4), _text(values, 2)))
     return file.getvalue()
 

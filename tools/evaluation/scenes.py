@@ -9,7 +9,7 @@ Everything lies where the hand draws: bodies at the ends of a spring, under an x
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 import math
 
@@ -28,6 +28,8 @@ from .hand import Hand
 from .hands import drawn, hand
 from .outlines import Floats, Random
 
+# Rounds of kinds in which none has a fault, if they cannot have it.
+_FRUITLESS = 20
 SEEDS = {'tuning': 1, 'report': 2, 'apart': 3, 'strangers': 4}
 
 
@@ -52,28 +54,29 @@ class Scene:
     meaning: str | None
 
 
-def scenes(count: int, half: str) -> Iterator[Scene]:
-    """Yield so many scenes of every kind, in turn; the same for the same half."""
-    for number, kind in enumerate(KINDS):
-        rng = np.random.default_rng((SEEDS[half], number))
+def scenes(count: int, half: str, kinds: Sequence[Kind] | None = None) -> Iterator[Scene]:
+    """Yield so many scenes of every kind, or of some, in turn; the same for the same half."""
+    for kind in KINDS if kinds is None else kinds:
+        rng = np.random.default_rng((SEEDS[half], KINDS.index(kind)))
         for _ in range(count):
             scene = _scene(kind, _PLAIN, '', half, rng)
             assert scene is not None
             yield scene
 
 
-def faulty_scenes(count: int, half: str) -> Iterator[Scene]:
-    """Yield so many scenes with every fault, of the kinds that can have it in turn."""
+def faulty_scenes(count: int, half: str, kinds: Sequence[Kind] | None = None) -> Iterator[Scene]:
+    """Yield so many scenes with every fault, of the kinds, or some, that can have it in turn."""
     for number, (name, fault) in enumerate(FAULTS.items()):
         rng = np.random.default_rng((SEEDS[half], 1000 + number))
-        left = count
-        while left:
-            for kind in KINDS:
+        left, fruitless = count, 0
+        while left and fruitless < _FRUITLESS:
+            fruitless += 1
+            for kind in KINDS if kinds is None else kinds:
                 if kind.meaning is None or not left:
                     continue
                 scene = _scene(kind, fault, name, half, rng)
                 if scene is not None:
-                    left -= 1
+                    left, fruitless = left - 1, 0
                     yield scene
 
 
@@ -232,6 +235,12 @@ KINDS: tuple[Kind, ...] = (
     Kind('five swings, on a body', figures.five_swings, None, _scribbled),
     Kind('round arrow', arrows.round_arrow, 'motor', _within, axle=True),
     Kind('sagging line, 2 bodies', figures.sag, 'rope', _at_ends),
+)
+# Closed strokes in the open.
+OUTLINES = tuple(
+    kind
+    for kind in KINDS
+    if kind.meaning in {'disc', 'rectangle', 'polygon'} and kind.around is _nothing
 )
 # All meanings of strokes, in the order of their kinds.
 MEANINGS = tuple(dict.fromkeys(kind.meaning for kind in KINDS if kind.meaning is not None))

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The evidence for signs, and soft limits by which lines and outlines share the rest of the weight.
+The evidence for signs and shapes, and soft limits by which lines and outlines share a weight.
 
 The evidence for a sign is a sum over its measures; each term is a piecewise linear function whose
 knots and values are rows of `evidence.csv` (a generalised additive model; Hastie and Tibshirani,
 1986). The probability of a sign is the share of its exponential among those of all signs and of
-no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974).
+no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974). So are outlines told
+to be ellipses or rectangles, and not other polygons.
 
 `python -m tools.evaluation.fit` makes the table, from hands of the tuning half of `make evaluate`.
 """
@@ -91,17 +92,17 @@ def log_odds(share: float) -> float:
 
 
 def terms_of(sign: str) -> Sequence[Term]:
-    """Return the terms of the evidence for a sign."""
+    """Return the terms of the evidence for a sign or shape."""
     return _TABLE[sign]
 
 
 def evidence(sign: str, measures: Mapping[str, float]) -> float:
-    """Return the log odds of a sign against no sign."""
+    """Return the log odds of a sign against no sign, or of a shape against other polygons."""
     return sum(term.at(measures.get(term.measure, 0.0)) for term in terms_of(sign))
 
 
 def probabilities(evidences: Sequence[float]) -> list[float]:
-    """Return the probability of each alternative; the rest to 1 is that of no sign."""
+    """Return the probability of each alternative; the rest to 1 is that of none of them."""
     greatest = max((0.0, *evidences))
     odds = [math.exp(each - greatest) for each in evidences]
     total = math.exp(-greatest) + sum(odds)

@@ -10,27 +10,22 @@ becomes a polygon along the stroke; an outline that crosses itself becomes its o
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.drawing.strokes.corner_detection import bends_of, outline_corners
-from physsim_ros.drawing.strokes.evidence import LEAST, Limit, logistic
+from physsim_ros.drawing.strokes.evidence import evidence, LEAST, Limit, probabilities
 from physsim_ros.drawing.strokes.features import Features, TREMOR
-from physsim_ros.drawing.strokes.fitting import rectangle, traced
-from physsim_ros.drawing.strokes.geometry import (
-    angles,
-    loop_roundness,
-    size_of,
-    widened,
-)
+from physsim_ros.drawing.strokes.fitting import Ellipse, traced
+from physsim_ros.drawing.strokes.geometry import loop_roundness, size_of, widened
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
 from physsim_ros.drawing.strokes.stages import DISC, Form, LINE, OVAL, POLYGON, RECTANGLE
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
-from physsim_ros.model.transform import next_vertices, norms
+from physsim_ros.model.transform import norms
 
 # The number of swings from which on a stroke is no plain line or outline.
 _SWINGING = Limit(5.5)
@@ -43,23 +38,34 @@ _LOOP = 0.15
 # The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
 # has 0.037 and more, that of a pigtail 0.07.
 _NARROW = 0.035
-# The spread of the radii of a circle or an oval, which is stretched to a circle, in shares of
-# their mean: of a square it is 0.11. The distance of an outline from a rectangle, and from
-# straight sides between its corners (rms), in shares of its size: that of a circle from a pentagon
-# is 0.02, that of an octagon from a rectangle 0.024 and more.
-_ELLIPTIC, _SIDED = Limit(0.1), Limit(0.022)
-# Of four corners of a rectangle: their mean distance from the corners of the nearest one, in mean
-# sides, and the mean deviation of their angles from right ones [rad]: a rhomb of 73° has 0.3, and
-# an eight more.
-_OFF, _SLANT = Limit(0.115), Limit(0.3)
+# The distance of an outline from straight sides between its corners (rms), in shares of its size,
+# beyond which a polygon follows the stroke: that of a circle from a pentagon is 0.02.
+_SIDED = 0.022
 # The least aspect of a circle as people draw it: from 0.5 to 0.63 no outline tells circles from
 # ovals, wheels are drawn more often, and the other reading is offered. The number of sides of an
 # oval, which rolls.
 _CIRCULAR, _OVAL_SIDES = Limit(0.58), 48
-# Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
-# residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
-# the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.
-_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -5.5, 2.8, 5.55, 4.95, 7.5, 0.35
+# What an outline is by evidence; the rest of its weight is a polygon's.
+ELLIPSE, SHAPES = 'ellipse', ('ellipse', RECTANGLE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Fits:
+    """
+    What fits an outline.
+
+    :param ellipse: of its area
+    :param rectangle: (4, 2) float64: corners of the nearest rectangle [m]
+    :param corners: (k, 2) float64: the meeting points of straight sides [m]
+    :param measures: by name, as the table of evidence has them: error and aspect of the ellipse;
+        the distances (rms) from the rectangle and from the sides, in shares of the size; that of
+        the rectangle's farthest corner, in widths of it; the number of corners; the bulge of sides
+    """
+
+    ellipse: Ellipse
+    rectangle: Floats
+    corners: Floats
+    measures: Mapping[str, float]
 
 
 def plain_forms(features: Features, plain: float) -> Iterator[Form]:
@@ -80,11 +86,8 @@ def plain_forms(features: Features, plain: float) -> Iterator[Form]:
     closed = plain * closure * still
     if closed < LEAST:
         return
-    shapes = list(_shapes(stroke.outline))
-    total = sum(shape.weight for shape in shapes)
-    if total >= LEAST:
-        for shape in shapes:
-            yield replace(shape, weight=closed * shape.weight / total)
+    for shape in _shapes(stroke.outline):
+        yield replace(shape, weight=closed * shape.weight)
 
 
 def _lineness(features: Features, still: float) -> float:
@@ -105,79 +108,45 @@ def _lineness(features: Features, still: float) -> float:
 
 
 def _shapes(outline: Floats) -> Iterator[Form]:
-    """
-    Yield the shapes that an outline may have, with relative weights.
-
-    Each has the measures of all of them: the number of corners, the distances from the sides
-    between those and from a rectangle, in shares of the size, the ellipse's error and aspect.
-    """
-    ellipse = fitting.ellipse(outline)
-    error, aspect = ellipse.error, ellipse.aspect
-    wide, narrowed = widened(outline)
-    at, sharp, residual = outline_corners(wide)
-    found, size = narrowed(sharp), size_of(wide)
-    residual /= size
-    # Independent of the corners: a rectangle may have a bent side or a round corner.
-    corners, off = fitting.rectangle_of(wide)
-    off /= size
-    measures = {
-        'ellipse error': error,
-        'aspect': aspect,
-        'sides error': min(residual, 1.0),
-        'rectangle error': off,
-        'corners': float(len(at)),
-    }
-    sides = min(residual, off)
-    edgeless = _edgelessness(sides=sides, error=error, aspect=aspect, bulge=_bulge(wide, at))
-    circle = edgeless * _ELLIPTIC.below(error)
-    sided = (1.0 - edgeless) * _SIDED.below(residual)
-    circular = _CIRCULAR.above(aspect)
+    """Yield the shapes that an outline may have, each with the measures of its fits."""
+    fits = fits_of(outline)
+    ellipse, measures = fits.ellipse, fits.measures
+    elliptic, square = probabilities([evidence(each, measures) for each in SHAPES])
+    circular = _CIRCULAR.above(ellipse.aspect)
     rim = ellipse.center + np.array((ellipse.radius, 0.0))
     disc = np.array((ellipse.center, rim))
-    yield Form(name=DISC, weight=circle * circular, points=disc, measures=measures)
+    yield Form(name=DISC, weight=elliptic * circular, points=disc, measures=measures)
     oval = ellipse.corners(_OVAL_SIDES)
-    yield Form(name=OVAL, weight=circle * (1.0 - circular), points=oval, measures=measures)
-    square = _SIDED.below(off)
-    sharpness = _squareness(found) if len(at) == 4 else 0.0
-    # Corners that are sharp are more exact than the rectangle of least squares.
-    corners = found if 2.0 * sharpness > square else narrowed(corners)
-    square = max(square, sharpness)
-    weight = (1.0 - edgeless) * square
-    yield Form(name=RECTANGLE, weight=weight, points=corners, measures=measures)
-    if len(at) >= 3 and crosses_itself(found):
-        boundary = outer_boundary(found)
-        sided = sided if boundary is not None else 0.0
-        found = found if boundary is None else boundary
-    sided *= 1.0 - square
-    free = max(1.0 - max(square, circle) - sided, 0.0)
-    if free > sided:
-        # Neither round nor sided: a polygon along the stroke.
-        along = traced(outline)
-        boundary = outer_boundary(along) if crosses_itself(along) else along
-        found, free = (found, 0.0) if boundary is None else (boundary, free)
-    yield Form(name=POLYGON, weight=sided + free, points=found, measures=measures)
+    yield Form(name=OVAL, weight=elliptic * (1.0 - circular), points=oval, measures=measures)
+    # Corners that the stroke has are more exact than those of the rectangle of least squares.
+    sharp = len(fits.corners) == 4 and measures['sides error'] < measures['rectangle error']
+    corners = fits.corners if sharp else fits.rectangle
+    yield Form(name=RECTANGLE, weight=square, points=corners, measures=measures)
+    corners = fits.corners if measures['sides error'] < _SIDED else traced(outline)
+    boundary = outer_boundary(corners) if crosses_itself(corners) else corners
+    if boundary is not None:
+        weight = 1.0 - elliptic - square
+        yield Form(name=POLYGON, weight=weight, points=boundary, measures=measures)
 
 
-def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) -> float:
-    """
-    Return the probability that an outline is an ellipse, and not one with straight sides.
-
-    Logistic regression on outlines of both kinds by hands of the tuning half of `make evaluate`,
-    with constants of earlier hands as the prior: thin outlines are planks.
-
-    :param sides: residual of straight sides, in shares of the size
-    :param error: residual of the ellipse, in shares of the size
-    :param aspect: of the ellipse
-    :param bulge: of the sides
-    """
-    evidence = (
-        _EVIDENCE
-        + _SIDES * math.log(max(sides, 1e-6))
-        - _ELLIPSE * math.log(max(error, 1e-6))
-        + _BULGE * bulge
-        + _THIN * math.log(min(max(aspect, 1e-6) / _PLANK, 1.0))
-    )
-    return logistic(evidence)
+def fits_of(outline: Floats) -> Fits:
+    """Return what fits a closed polyline, with the measures by which its shape is told."""
+    ellipse, size = fitting.ellipse(outline), size_of(outline)
+    rectangle, off = fitting.rectangle_of(outline)
+    away = norms(rectangle[:, None] - outline).min(axis=1)
+    width = float(norms(np.diff(rectangle[:3], axis=0)).min())
+    wide, narrowed = widened(outline)
+    at, sharp, residual = outline_corners(wide)
+    measures = {
+        'ellipse error': ellipse.error,
+        'aspect': ellipse.aspect,
+        'rectangle error': off / size,
+        'farthest corner': float(away.max()) / max(width, 1e-300),
+        'sides error': min(residual / size_of(wide), 1.0),
+        'corners': float(len(at)),
+        'bulge': _bulge(wide, at),
+    }
+    return Fits(ellipse=ellipse, rectangle=rectangle, corners=narrowed(sharp), measures=measures)
 
 
 def _bulge(outline: Floats, at: list[int]) -> float:
@@ -188,15 +157,3 @@ def _bulge(outline: Floats, at: list[int]) -> float:
     turn = 2.0 * math.pi / len(at)
     # Of a circle, over equal sides.
     return min(max(beyond / (1.0 - math.sin(turn) / turn), 0.0), 2.0)
-
-
-def _squareness(found: Floats) -> float:
-    """Return how well four corners fit a rectangle, 0 .. 1."""
-    nearest = rectangle(found)
-    sides = next_vertices(found) - found
-    lengths = norms(next_vertices(nearest) - nearest)
-    off = float(norms(nearest - found).mean() / lengths.mean())
-    slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
-    # The direction of a short side is less exact than its ends.
-    slant = float(slants.mean() * lengths.min() / lengths.max())
-    return _OFF.below(off) * _SLANT.below(slant)

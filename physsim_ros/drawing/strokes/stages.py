@@ -12,9 +12,8 @@ stage                    returns             which is
 =======================  ==================  ======================================================
 `stroke.resample_stroke` `Stroke`            samples cleaned, a path of evenly spaced points
 `features.features_of`   `Features`          its turns, swings and crossings
-`forms.forms_of`         `Form` of each kind its looks, each with a weight: signs by evidence for
-                                             their `Candidate`, lines and outlines by corners and
-                                             fits
+`forms.forms_of`         `Form` of each kind its looks, each with a weight: signs and the shapes of
+                                             outlines by evidence, lines by their corners
 `meanings.in_scene`      `Context`           all that, over the bodies at its ends
 `meanings.meanings_of`   `Meaning`           of each form what it would be in this scene
 `choice.guesses_of`      `Guess`, at most 3  the likeliest meanings, and how sure the first one is

@@ -18,6 +18,7 @@ from physsim_ros.drawing.strokes.evidence import (
     terms_of,
 )
 from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.plain_forms import fits_of, SHAPES
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stages import Candidate, Sign
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -62,6 +63,13 @@ def test_the_table_has_the_measures_of_a_sign_and_no_others(sign: Sign) -> None:
 
     assert {term.measure for term in terms_of(sign.name)} == {CONSTANT, *candidate.measures}
     assert all(list(term.knots) == sorted(set(term.knots)) for term in terms_of(sign.name))
+
+
+def test_the_table_has_the_measures_of_shapes_and_no_others() -> None:
+    outline = resample_stroke(stroke(figures.disc(rng := np.random.default_rng(0)), rng)).outline
+
+    for shape in SHAPES:
+        assert {term.measure for term in terms_of(shape)} == {CONSTANT, *fits_of(outline).measures}
 
 
 @pytest.mark.slow

@@ -23,12 +23,14 @@ from physsim_ros.drawing import (
 )
 from physsim_ros.drawing.strokes.choice import group_confidence
 from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.geometry import path_length, unit_vector
 from physsim_ros.drawing.strokes.joining import joined_arrow
+from physsim_ros.drawing.strokes.plain_forms import fits_of
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
 from physsim_ros.drawing.strokes.signs.swings import SCRIBBLE
 from physsim_ros.drawing.strokes.signs.x import CROSS, of_lines
-from physsim_ros.drawing.strokes.stages import Sign
+from physsim_ros.drawing.strokes.stages import POLYGON, Sign
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
@@ -304,8 +306,13 @@ LIMITS: dict[
         [], lambda it: [(it, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)],
         (1.1, 1.4), ('rectangle', 'wall'),
     ),
+    'gap in a side of a square that is neither closed nor open': (
+        'evidence._SOFT',
+        [], lambda it: [(it, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)],
+        (1.234, 1.238), ('', 'wall'),
+    ),
     'shrinking of a circle that is drawn twice': (
-        'evidence._SOFT', [], spiral, (0.4446, 0.4519), ('disc', ''),
+        '', [], spiral, (0.345, 0.352), ('disc', ''),
     ),
     'shrinking of a spiral that has an outer boundary': (
         'outer_boundary._LEAST_LENGTH', [], spiral, (0.8749, 0.8838), ('', 'polygon'),
@@ -313,9 +320,9 @@ LIMITS: dict[
     'radius of a loop of a line': (
         'plain_forms._LOOP', [], looped, (0.1142, 0.1158), ('wall', '')),
     'dent of a bean': (
-        'plain_forms._ELLIPTIC', [], bean, (0.5, 0.65), ('disc', 'polygon')),
+        '', [], bean, (0.5, 0.65), ('disc', 'polygon')),
     'roundness of a square': (
-        'plain_forms._SIDES plain_forms._ELLIPSE', [], squircle, (0.4, 0.6),
+        '', [], squircle, (0.6, 0.7),
         ('rectangle', 'disc'),
     ),
     'slant of a trapezoid': (
@@ -410,17 +417,14 @@ LIMITS: dict[
     'depth of the teeth of a gear': (
         'corner_detection._WOBBLE_CLOSED', [],
         lambda it: np.array([*ring(16), (1.0, 0.0)]) * (1.0 + it * (np.arange(17) % 2))[:, None],
-        (0.239, 0.2446), ('polygon', 'disc'),
+        (0.2405, 0.2432), ('disc', 'polygon'),
     ),
     'roundness of a plank': (
-        'plain_forms._EVIDENCE plain_forms._THIN plain_forms._PLANK', [],
-        lambda it: squircle(it) * (1.0, 0.2), (0.634, 0.66), ('rectangle', 'polygon'),
+        '', [], lambda it: squircle(it) * (1.0, 0.2), (0.6, 0.65), ('rectangle', 'polygon'),
     ),
-    'bow of a plank, whose sides are those of a second round of the fit': (
-        'geometry._WIDE', [], bowed_plank, (0.1236, 0.1255), ('rectangle', 'polygon'),
-    ),
+    'bow of a plank': ('', [], bowed_plank, (0.2, 0.25), ('rectangle', 'polygon')),
     'bow of the sides of a square': (
-        'plain_forms._BULGE', [], lambda it: bowed(ring(4), it), (0.1654, 0.1694),
+        '', [], lambda it: bowed(ring(4), it), (0.25, 0.28),
         ('rectangle', 'disc'),
     ),
     'gap in a side of a plank': (
@@ -432,10 +436,7 @@ LIMITS: dict[
         'plain_forms._NARROW', [], narrow_loop, (0.0943, 0.0986), ('wall', ''),
     ),
     'height of two roofs on opposite sides': (
-        'plain_forms._SIDED', [], roofs, (0.530, 0.541), ('rectangle', 'polygon'),
-    ),
-    'height of two flat roofs on opposite sides': (
-        'corner_detection._CORNER_TURN', [], roofs, (0.388, 0.3937), ('disc', 'rectangle'),
+        '', [], roofs, (0.5, 0.6), ('rectangle', 'polygon'),
     ),
     'bend of the last part of the shaft of an arrow': (
         'arrow._SHAFT arrow._NECK', [], bent_late, (0.6119, 0.6206), ('gravity', ''),
@@ -451,16 +452,16 @@ LIMITS: dict[
         (0.706, 0.7165), ('', 'wall'),
     ),
     'angle of a rhomb': (
-        'plain_forms._SLANT plain_forms._OFF', [],
+        '', [],
         lambda it: [(0, 0), (2, 0), (2 + 2 * math.cos(it), 2 * math.sin(it)),
                     (2 * math.cos(it), 2 * math.sin(it)), (0, 0)],
-        (1.276, 1.288), ('polygon', 'rectangle'),
+        (1.22, 1.26), ('polygon', 'rectangle'),
     ),
     'angle of a parallelogram': (
-        'plain_forms._OFF', [],
+        '', [],
         lambda it: [(0, 0), (1.5, 0), (1.5 + 1.2 * math.cos(it), 1.2 * math.sin(it)),
                     (1.2 * math.cos(it), 1.2 * math.sin(it)), (0, 0)],
-        (1.23, 1.28), ('polygon', 'rectangle'),
+        (1.20, 1.25), ('polygon', 'rectangle'),
     ),
     'gap that a scribble bridges between two bodies': (
         'swings._MIDDLE_ON_ENDS',
@@ -723,6 +724,17 @@ def swings_with_spike(height: float) -> int:
     return features_of(resample_stroke(sampled(teeth))).swings.count
 
 
+def corners_of(way: Way | Floats) -> float:
+    """Return the number of corners of an outline."""
+    return fits_of(resample_stroke(sampled(way)).outline).measures['corners']
+
+
+def is_triangle(bow: float) -> bool:
+    """Return whether a triangle whose sides are bowed outwards by a share has three corners."""
+    best = forms_of(features_of(resample_stroke(sampled(bowed(ring(3), bow)))))[0]
+    return best.name == POLYGON and len(best.points) == 3
+
+
 def guesses(diameter: float) -> str:
     """Return the meanings that a circle on a square of 1 m may have."""
     world = World()
@@ -772,6 +784,15 @@ STAGES: dict[
     ),
     'angle of the lines of an x': (
         'geometry.LEAST_SINE', are_x, (0.295, 0.31), (False, True),
+    ),
+    'bow of the sides of a triangle': (
+        'plain_forms._SIDED', is_triangle, (0.45, 0.5), (True, False),
+    ),
+    'height of two flat roofs': (
+        'corner_detection._CORNER_TURN', lambda it: corners_of(roofs(it)), (0.35, 0.43), (4, 6),
+    ),
+    'bow of a plank whose corners are four': (
+        'geometry._WIDE', lambda it: corners_of(bowed_plank(it)), (0.067, 0.075), (4, 3),
     ),
     'lines of hatching': ('open_lines._HEAVIER', heavier, (1, 2), (1.25, 1.5625)),
     'height of one tooth above the others': (
