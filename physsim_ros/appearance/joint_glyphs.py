@@ -48,6 +48,8 @@ class Corner:
 
 
 Strip = list[Corner]
+# Each corner of the line of a rope past its guides, of which `joint_lines` knows the place.
+ON_PATH = Corner(0.5)
 
 
 def is_rigid(strip: Strip) -> bool:
@@ -77,8 +79,7 @@ def joint_strips(joint: Joint, size: float) -> list[Strip]:
             sides = [[Corner(0.0, side), Corner(1.0, side)] for side in (-size / 3, size / 3)]
             return [*sides, _circle(size / 2), _circle(size / 2, at=1.0)]
         case JointKind.ROPE if joint.guides:
-            # `joint_lines` puts its corners along the path.
-            path = [Corner(0.5)] * corner_count(len(joint.guides))
+            path = [ON_PATH] * corner_count(len(joint.guides))
             return [path, _circle(size / 3), _circle(size / 3, at=1.0)]
         case JointKind.ROPE:
             shares = np.linspace(0.0, 1.0, _ROPE + 1).tolist()

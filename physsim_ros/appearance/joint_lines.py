@@ -17,11 +17,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance.joint_colors import JointColors
-from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, Strip
+from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, ON_PATH, Strip
 from physsim_ros.appearance.rope_corners import corner_count, path_corners
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.scene import Joint, Scene
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 
@@ -47,14 +47,15 @@ class Place(NamedTuple):
     side: int
 
 
-class _Path(NamedTuple):
+class _Paths(NamedTuple):
     """
-    The path of a rope past its guides.
+    The paths of the ropes that pass the same number of guides.
 
-    :ivar corners: indices of its corners, those of its ends excepted
-    :ivar rows: (k,) intp: of the bodies that it passes, its ends among them
-    :ivar anchors: (k, 2) float64: in their frames [m]
-    :ivar radii: (k,) float64: as in `model.rope_path` [m]
+    :ivar corners: (r, c) intp: indices of the corners of each, those of the circles at its ends
+        excepted
+    :ivar rows: (r, k) intp: of the bodies that it passes, its ends among them
+    :ivar anchors: (r, k, 2) float64: in their frames [m]
+    :ivar radii: (r, k) float64: as in `model.rope_path` [m]
     """
 
     corners: NDArray[np.intp]
@@ -93,10 +94,15 @@ class JointGlyphs:
             if not (with_symbols and is_rigid(strip))
         ]
         self._colors = JointColors(scene)
-        corners = [corner for _, strip in owned for corner in strip]
         owner, lengths = [number for number, _ in owned], [len(strip) for _, strip in owned]
         self.owner, self.lengths = np.array(owner, np.intp), np.array(lengths, np.intp)
-        self._joints = np.repeat(self.owner, self.lengths)
+        on_path = np.array([strip[0] is ON_PATH for _, strip in owned], np.bool_)
+        starts = np.cumsum(self.lengths) - self.lengths
+        self._paths = _paths_by_guides(scene, self.owner[on_path], starts[on_path])
+        # All other corners, of which each has a place by itself.
+        self._free = np.flatnonzero(~np.repeat(on_path, self.lengths))
+        corners = [corner for _, strip in owned if strip[0] is not ON_PATH for corner in strip]
+        self._joints = np.repeat(self.owner, self.lengths)[self._free]
         self._along = np.array([each.along for each in corners], np.float64)[:, None]
         self._across = np.array([each.across for each in corners], np.float64)[:, None]
         self._sag = np.array([each.sag for each in corners], np.float64)[:, None]
@@ -113,11 +119,6 @@ class JointGlyphs:
                 for joint in scene.joints
             ]
         )
-        self._paths = [
-            _path_of(scene, joint, np.flatnonzero(self._joints == number))
-            for number, joint in enumerate(scene.joints)
-            if joint.guides and joint.kind is JointKind.ROPE
-        ]
         gravity = np.array(scene.settings.gravity)
         strength = float(np.hypot(*gravity))
         self._down = gravity / strength if strength > 0 else np.array((0.0, -1.0))
@@ -163,14 +164,18 @@ class JointGlyphs:
         joints = self._joints
         background = np.zeros((*poses.shape[:-2], 1))
         yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
-        corners: Floats = first[..., joints, :] + self._along * span[..., joints, :]
-        corners += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
-        corners += rotated_each(self._arms, yaw)
+        free: Floats = first[..., joints, :] + self._along * span[..., joints, :]
+        free += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
+        free += rotated_each(self._arms, yaw)
+        if not self._paths:
+            return free
+        corners = np.empty((*poses.shape[:-2], int(self.lengths.sum()), 2))
+        corners[..., self._free, :] = free
         frames = np.concatenate((poses, np.zeros((*poses.shape[:-2], 1, 3))), axis=-2)
-        for path in self._paths:
-            stops = frames[..., path.rows, :]
-            places = stops[..., :2] + rotated_each(path.anchors, stops[..., 2])
-            corners[..., path.corners, :] = path_corners(places, path.radii)
+        for paths in self._paths:
+            stops = frames[..., paths.rows, :]
+            places = stops[..., :2] + rotated_each(paths.anchors, stops[..., 2])
+            corners[..., paths.corners, :] = path_corners(places, paths.radii)
         return corners
 
     def symbol_poses(self, poses: Floats) -> Floats:
@@ -211,15 +216,43 @@ def _symbols(glyphs: Sequence[Sequence[Strip]]) -> dict[Symbol, list[Place]]:
     return symbols
 
 
-def _path_of(scene: Scene, joint: Joint, corners: NDArray[np.intp]) -> _Path:
-    names = (joint.a, *(guide.body for guide in joint.guides), joint.b)
-    seat = joint.seat
-    passed = [(guide.x, guide.y) for guide in joint.guides]
-    return _Path(
-        corners[: corner_count(len(passed))],
-        np.array([scene.row_of[name] for name in names], np.intp),
-        np.array([(seat.ax, seat.ay), *passed, (seat.bx, seat.by)]),
-        np.array([0.0, *(guide.radius for guide in joint.guides), 0.0]),
+def _paths_by_guides(
+    scene: Scene, joints: NDArray[np.intp], starts: NDArray[np.intp]
+) -> list[_Paths]:
+    """
+    Return the paths of all ropes past guides.
+
+    :param joints: (r,) intp: numbers of these
+    :param starts: (r,) intp: index of the first corner of each
+    """
+    guides = np.array([len(scene.joints[number].guides) for number in joints], np.intp)
+    return [
+        _paths_of(
+            scene,
+            joints[guides == count],
+            starts[guides == count, None] + np.arange(corner_count(count)),
+        )
+        for count in np.unique(guides).tolist()
+    ]
+
+
+def _paths_of(scene: Scene, numbers: NDArray[np.intp], corners: NDArray[np.intp]) -> _Paths:
+    """
+    Return the paths of ropes that pass the same number of guides.
+
+    :param numbers: (r,) intp: of the joints
+    :param corners: (r, c) intp: as of the result
+    """
+    joints = [scene.joints[number] for number in numbers]
+    seats = scene.seats[numbers, :4].reshape(-1, 2, 1, 2)
+    guides = np.array([[each[1:4] for each in joint.guides] for joint in joints], np.float64)
+    passed = [[scene.row_of[guide.body] for guide in joint.guides] for joint in joints]
+    ends = scene.joint_rows[numbers]
+    return _Paths(
+        corners,
+        np.column_stack((ends[:, 0], np.array(passed, np.intp), ends[:, 1])),
+        np.concatenate((seats[:, 0], guides[..., :2], seats[:, 1]), axis=1),
+        np.pad(guides[..., 2], ((0, 0), (1, 1))),
     )
 
 
