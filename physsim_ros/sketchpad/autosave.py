@@ -95,7 +95,7 @@ class Autosave:
         """Return the names of those who drew the unsaved world of the last start."""
         # There is no such world, or a person has spoilt its file.
         with suppress(OSError, ValueError, RecursionError):
-            # What stands there may be no file, and never end.
+            # The file may be a pipe, which never ends.
             start = next(read_parts(self._unsaved, _MOST_BYTES), b'')
             line = start[:_MOST_BY].partition(b'\n')[0].decode()
             names = json.loads(line.removeprefix(_BY)) if line.startswith(_BY) else []

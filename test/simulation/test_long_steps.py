@@ -89,13 +89,14 @@ def calls_of_a_step(longest: float, monkeypatch: pytest.MonkeyPatch) -> list[flo
             return took
 
 
+@pytest.mark.slow
 def test_a_call_of_the_core_begins_no_sub_step_that_would_end_too_late(monkeypatch):
     def are_single() -> bool:
         sub_step = min(calls_of_a_step(0.0, monkeypatch))
         # One sub-step ends in that time, and two do not.
         return len(calls_of_a_step(1.4 * sub_step, monkeypatch)) == lib.SUB_STEPS
 
-    # But where the machine is busy.
+    # A busy machine delays some calls: the test is slow, since it measures time.
     assert sum(are_single() for _ in range(9)) > 4
 
 

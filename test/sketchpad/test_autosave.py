@@ -140,7 +140,7 @@ def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) ->
         assert again.unsaved_by == []
     again.forget_unsaved()
     assert again.unsaved_by == []
-    # Whoever opened it to read would wait for somebody who writes.
+    # A reader of a pipe waits for a writer.
     os.mkfifo(tmp_path / '.unsaved.yaml')
     assert again.unsaved_by == []
     with pytest.raises(OSError, match='not a regular file'):

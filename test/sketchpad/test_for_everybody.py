@@ -123,7 +123,7 @@ def test_letters_are_no_keys_where_somebody_does_not_want_them(sheet: Sheet) -> 
     assert pen.get_attribute('aria-pressed') == 'true'
     sheet.page.keyboard.press('?')
     assert sheet.page.get_by_role('dialog').count() == 0
-    # What has no letter works on.
+    # Keys without a letter work on.
     sheet.page.keyboard.press('Control+a')
     sheet.page.get_by_role('heading', name='3 bodies').wait_for()
     sheet.press('Help')

@@ -45,14 +45,14 @@ _SIDED = 0.022
 # ovals, wheels are drawn more often, and the other reading is offered. The number of sides of an
 # oval, which rolls.
 _CIRCULAR, _OVAL_SIDES = Limit(0.58), 48
-# What an outline is by evidence; the rest of its weight is a polygon's.
+# Shapes that the table of evidence has; the rest of the weight of an outline is a polygon's.
 ELLIPSE, SHAPES = 'ellipse', ('ellipse', RECTANGLE)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Fits:
     """
-    What fits an outline.
+    The fits to an outline.
 
     :param ellipse: of its area
     :param rectangle: (4, 2) float64: corners of the nearest rectangle [m]
@@ -130,7 +130,7 @@ def _shapes(outline: Floats) -> Iterator[Form]:
 
 
 def fits_of(outline: Floats) -> Fits:
-    """Return what fits a closed polyline, with the measures by which its shape is told."""
+    """Return the fits to a closed polyline, with the measures by which its shape is told."""
     ellipse, size = fitting.ellipse(outline), size_of(outline)
     rectangle, off = fitting.rectangle_of(outline)
     away = norms(rectangle[:, None] - outline).min(axis=1)

@@ -179,7 +179,7 @@ function arrange() {
     Number(!one.person) - Number(!other.person) || one.person.localeCompare(other.person, language));
   const seats = elementOf('seats'), focused = document.activeElement;
   if (order.some(({element}, place) => element !== seats.children[place])) seats.append(...order.map(({element}) => element));
-  // What is moved loses the focus.
+  // An element that is moved loses the focus.
   if (focused instanceof HTMLElement) focused.focus({preventScroll: true});
   showText(elementOf('present'), [t('{count} of {all} here', {count: here.length, all: cards.length}),
     ...hands.length ? [t('hands raised: {count}', {count: hands.length})] : []].join(' · '));
