@@ -185,7 +185,7 @@ def test_a_slider_that_was_pressed_and_not_moved_follows_time(sheet: Sheet) -> N
     # At the beginning of a time line its button is at the left.
     sheet.page.mouse.click(box['x'] + 8, box['y'] + box['height'] / 2)
     sheet.play_until(0.3)
-    sheet.wait("document.querySelector('#slider').value > 0.3")
+    sheet.wait("document.querySelector('#slider').value > 0.25")
 
 
 def test_the_slider_has_the_last_word_over_buttons_pressed_before(sheet: Sheet) -> None:

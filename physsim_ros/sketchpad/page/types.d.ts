@@ -320,6 +320,10 @@ export interface Timeline {
   now: number;
   newest: number;
   course: number;
+  /** Number of the line of events in force. */
+  line: number;
+  /** Time from which on it may differ from the line before [s]. */
+  parts: number;
   undo: string;
   redo: string;
   speed: number;

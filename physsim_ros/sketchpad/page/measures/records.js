@@ -23,11 +23,10 @@ export class Records {
     this.wanted = new Map();
     /** @type {string[]} names of bodies whose past is not asked for yet */
     this.asking = [];
-    this.course = 0;
     this.began = 0; // [s] when this world was opened
     this.opened = false; // whether its first frame is to come
     parts.connection.on('frame', () => this.#record());
-    parts.connection.on('timeline', ({course, now}) => this.#follow(course, now));
+    parts.connection.on('line', ({since}) => this.#leave(since));
     parts.connection.on('body', (body) => this.#addPast(body));
     parts.connection.on('past_forces', (forces) => this.#addForces(forces));
     // The answers to what was asked are lost.
@@ -50,16 +49,22 @@ export class Records {
     this.wanted.set(by, names);
     const all = new Set([...this.wanted.values()].flat());
     for (const name of this.bodies.keys()) if (!all.has(name)) this.bodies.delete(name);
-    const fresh = [...all].filter((name) => !this.bodies.has(name)), waits = this.asking.length > 0;
+    const fresh = [...all].filter((name) => !this.bodies.has(name));
     for (const name of fresh) this.bodies.set(name, {samples: [], left: []});
-    this.asking.push(...fresh);
-    if (!waits) this.#ask();
+    this.#askFor(fresh);
     this.parts.frames.want(this, {velocities: all.size > 0, contacts: all.size > 0});
   }
 
   /** @param {string} name */
   samples(name) {
     return this.bodies.get(name)?.samples ?? [];
+  }
+
+  /** @param {string[]} names of bodies whose past is not known */
+  #askFor(names) {
+    const waits = this.asking.length > 0;
+    this.asking.push(...names.filter((name) => !this.asking.includes(name)));
+    if (!waits) this.#ask();
   }
 
   /** Ask for one past after the other: of several the server sends the last. */
@@ -118,17 +123,15 @@ export class Records {
   }
 
   /**
-   * @param {number} course
-   * @param {number} now where it begins, or is returned to [s]
+   * Keep what did not happen in the line that is in force as the course that was left, and ask for what did.
+   * @param {number} since [s]
    */
-  #follow(course, now) {
-    if (course !== this.course) {
-      for (const [name, {samples, left}] of this.bodies) {
-        const later = samples.filter(({time}) => time >= now);
-        this.bodies.set(name, {samples: samples.filter(({time}) => time <= now), left: later.length > 1 ? later : left});
-      }
+  #leave(since) {
+    for (const [name, {samples, left}] of this.bodies) {
+      const place = samples.findIndex(({time}) => time > since - 1e-9), later = place < 0 ? [] : samples.splice(place);
+      this.bodies.set(name, {samples, left: later.length > 1 ? later : left});
     }
-    this.course = course;
+    if (this.parts.world.timeline.newest > since) this.#askFor([...this.bodies.keys()]);
   }
 }
 

@@ -89,6 +89,7 @@ function picture(stroke, before = '') {
 
 const LIKELY = 0.05; // the least confidence of a runner-up that is offered
 const GLANCED = 2500; // ms for which a reading without a runner-up is shown
+const UNDOES = ['~/undo', '~/take_back']; // topics
 
 export class Readings {
   /** @param {Parts<'connection' | 'notes' | 'view' | 'world'>} parts */
@@ -98,11 +99,15 @@ export class Readings {
     this.strokes = new Map();
     this.dismiss = () => {};
     this.shown = ''; // request whose reading is shown
+    this.since = -Infinity; // [s] when what is shown was built
     parts.view.overlays.push((view) => {
       for (const stroke of this.strokes.values()) view.line(stroke, view.palette.accent, [8, 6]);
     });
     parts.connection.on('reading', (reading) => this.#show(reading));
-    parts.connection.on('answer', ({request, ok, code}) => {
+    // What was built is not there any more.
+    parts.connection.on('frame', ({time}) => time < this.since && this.dismiss());
+    parts.connection.on('answer', ({request, ok, code, topic}) => {
+      if (ok && UNDOES.includes(topic)) this.dismiss();
       if (ok || code === 'not_recognised') return;
       this.strokes.delete(request);
       // Read, but not built.
@@ -127,6 +132,7 @@ export class Readings {
     if (!stroke.length) return;
     this.dismiss();
     this.shown = request;
+    this.since = built ? this.parts.world.frame.time : -Infinity;
     const at = /** @type {Point} */ ([
       stroke.reduce((sum, [x]) => sum + x, 0) / stroke.length, Math.max(...stroke.map(([, y]) => y))]);
     if (built) {
