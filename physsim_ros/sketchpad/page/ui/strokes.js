@@ -89,7 +89,6 @@ function picture(stroke, before = '') {
 
 const LIKELY = 0.05; // the least confidence of a runner-up that is offered
 const GLANCED = 2500; // ms for which a reading without a runner-up is shown
-const UNDOES = ['~/undo', '~/take_back']; // topics
 
 export class Readings {
   /** @param {Parts<'connection' | 'notes' | 'view' | 'world'>} parts */
@@ -107,7 +106,7 @@ export class Readings {
     // What was built is not there any more.
     parts.connection.on('frame', ({time}) => time < this.since && this.dismiss());
     parts.connection.on('answer', ({request, ok, code, topic}) => {
-      if (ok && UNDOES.includes(topic)) this.dismiss();
+      if (ok && topic === '~/undo') this.dismiss();
       if (ok || code === 'not_recognised') return;
       this.strokes.delete(request);
       // Read, but not built.
