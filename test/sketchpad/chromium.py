@@ -13,7 +13,7 @@ import re
 import shutil
 import tempfile
 import time
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import pytest
 
@@ -37,7 +37,6 @@ SOFTWARE_GL = [
     '--enable-unsafe-swiftshader',
     '--ignore-gpu-blocklist',
 ]
-VIEWPORT = {'width': 1200, 'height': 800}
 PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
     x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
 MILLISECONDS = 1000.0 * PATIENCE
@@ -149,6 +148,7 @@ class Sheet:
 
     :param browser: that opens it
     :param address: with the token
+    :param size: width and height [px]
     :param unfolded: whether panels are shown in full, as somebody has chosen in this browser
     :param options: of its browser context
 
@@ -158,9 +158,16 @@ class Sheet:
     opened: ClassVar[list[Sheet]] = []
 
     def __init__(
-        self, browser: Any, address: str, *, unfolded: bool = True, **options: Any
+        self,
+        browser: Any,
+        address: str,
+        *,
+        size: tuple[int, int] = (1200, 800),
+        unfolded: bool = True,
+        **options: Any,
     ) -> None:
-        self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
+        viewport = dict(zip(('width', 'height'), size, strict=True))
+        self.context = browser.new_context(viewport=viewport, **options)
         self.context.set_default_timeout(MILLISECONDS)
         self.context.add_init_script(DELAYS + LISTENER + (UNFOLDED if unfolded else ''))
         self.page = self.context.new_page()
@@ -173,9 +180,9 @@ class Sheet:
         self.opened.append(self)
         self.page.goto(address)
 
-    def begin(self, bodies: int = 3) -> None:
+    def begin(self, bodies: int = 3) -> Self:
         """
-        Reset the world, pause it, and wait for that to be seen.
+        Reset the world, pause it, wait for that to be seen, and return the page.
 
         :param bodies: number of bodies at the beginning
         """
@@ -188,6 +195,7 @@ class Sheet:
         self.wait('before => heard.shown.indexOf("~/reset", before) >= 0', before)
         self.wait('physsim.time === 0 && physsim.speed === 0')
         self.wait('count => Object.keys(physsim.bodies).length === count', bodies)
+        return self
 
     def wait(self, predicate: str, argument: Any = None) -> None:
         """
@@ -289,6 +297,10 @@ class Sheet:
         """Close the page; it has had no errors."""
         self.context.close()
         assert self.errors == [], self.errors
+
+
+# Opens a page that the test has closed at its end; without an address, of the module's world.
+OpenSheet = Callable[..., Sheet]
 
 
 class Fingers:

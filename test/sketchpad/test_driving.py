@@ -5,13 +5,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import re
-from typing import Any
 
 import pytest
 
-from .chromium import PIXEL, Sheet
+from .chromium import OpenSheet, PIXEL, Sheet
 
 WORLD = """
 format: 1
@@ -29,17 +27,14 @@ bodies:
 
 
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet) -> Sheet:
     """Give a test a page whose robot is selected, from the beginning of the world."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(3)
+    sheet = open_sheet().begin(3)
     sheet.page.mouse.click(*sheet.place(0.0, 0.0))
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_role('heading', name='differential · /tb3_0').wait_for()
     sheet.press('Play')
-    yield sheet
-    assert not sheet.errors
-    sheet.close()
+    return sheet
 
 
 def tool(sheet: Sheet) -> str:

@@ -6,12 +6,11 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from physsim_ros.files import shipped_lessons
 import pytest
 
-from .chromium import NOTE_TEXTS, Sheet, started_world
+from .chromium import NOTE_TEXTS, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 G = 9.81
@@ -211,7 +210,7 @@ def test_the_ring_of_a_fast_body_stays_on_the_page(sheet: Sheet) -> None:
 
 
 def test_a_round_arrow_has_the_torque_on_a_ball_that_rolls_and_its_angular_momentum(
-    chromium: Any, outside: Outside
+    open_sheet: OpenSheet, outside: Outside
 ) -> None:
     world = """
 format: 1
@@ -221,8 +220,7 @@ bodies:
   - {name: ball/0, circle: {radius: 0.5}, at: [-3.6, 3.985], friction: 1, elasticity: 0, mass: 2}
 """
     program, address = started_world(outside, world=world)
-    sheet = Sheet(chromium, address)
-    sheet.begin(2)
+    sheet = open_sheet(address).begin(2)
     sheet.page.evaluate(NOTE_TEXTS)
     for name in ('Show forces', 'Show velocities', 'Momentum', 'Hand'):
         sheet.press(name)
@@ -236,16 +234,16 @@ bodies:
     told = sheet.page.evaluate('window.texts.filter((text) => text.endsWith("N m s"))')
     # It lies in the air for less than a frame.
     assert float(told[0].split()[0]) == pytest.approx(torque * time, rel=0.05)
-    sheet.close()
     program.interrupt()
 
 
-def test_each_strand_of_a_rope_bears_its_share_of_a_load(chromium: Any, outside: Outside) -> None:
+def test_each_strand_of_a_rope_bears_its_share_of_a_load(
+    open_sheet: OpenSheet, outside: Outside
+) -> None:
     program, address = started_world(
         outside, world=(shipped_lessons() / 'pulley.yaml').read_text()
     )
-    sheet = Sheet(chromium, address)
-    sheet.begin(3)
+    sheet = open_sheet(address).begin(3)
     sheet.press('Show forces')
     sheet.play_until(1.0)
     sheet.until(lambda: 'sum' in numbers_on(sheet, 'load/0'), 'the forces on the load')
@@ -254,5 +252,4 @@ def test_each_strand_of_a_rope_bears_its_share_of_a_load(chromium: Any, outside:
     assert [e['size'] for e in strands] == ['98.1 N'] * 4
     assert all(e['force'] == pytest.approx((0.0, 10.0 * G), abs=0.05) for e in strands)
     assert numbers_on(sheet, 'load/0')['sum'] == '0 N'
-    sheet.close()
     program.interrupt()

@@ -10,17 +10,7 @@ import math
 
 import pytest
 
-from .chromium import PIXEL, Sheet
-
-# The texts that are written on the canvas from now on.
-SPY = """() => {
-    window.texts = [];
-    const write = CanvasRenderingContext2D.prototype.fillText;
-    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
-        window.texts.push(text);
-        write.call(this, text, ...at);
-    };
-}"""
+from .chromium import NOTE_TEXTS, PIXEL, Sheet
 
 # Whether a speed of 1 m/s or more was written.
 SPEED = r'window.texts.some((text) => / [1-9]\.\d+ m\/s/.test(text))'
@@ -33,7 +23,7 @@ def sheet(sheet: Sheet) -> Sheet:
     sheet.page.mouse.click(*sheet.place(4.0, 0.5))
     sheet.page.get_by_role('heading', name='box/0').wait_for()
     sheet.wait('physsim.handles !== null')
-    sheet.page.evaluate(SPY)
+    sheet.page.evaluate(NOTE_TEXTS)
     return sheet
 
 

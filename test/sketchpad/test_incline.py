@@ -6,11 +6,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import pytest
 
-from .chromium import Sheet
+from .chromium import OpenSheet, Sheet
 
 ANGLE, LENGTH = 'Angle of the slope [°]', 'Length of the slope [m]'
 # Greatest distance of a foot from where it was [m]: poses come as float32.
@@ -109,8 +108,8 @@ def test_a_plane_that_is_drawn_near_a_floor_stands_on_it(sheet: Sheet) -> None:
     assert y == pytest.approx(5.0, abs=near)
 
 
-def test_two_pages_draw_planes_at_once(sheet: Sheet, chromium: Any, address: str) -> None:
-    other = Sheet(chromium, address)
+def test_two_pages_draw_planes_at_once(sheet: Sheet, open_sheet: OpenSheet) -> None:
+    other = open_sheet()
     for each in (sheet, other):
         each.wait('heard.people?.length === 2')
         each.press('Inclined plane')
@@ -122,4 +121,3 @@ def test_two_pages_draw_planes_at_once(sheet: Sheet, chromium: Any, address: str
         each.page.mouse.up()
     for each in (sheet, other):
         each.wait('Object.keys(physsim.bodies).length === 5')
-    other.close()

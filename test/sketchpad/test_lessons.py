@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 OWN = """
@@ -36,17 +36,15 @@ WRITTEN = """() => {
 
 
 @pytest.fixture
-def sheet(chromium: Any, outside: Outside, tmp_path: Path) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, outside: Outside, tmp_path: Path) -> Iterator[Sheet]:
     """Give a test a page of a world with a lesson of the user, and one that is none."""
     lessons = tmp_path / 'lessons'
     lessons.mkdir()
     (lessons / 'mine.yaml').write_text(OWN)
     (lessons / 'bad.yaml').write_text(OWN.replace('figure: 3', 'figure: three'))
     program, address = started_world(outside, world_dir=tmp_path)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     yield sheet
-    sheet.close()
     program.interrupt()
 
 

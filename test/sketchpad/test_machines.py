@@ -5,13 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 import pytest
 
-from .chromium import Sheet, started_world
-from ..outside import Outside
+from .chromium import OpenSheet, Sheet
 
 WORLD = """
 format: 1
@@ -29,21 +25,12 @@ ROW = """([x, y, width]) => [...document.querySelector('canvas').getContext('2d'
     x * devicePixelRatio, y * devicePixelRatio, width * devicePixelRatio, 1).data]"""
 
 
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world with machines."""
-    return started_world(outside, world=WORLD)[1]
-
-
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet) -> Sheet:
     """Give a test a page with the hand, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(BODIES)
+    sheet = open_sheet().begin(BODIES)
     sheet.press('Hand')
-    yield sheet
-    assert not sheet.errors
-    sheet.close()
+    return sheet
 
 
 def heading(sheet: Sheet, name: str) -> None:

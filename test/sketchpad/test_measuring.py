@@ -5,14 +5,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import math
 import re
-from typing import Any
 
 import pytest
 
-from .chromium import NOTE_TEXTS, Sheet
+from .chromium import NOTE_TEXTS, OpenSheet, Sheet
 
 G = 9.81
 # A ball that is thrown, one that falls, a cart that passes two gates without friction.
@@ -61,13 +59,11 @@ WIDTH_MISSING = """(select) => {
 
 
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet) -> Sheet:
     """Give a test a page with the hand, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address, permissions=['clipboard-read', 'clipboard-write'])
-    sheet.begin(6)
+    sheet = open_sheet(permissions=['clipboard-read', 'clipboard-write']).begin(6)
     sheet.press('Hand')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def chosen(sheet: Sheet, x: float, y: float) -> None:

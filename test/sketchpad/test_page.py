@@ -8,11 +8,10 @@ from __future__ import annotations
 import math
 from pathlib import Path
 import re
-from typing import Any
 
 import pytest
 
-from .chromium import circle, POINTER, Sheet, started_world
+from .chromium import circle, OpenSheet, POINTER, Sheet, started_world
 from ..outside import Outside
 
 
@@ -241,9 +240,9 @@ def test_time_runs_back_by_the_button(sheet: Sheet) -> None:
 
 
 def test_two_pages_see_one_world_and_each_has_its_own_tool(
-    sheet: Sheet, chromium: Any, address: str
+    sheet: Sheet, open_sheet: OpenSheet
 ) -> None:
-    other = Sheet(chromium, address)
+    other = open_sheet()
     other.wait('Object.keys(physsim.bodies).length === 3')
     before = sheet.names()
     sheet.press('Circle')
@@ -252,7 +251,6 @@ def test_two_pages_see_one_world_and_each_has_its_own_tool(
     other.wait('name => name in physsim.bodies', name)
     pen = other.page.get_by_role('button', name='Pen', exact=True)
     assert pen.get_attribute('aria-pressed') == 'true'
-    other.close()
 
 
 def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
@@ -342,11 +340,10 @@ def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
 
 
 def test_a_stroke_that_is_read_and_then_refused_shows_that_at_its_place(
-    chromium: Any, outside: Outside
+    open_sheet: OpenSheet, outside: Outside
 ) -> None:
     _, address = started_world(outside, max_bodies=3)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     sheet.drag(*circle(-2.0, 6.0, 0.8))
     note = sheet.page.locator('.note.refusal')
     note.wait_for()
@@ -356,7 +353,6 @@ def test_a_stroke_that_is_read_and_then_refused_shows_that_at_its_place(
     # What was not built has no reading.
     assert sheet.page.locator('.note').count() == 1
     assert len(sheet.names()) == 3
-    sheet.close()
 
 
 def test_keys_work_after_anything_was_clicked(sheet: Sheet) -> None:
@@ -406,9 +402,8 @@ def test_only_tab_shows_that_the_canvas_has_the_keyboard(sheet: Sheet) -> None:
     assert sheet.page.evaluate(outline) != 'none'
 
 
-def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+def test_no_hint_says_that_a_world_stands_still_which_plays(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet().begin()
     hint = sheet.page.locator('#hint')
     hint.get_by_text('it comes to life').wait_for()
     sheet.press('Play')
@@ -419,15 +414,14 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     hint.get_by_text('take the hand').wait_for()
     sheet.close()
     # Somebody else new, whose world stands still, is told how to play.
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet().begin()
     before = sheet.names()
     sheet.drag(*circle(1.0, 5.0, 0.8))
     sheet.wait_for_new(before)
     hint = sheet.page.locator('#hint')
     hint.get_by_text('Time is paused').wait_for()
     # By whomever it is played.
-    other = Sheet(chromium, address)
+    other = open_sheet()
     other.press('Play')
     hint.get_by_text('take the hand').wait_for()
     # At the beginning there is nothing to rewind.
@@ -437,8 +431,6 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     sheet.wait('document.querySelector("#hint").className === "faded"')
     sheet.press('Play')
     hint.get_by_text('rewind').wait_for()
-    other.close()
-    sheet.close()
 
 
 @pytest.mark.parametrize('ends', [((5.0, 6.0), (1.0, 6.3)), ((1.0, 6.3), (5.0, 6.0))])
@@ -582,7 +574,7 @@ def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
     sheet.wait('Object.keys(physsim.bodies).length === 3')
 
 
-def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, chromium: Any, address: str) -> None:
+def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, open_sheet: OpenSheet) -> None:
     sheet.press('Save')
     sheet.wait('document.activeElement.getAttribute("aria-label") === "Name of the world"')
     sheet.press('Copy link')
@@ -594,12 +586,11 @@ def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, chromium: Any, addre
     sheet.press('Delete')
     sheet.page.mouse.click(*sheet.place(4.0, 0.5))
     sheet.wait('!("box/0" in physsim.bodies)')
-    other = Sheet(chromium, address)
+    other = open_sheet()
     other.page.goto('about:blank')
     other.page.goto(link)
     other.press('Open it')
     sheet.wait('"box/0" in physsim.bodies')
-    other.close()
 
 
 def test_a_picture_and_a_table_of_what_was_plotted_are_downloaded(sheet: Sheet) -> None:

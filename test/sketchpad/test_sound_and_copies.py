@@ -6,11 +6,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 WORLD = """
@@ -27,13 +26,11 @@ joints:
 
 
 @pytest.fixture
-def sheet(chromium: Any, outside: Outside) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, outside: Outside) -> Iterator[Sheet]:
     """Give a test a page of a world with a ball in the air, paused."""
     program, address = started_world(outside, world=WORLD)
-    sheet = Sheet(chromium, address)
-    sheet.begin(2)
+    sheet = open_sheet(address).begin(2)
     yield sheet
-    sheet.close()
     program.interrupt()
 
 

@@ -31,7 +31,7 @@ from physsim_ros.sketchpad.messages.fields import person
 from physsim_ros.sketchpad.server.page_handlers import PAGE
 import pytest
 
-from .chromium import Sheet, WORLD
+from .chromium import OpenSheet, Sheet, WORLD
 from .scripts import texts_of
 from .test_locks import ATTEMPTS
 from .test_locks import WORLD as LOCKED
@@ -173,17 +173,16 @@ NAMED = re.compile(
 
 
 @pytest.fixture
-def marked(chromium: Any, address: str) -> Iterator[Sheet]:
+def marked(open_sheet: OpenSheet, address: str) -> Sheet:
     """Give a test a page in a language in which each text is its own translation, marked."""
-    sheet = Sheet(chromium, 'about:blank', locale='de-DE')
+    sheet = open_sheet('about:blank', locale='de-DE')
     texts = {text: MARKED.format(text) for text in page_texts() | shipped_texts()}
     table = json.dumps({'texts': texts, 'refusals': {}})
     sheet.context.add_init_script(CANVAS)
     sheet.page.route('**/languages/de.json', lambda route: route.fulfill(body=table))
     sheet.page.goto(address)
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def press(sheet: Sheet, name: str) -> None:
@@ -392,9 +391,9 @@ def test_what_is_wrong_with_a_number_that_was_typed_comes_from_the_table(marked:
 
 
 def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
-    chromium: Any, address: str
+    open_sheet: OpenSheet,
 ) -> None:
-    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet = open_sheet(locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
     assert sheet.page.locator('html').get_attribute('lang') == 'de'
     sheet.press('Pause')
@@ -405,7 +404,6 @@ def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
     sheet.page.get_by_label('Sprache').select_option('English')
     sheet.page.get_by_role('button', name='Anchor', exact=True).wait_for()
     assert sheet.page.locator('html').get_attribute('lang') == 'en'
-    sheet.close()
 
 
 # As the page replaces parts of sentences of the server, one after the other.
@@ -417,7 +415,7 @@ SAID = """async (messages) => {
 CROWDED = WorldSettings(max_bodies=1, max_shapes=1, max_joints=1)
 
 
-def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, address: str) -> None:
+def test_details_of_what_a_person_can_do_wrong_are_in_german(open_sheet: OpenSheet) -> None:
     refused: dict[str, Callable[[], object]] = {
         'höchstens 1 Körper': lambda: check_limit('max_bodies', 2, CROWDED),
         'höchstens 1 Teile von Körpern': lambda: check_limit('max_shapes', 2, CROWDED),
@@ -433,9 +431,8 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, addr
         with pytest.raises(errors.Refusal) as caught:
             refuse()
         messages.append(str(caught.value))
-    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet = open_sheet(locale='de-DE')
     assert sheet.page.evaluate(SAID, messages) == [*refused]
-    sheet.close()
 
 
 # The body of a wrong world file, and what a German page says of it.
@@ -479,9 +476,9 @@ OF_FILES = """async (files) => {
 
 
 def test_what_is_wrong_with_a_world_file_is_told_in_german(
-    chromium: Any, address: str, tmp_path: Path
+    open_sheet: OpenSheet, tmp_path: Path
 ) -> None:
-    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet = open_sheet(locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
     files, wrong = zip(*WRONG_FILES, strict=True)
     assert sheet.page.evaluate(OF_FILES, files) == list(wrong)
@@ -493,13 +490,10 @@ def test_what_is_wrong_with_a_world_file_is_told_in_german(
     sheet.page.get_by_role('status').get_by_text(told).wait_for()
     # A browser notes each refused request.
     sheet.errors.clear()
-    sheet.close()
 
 
-def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address, locale='de-DE')
+def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
     sheet.press('Welten')
     sheet.page.get_by_role('button', name='Kugelstoß\xadpendel').wait_for()
@@ -544,7 +538,6 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
     other.goto(sheet.page.url)
     sheet.press('Personen')
     sheet.page.locator('.people').get_by_text(re.compile(r'Seite \d+ \(du\)')).wait_for()
-    sheet.close()
 
 
 def test_no_key_of_a_tool_has_another_meaning() -> None:

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import circle, Sheet, started_world
+from .chromium import circle, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 PICTURE = """async () => {
@@ -24,13 +24,11 @@ PICTURE = """async () => {
 
 
 @pytest.fixture
-def sheet(chromium: Any, outside: Outside) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, outside: Outside) -> Iterator[Sheet]:
     """Give a test a page of a world without worlds of its own, from its beginning, paused."""
     program, address = started_world(outside)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     yield sheet
-    sheet.close()
     program.interrupt()
 
 
@@ -239,11 +237,10 @@ def test_an_empty_world_has_earth_and_walls_of_its_own(sheet: Sheet) -> None:
     sheet.until(lambda: gravity.input_value() == '9.81', 'the gravity of the Earth')
 
 
-def test_a_machine_that_is_too_slow_says_how_slow(chromium: Any, outside: Outside) -> None:
+def test_a_machine_that_is_too_slow_says_how_slow(open_sheet: OpenSheet, outside: Outside) -> None:
     # 10,000 frames a second, each of one step, are more than any machine makes.
     program, address = started_world(outside, physics_rate=10000.0, publish_rate=10000.0)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     speed = sheet.page.locator('#speed')
     assert speed.inner_text() == '1×'
     sheet.press('Hand')
@@ -251,5 +248,4 @@ def test_a_machine_that_is_too_slow_says_how_slow(chromium: Any, outside: Outsid
     with sheet.dragging((0.0, 0.5), (1.0, 3.0)):
         told = re.compile(r'Speed (0\.\d+)×, slower than 1×')
         sheet.until(lambda: told.fullmatch(speed.get_attribute('aria-label')), 'the pace')
-    sheet.close()
     program.interrupt()
