@@ -183,23 +183,6 @@ def test_motors_are_commanded_by_the_names_of_their_joints():
     assert refusal(arm.apply, drive) == (BadProperty, 'name')
 
 
-def test_a_saved_robot_continues_with_its_command_to_the_bit(tmp_path):
-    world = with_robot()
-    world.apply(told(points=((2.0, 1.0, 0.0),)))
-    world.step(100)
-    path = save_world(world.save(), 'w', world_dir=tmp_path, physics_rate=world.physics_rate)
-    state = load_world(path)
-    again, same = World(settings=FLAT), World(settings=FLAT)
-    again.apply(Restore(state=state))
-    same.apply(Restore(state=world.save()))
-    for each in (again, same):
-        each.step(400)
-    assert poses(again) == poses(same)
-    assert poses(again)[UPPER][2] == pytest.approx(1.5, abs=1e-6)
-    # A part that the file does not list is not made.
-    assert len(again) == 3
-
-
 def test_a_world_file_has_a_robot_with_its_parts_by_its_name_alone(tmp_path):
     path = tmp_path / 'w.yaml'
     path.write_text(

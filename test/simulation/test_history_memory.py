@@ -202,21 +202,6 @@ def test_a_past_that_is_given_up_keeps_no_frames():
     assert not sim.past.frames.size
 
 
-@pytest.mark.slow
-def test_thousands_of_resets_take_no_more_than_the_budget():
-    sim = Simulation(history_memory=LEAST_MEMORY)
-    sim.advance_frame()
-    tracemalloc.start()
-    before = traced()
-    for _ in range(2000):
-        begin_again(sim)
-    taken = traced() - before
-    tracemalloc.stop()
-
-    assert taken < 1.25 * LEAST_MEMORY * MEGABYTE
-    assert sim.undo() == 'undid reset, back at 0.017 s'
-
-
 def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last():
     sim = crowd(100.0)
     told(sim, 240)

@@ -50,18 +50,6 @@ def set_speed(simulation: Simulation) -> None:
     simulation.speed = 1.0
 
 
-def begun_anew(simulation: Simulation) -> None:
-    simulation.begin(simulation.save())
-
-
-def restored(simulation: Simulation) -> None:
-    simulation.restore(simulation.checkpoint())
-
-
-def redone(simulation: Simulation) -> tuple[str, str]:
-    return simulation.undo(), simulation.redo()
-
-
 def course_left(simulation: Simulation) -> str:
     simulation.seek(2 * SECOND)
     moved(simulation)
@@ -73,7 +61,7 @@ OF_SIMULATION: dict[str, Call] = {
     'advance_frame': of_simulation(Simulation.advance_frame),
     'apply_requests': of_simulation(Simulation.apply_requests),
     'at_shown_moment': of_simulation(Simulation.at_shown_moment),
-    'begin': of_simulation(begun_anew),
+    'begin': of_simulation(lambda it: it.begin(it.save())),
     'checkpoint': of_simulation(Simulation.checkpoint),
     'finish_work': of_simulation(lambda it: it.finish_work(lambda: False)),
     'is_changed': of_simulation(lambda it: it.is_changed),
@@ -89,10 +77,10 @@ OF_SIMULATION: dict[str, Call] = {
     'loaded': of_simulation(lambda it: it.loaded),
     'place': of_simulation(lambda it: it.place('robot/0', 0.5, 0.0)),
     'perform': of_simulation(moved),
-    'redo': of_simulation(redone),
+    'redo': of_simulation(lambda it: (it.undo(), it.redo())),
     'reports_contacts': of_simulation(set_reporting),
     'reset': of_simulation(lambda it: it.reset(3)),
-    'restore': of_simulation(restored),
+    'restore': of_simulation(lambda it: it.restore(it.checkpoint())),
     'return_to_course': of_simulation(course_left),
     'run': of_simulation(lambda it: it.run(0.5)),
     'saver': of_simulation(Simulation.saver),
