@@ -104,7 +104,7 @@ def test_what_is_under_way_goes_on_to_the_bit_from_its_file_and_at_another_momen
 
 @pytest.mark.parametrize('make', UNDER_WAY.values(), ids=UNDER_WAY)
 def test_what_is_under_way_comes_again_to_the_bit_in_the_past_and_elsewhere(make):
-    simulation, elsewhere = Simulation(checkpoints=0.1), Simulation()
+    simulation, elsewhere = (Simulation(checkpoints=0.1) for _ in range(2))
     simulation.begin(make().save())
     simulation.run(0.55)
     elsewhere.restore(simulation.checkpoint())

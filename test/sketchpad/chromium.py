@@ -29,14 +29,6 @@ bodies:
   - {name: shelf/0, box: {width: 2, height: 0.4}, at: [-4, 3], anchored: true, color: '#2040d0'}
 """
 ARGUMENTS = ['--no-sandbox', '--disable-gpu', '--disable-background-networking']
-# For WebGL without a graphics card.
-SOFTWARE_GL = [
-    '--no-sandbox',
-    '--use-gl=angle',
-    '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader',
-    '--ignore-gpu-blocklist',
-]
 PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
     x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
 MILLISECONDS = 1000.0 * PATIENCE
@@ -111,12 +103,12 @@ PAUSE_AFTER = """seconds => {
 }"""
 
 
-def launched_chromium(playwright: Any, arguments: Sequence[str] = ARGUMENTS) -> Any:
+def launched_chromium(playwright: Any) -> Any:
     """Return a browser; where there is none, the test is skipped with that reason."""
     path = shutil.which('chromium') or shutil.which('chromium-browser')
     if path is None:
         pytest.skip('chromium is not installed')
-    return playwright.chromium.launch(executable_path=path, args=list(arguments))
+    return playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
 
 
 def started_world(
