@@ -51,9 +51,6 @@ def test_what_is_shown_again_is_what_was_shown_first(
     journey.compare(frames, round(0.5 * known / max(1.0, abs(speed))) - 2)
 
 
-# Back, and on again
-
-
 # Parameters follow the time
 
 

@@ -197,26 +197,6 @@ def test_a_world_file_has_a_robot_with_its_parts_by_its_name_alone(tmp_path):
     assert poses(world)[UPPER][2] == pytest.approx(1.5, abs=1e-6)
 
 
-def test_a_robot_with_parts_is_shown_again_to_the_bit():
-    simulation = Simulation(settings=FLAT, checkpoints=1.0)
-    simulation.perform(robot_spawn('arm', name='arm/0'))
-    simulation.perform(told(points=((3.0, 1.5, 0.0),)))
-    simulation.run(2.5)
-    simulation.perform(told('arm/0/elbow/0', 'velocity', ((0.0, 0.5),)))
-    simulation.run(2.0)
-    digest = simulation.world.digest()
-    simulation.seek(1_300_000_000)
-    simulation.world.digest()
-    simulation.seek(4_500_000_000)
-    assert simulation.world.digest() == digest
-    moment = simulation.checkpoint()
-    simulation.run(1.0)
-    first = simulation.world.digest()
-    simulation.restore(moment)
-    simulation.run(1.0)
-    assert simulation.world.digest() == first
-
-
 def test_a_laser_does_not_see_the_parts_of_its_robot_and_may_be_on_one():
     sensors = [
         {'kind': 'laser', 'name': 'scan', 'beams': 4, 'angle': [0, 6.2832], 'range': [0.01, 9]},

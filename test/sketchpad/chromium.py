@@ -228,6 +228,20 @@ class Sheet:
         """Press a button."""
         self.page.get_by_role('button', name=name, exact=True).click()
 
+    def tap(self, x: float, y: float) -> None:
+        """Click a point of the world [m]."""
+        self.page.mouse.click(*self.place(x, y))
+
+    def enter(self, label: str, text: str, *, exact: bool = False) -> None:
+        """Type a text into a field, and the key Enter."""
+        field = self.page.get_by_label(label, exact=exact)
+        field.fill(text)
+        field.press('Enter')
+
+    def told(self, text: str, *, exact: bool = False) -> None:
+        """Wait for the status line to say something."""
+        self.page.get_by_role('status').get_by_text(text, exact=exact).wait_for()
+
     def tap_space(self) -> None:
         """Tap the space bar: on a busy machine a real key may be held for longer than a tap."""
         self.page.evaluate(SPACE)

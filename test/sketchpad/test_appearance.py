@@ -178,7 +178,7 @@ def test_on_a_small_page_a_panel_leaves_room_for_what_is_said_and_for_a_plot(
 ) -> None:
     sheet = open_sheet(size=(600, 400)).begin()
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.wait_for()
     hint = sheet.page.locator('#hint').bounding_box()
@@ -254,7 +254,7 @@ def test_on_a_telephone_words_and_choices_are_whole(
     assert sheet.page.evaluate(BROKEN) == []
     sheet.page.keyboard.press('Escape')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.press('Mehr')
     sheet.press('Großes Diagramm')
     row = sheet.page.locator('#plot header > .row').bounding_box()

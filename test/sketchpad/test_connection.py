@@ -142,7 +142,7 @@ def test_an_answer_is_told_once_though_its_body_never_comes(
     answer = {'request': '0', 'ok': True, 'code': '', 'topic': '~/spawn', 'values': {}}
     told = {'message': 'deleted drawn/99', 'subject': 'drawn/99'}
     cable.sockets[0].send(json.dumps({'type': 'answer'} | answer | told))
-    sheet.page.get_by_role('status').get_by_text('Body deleted').wait_for()
+    sheet.told('Body deleted')
     sheet.page.evaluate(STATUSES)
     # The next scene comes without an answer.
     is_told = True

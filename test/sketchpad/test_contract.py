@@ -109,11 +109,11 @@ def test_all_that_is_to_be_read_has_contrast(open_sheet: OpenSheet, scheme: str)
     assert sheet.page.evaluate('document.documentElement.dataset.theme') == scheme
     assert poor(sheet) == {}
     sheet.press('Anchor')
-    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
+    sheet.tap(-2.0, 6.0)
     sheet.page.locator('.note.refusal').wait_for()
     assert poor(sheet) == {}
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     assert poor(sheet) == {}
     for name in ('Worlds', 'Save', 'Help'):
@@ -129,7 +129,7 @@ def test_nothing_moves_by_itself_for_those_who_wish_so(open_sheet: OpenSheet) ->
     # The hint points at the hand now.
     sheet.page.locator('button.next').wait_for()
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     assert sheet.page.evaluate('document.getAnimations().length') == 0
 
@@ -186,7 +186,7 @@ def test_hints_lead_from_a_first_body_to_a_changed_past(open_sheet: OpenSheet) -
     hint.get_by_text('the past').wait_for()
     sheet.press('Pause')
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('box/0')[:2]))
+    sheet.tap(*sheet.pose('box/0')[:2])
     hint.get_by_text('what happened before').wait_for()
     # A step that was done is not taught again.
     sheet.page.reload()

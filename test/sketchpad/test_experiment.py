@@ -152,7 +152,7 @@ def test_the_experiment_is_the_page(sheet: Sheet) -> None:
         assert sheet.page.get_by_text('To measure:').is_hidden()
         assert sheet.page.get_by_role('textbox', name='Your answer').is_visible()
         found[name].append(shares(sheet, name))
-        sheet.page.mouse.click(*sheet.place(*sheet.pose(body)[:2]))
+        sheet.tap(*sheet.pose(body)[:2])
         sheet.page.get_by_role('complementary', name='Body').wait_for()
         # Numbers alone.
         assert sheet.page.get_by_role('slider', name='Friction', exact=True).is_hidden()

@@ -89,7 +89,7 @@ def test_a_button_that_is_pressed_by_a_key_keeps_the_focus(sheet: Sheet) -> None
 def test_keys_belong_to_the_control_that_has_the_focus(sheet: Sheet) -> None:
     pen = sheet.page.get_by_role('button', name='Pen', exact=True)
     sheet.press('Pen')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     ways = sheet.page.get_by_label('Lets others pass')
     ways.focus()
     sheet.page.keyboard.press('ArrowDown')
@@ -170,7 +170,7 @@ def test_a_screen_reader_is_told_what_the_selected_body_does(sheet: Sheet) -> No
     sheet.press('Hand')
     sheet.drag((0.0, 0.5), (0.0, 4.0))
     sheet.wait("physsim.bodies['ball/0'][1] > 3")
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('ball/0')[:2]))
+    sheet.tap(*sheet.pose('ball/0')[:2])
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     sheet.press('Play')
     log.get_by_text('ball/0 touches a wall at').wait_for()

@@ -174,7 +174,7 @@ def test_on_a_body_that_is_tapped_forces_have_their_names_and_others_have_none(
 ) -> None:
     sheet.play_until(1.0)
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(3.0, 4.0))
+    sheet.tap(3.0, 4.0)
     sheet.wait('physsim.forces.every(({name}) => name === "bob/0")')
     assert set(numbers_on(sheet, 'bob/0')) == {'weight', 'joint', 'sum'}
 
@@ -194,7 +194,7 @@ def test_what_was_moved_in_a_paused_world_has_no_contacts_any_more_and_others_ke
 
 def test_the_ring_of_a_fast_body_stays_on_the_page(sheet: Sheet) -> None:
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 7.0))
+    sheet.tap(0.0, 7.0)
     sheet.wait('Number.isFinite(physsim.scales.speed)')
     length = 18.0 * sheet.page.evaluate('physsim.scales.speed')
     assert 40 < length < 300
@@ -204,7 +204,7 @@ def test_the_ring_of_a_fast_body_stays_on_the_page(sheet: Sheet) -> None:
     sheet.page.mouse.down()
     sheet.page.mouse.move(x, y - length / 2 - 22, steps=5)
     sheet.page.mouse.up()
-    sheet.page.get_by_role('status').get_by_text('changed').wait_for()
+    sheet.told('changed')
     sheet.press('Step')
     sheet.wait('physsim.bodies["ball/0"][1] > 7.1')
 
@@ -224,7 +224,7 @@ bodies:
     sheet.page.evaluate(NOTE_TEXTS)
     for name in ('Show forces', 'Show velocities', 'Momentum', 'Hand'):
         sheet.press(name)
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('ball/0')[:2]))
+    sheet.tap(*sheet.pose('ball/0')[:2])
     time = sheet.play_until(0.6)
     # Rolling, a third of the force down the slope turns it; I = m r² / 2.
     torque = 2.0 * G * math.sin(math.atan(0.4)) / 3.0 * 0.5

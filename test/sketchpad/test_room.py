@@ -67,7 +67,7 @@ def check(sheet: Sheet) -> None:
 def select(sheet: Sheet) -> None:
     """Select the block of ice."""
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('ice/0')[:2]))
+    sheet.tap(*sheet.pose('ice/0')[:2])
     sheet.page.get_by_role('heading', name='Ice').wait_for()
 
 
@@ -225,12 +225,12 @@ def test_the_view_does_not_move_in_the_midst_of_a_gesture(
     # A polygon is clicked corner by corner.
     sheet.press('Polygon')
     between = sheet.place(0.0, 0.0)
-    sheet.page.mouse.click(*sheet.place(3.0, 5.0))
+    sheet.tap(3.0, 5.0)
     sheet.page.evaluate(FOLD)
     sheet.page.evaluate('new Promise(requestAnimationFrame)')
     assert sheet.place(0.0, 0.0) == between
     for corner in ((4.0, 5.0), (4.0, 6.0)):
-        sheet.page.mouse.click(*sheet.place(*corner))
+        sheet.tap(*corner)
     assert sheet.place(0.0, 0.0) == between
     sheet.page.keyboard.press('Enter')
     sheet.until(lambda: sheet.place(0.0, 0.0) != between, 'a world in the room')
@@ -296,8 +296,8 @@ def test_the_view_stays_where_something_closes_by_itself(
     assert sheet.place(8.0, 0.0) == before
     sheet.page.keyboard.press('Escape')
     # One that would makes the world smaller; where its body is deleted, the view stays.
-    sheet.page.mouse.click(*sheet.place(6.5, 4.5))
-    sheet.page.mouse.click(*sheet.place(6.8, 4.5))
+    sheet.tap(6.5, 4.5)
+    sheet.tap(6.8, 4.5)
     sheet.wait('Object.keys(physsim.bodies).length === 2')
     sheet.page.keyboard.press('N')
     panel.wait_for()

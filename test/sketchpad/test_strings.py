@@ -92,23 +92,6 @@ def shipped_texts() -> set[str]:
     return texts
 
 
-def test_a_text_is_found_where_a_script_has_one() -> None:
-    script = """
-        // a comment 'with quotes'
-        const word = t('Open {name}'), rule = /it's/;
-        call(`Opened ${name ? `the ${t('world')}` : 'it\\'s'} now`);
-    """
-    found = [(text.text, text.translated) for text in texts_of(script) if text.text]
-    assert found == [
-        ('Open {name}', True),
-        ('Opened ', False),
-        ('the ', False),
-        ('world', True),
-        ("it's", False),
-        (' now', False),
-    ]
-
-
 @pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: path.stem)
 def test_a_language_has_every_text_and_no_other(path: Path) -> None:
     texts = json.loads(path.read_text(encoding='utf-8'))['texts']
@@ -211,7 +194,7 @@ def test_all_that_the_page_shows_comes_from_its_table(marked: Sheet) -> None:
     press(marked, 'Show velocities')
     press(marked, 'Show forces')
     press(marked, 'Hand')
-    marked.page.mouse.click(*marked.place(*marked.pose('ball/0')[:2]))
+    marked.tap(*marked.pose('ball/0')[:2])
     marked.page.get_by_text(MARKED.format('Label')).wait_for()
     press(marked, 'Large plot')
     assert unmarked(marked) == set()
@@ -250,7 +233,7 @@ def test_all_that_the_page_tells_comes_from_its_table(marked: Sheet) -> None:
         press(marked, tool)
         before = marked.page.evaluate('window.told.size')
         for point in points:
-            marked.page.mouse.click(*marked.place(*point))
+            marked.tap(*point)
         marked.wait('before => window.told.size > before + 1', before)
     press(marked, 'Undo')
     press(marked, 'Lasso')
@@ -398,8 +381,8 @@ def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
     assert sheet.page.locator('html').get_attribute('lang') == 'de'
     sheet.press('Pause')
     sheet.press('Befestigen')
-    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
-    sheet.page.get_by_role('status').get_by_text('Hier ist kein Körper', exact=True).wait_for()
+    sheet.tap(-2.0, 6.0)
+    sheet.told('Hier ist kein Körper', exact=True)
     sheet.press('Hilfe')
     sheet.page.get_by_label('Sprache').select_option('English')
     sheet.page.get_by_role('button', name='Anchor', exact=True).wait_for()
@@ -487,7 +470,7 @@ def test_what_is_wrong_with_a_world_file_is_told_in_german(
     sheet.press('Welten')
     sheet.page.get_by_label('Datei öffnen').set_input_files(path)
     told = "Diese Weltdatei ist fehlerhaft: Körper 'a/0': radius: -1 liegt nicht zwischen 0,001"
-    sheet.page.get_by_role('status').get_by_text(told).wait_for()
+    sheet.told(told)
     # A browser notes each refused request.
     sheet.errors.clear()
 
@@ -500,7 +483,7 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(open_sheet: 
     sheet.page.locator('.lessons').get_by_role('button', name='5. Reibung').click()
     card = sheet.page.locator('#lesson')
     card.get_by_text('Die Reibungszahl ist 0,4.').wait_for()
-    sheet.page.get_by_role('status').get_by_text('Reibung geöffnet').wait_for()
+    sheet.told('Reibung geöffnet')
     sheet.page.get_by_role('textbox', name='Deine Antwort').fill('3,2')
     sheet.press('Prüfen')
     card.get_by_text('Richtig!').wait_for()
@@ -508,21 +491,18 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(open_sheet: 
     sheet.page.get_by_label('Uhr').get_by_text('0,00 s').wait_for()
     sheet.wait('"block/0" in physsim.bodies')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('block/0')[:2]))
+    sheet.tap(*sheet.pose('block/0')[:2])
     panel = sheet.page.get_by_role('complementary')
     panel.get_by_role('heading', name='Block', exact=True).wait_for()
     sheet.page.get_by_text('Zahlen eingeben').click()
     for typed, shown in (('0,75', 'bei (0 | 0,75) m'), ('1.5', 'bei (0 | 1,50) m')):
-        sheet.page.get_by_label('y [m]', exact=True).fill(typed)
-        sheet.page.keyboard.press('Enter')
+        sheet.enter('y [m]', typed, exact=True)
         sheet.page.locator('.numbers').get_by_text(shown).wait_for()
     assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
-    sheet.page.get_by_label('Stoßzahl, als Zahl').fill('1,5')
-    sheet.page.keyboard.press('Enter')
+    sheet.enter('Stoßzahl, als Zahl', '1,5')
     refused = 'nicht möglich: 1,5 liegt nicht zwischen 0 und 1'
-    sheet.page.get_by_role('status').get_by_text(refused).wait_for()
-    sheet.page.get_by_label('Reibung, als Zahl').fill('viel')
-    sheet.page.keyboard.press('Enter')
+    sheet.told(refused)
+    sheet.enter('Reibung, als Zahl', 'viel')
     assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
     # As spreadsheets in German read it.
     sheet.press('Abspielen')

@@ -176,7 +176,7 @@ def test_a_long_stroke_is_thinned_out(open_sheet: OpenSheet) -> None:
     places = [['down', x + 70, y], *places, ['up', x + 70, y]]
     sheet.page.evaluate(POINTER, ['mouse', 1, 99, places])
     sheet.wait_for_new(before)
-    sheet.page.get_by_role('status').get_by_text('Circle added').wait_for()
+    sheet.told('Circle added')
 
 
 def test_the_eraser_of_a_stylus_erases_and_its_button_selects(open_sheet: OpenSheet) -> None:
@@ -222,7 +222,7 @@ def test_a_finger_beside_a_body_means_that_body(open_sheet: OpenSheet) -> None:
     x, y = sheet.place(0.0, 1.0)
     sheet.press('Anchor')
     sheet.page.touchscreen.tap(x, y - 8)
-    sheet.page.get_by_role('status').get_by_text('ball/0 anchored').wait_for()
+    sheet.told('ball/0 anchored')
     sheet.press('Undo')
     # An anchored body is carried, and moves when it is let go.
     sheet.wait('heard.shown.includes("~/undo")')

@@ -42,13 +42,8 @@ def save(sheet: Sheet, name: str) -> None:
 def delete_box(sheet: Sheet) -> None:
     """Delete the box."""
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.tap(4.0, 0.5)
     sheet.wait('!("box/0" in physsim.bodies)')
-
-
-def said(sheet: Sheet, text: str) -> None:
-    """Wait for the status line to say something."""
-    sheet.page.get_by_role('status').get_by_text(text, exact=True).wait_for()
 
 
 def undone(sheet: Sheet, text: str) -> None:
@@ -61,21 +56,21 @@ def open_own(sheet: Sheet, name: str) -> None:
     """Open a world of one's own."""
     sheet.press('Worlds')
     sheet.page.get_by_role('button', name=name, exact=True).click()
-    said(sheet, f'Opened {name}')
+    sheet.told(f'Opened {name}', exact=True)
 
 
 def test_saving_asks_once_before_it_writes_over_a_world_and_can_be_undone(sheet: Sheet) -> None:
     save(sheet, 'mine')
-    said(sheet, 'Saved as mine')
+    sheet.told('Saved as mine', exact=True)
     delete_box(sheet)
     save(sheet, 'mine')
     sheet.press('Save as mine 2')
-    said(sheet, 'Saved as mine 2')
+    sheet.told('Saved as mine 2', exact=True)
     save(sheet, 'mine')
     sheet.press('Replace mine')
-    said(sheet, 'Saved as mine')
+    sheet.told('Saved as mine', exact=True)
     undone(sheet, 'mine is replaced')
-    said(sheet, 'World mine is back')
+    sheet.told('World mine is back', exact=True)
     open_own(sheet, 'mine')
     sheet.wait('"box/0" in physsim.bodies')
     open_own(sheet, 'mine 2')
@@ -86,7 +81,7 @@ def test_nobody_takes_the_name_of_a_shipped_world(sheet: Sheet) -> None:
     save(sheet, 'incline')
     assert sheet.page.get_by_role('button', name='Replace incline').count() == 0
     sheet.press('Save as incline 2')
-    said(sheet, 'Saved as incline 2')
+    sheet.told('Saved as incline 2', exact=True)
     sheet.press('Worlds')
     sheet.page.get_by_role('button', name='Incline Friction').click()
     sheet.wait('"slope/0" in physsim.bodies')
@@ -96,7 +91,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     sheet: Sheet,
 ) -> None:
     save(sheet, 'mine')
-    said(sheet, 'Saved as mine')
+    sheet.told('Saved as mine', exact=True)
     sheet.press('Worlds')
     sheet.page.locator('.own img[src^="/picture/mine"]').wait_for()
     assert sheet.page.evaluate(PICTURE) == [480, 200]
@@ -118,7 +113,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     sheet.press('Worlds')
     sheet.page.locator('.own', has_text='yours').get_by_role('button', name='Delete').click()
     undone(sheet, 'yours is deleted')
-    said(sheet, 'World yours is back')
+    sheet.told('World yours is back', exact=True)
     open_own(sheet, 'yours')
 
 
@@ -227,11 +222,11 @@ def test_the_card_of_strokes_is_in_the_help_and_beside_an_empty_canvas(sheet: Sh
 def test_an_empty_world_has_earth_and_walls_of_its_own(sheet: Sheet) -> None:
     sheet.press('Material')
     sheet.press('Moon')
-    sheet.page.get_by_role('status').get_by_text('Gravity set').wait_for()
+    sheet.told('Gravity set')
     sheet.page.keyboard.press('Escape')
     sheet.press('Worlds')
     sheet.press('Empty room')
-    sheet.page.get_by_role('status').get_by_text('An empty world').wait_for()
+    sheet.told('An empty world')
     sheet.press('Material')
     gravity = sheet.page.get_by_label('Gravity [m/s²], typed')
     sheet.until(lambda: gravity.input_value() == '9.81', 'the gravity of the Earth')

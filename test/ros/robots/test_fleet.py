@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import time
 
-from geometry_msgs.msg import PoseArray, Twist, TwistStamped
+from geometry_msgs.msg import PoseArray, Twist
 from nav_msgs.msg import Odometry
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.ros import frame_loop
@@ -26,11 +26,10 @@ from ...building import DISC, spawning
 from ...client import Client, set_parameter
 
 
-@pytest.mark.parametrize('kind', [Twist, TwistStamped])
-def test_a_controller_drives_up_to_a_wall_and_stops(flat: PhysSim, kind: type) -> None:
+def test_a_controller_drives_up_to_a_wall_and_stops(flat: PhysSim) -> None:
     flat.spawn(box('wall/0', at=(3.0, 0.0), size=(0.2, 4.0), anchored=True))
     robot = flat.robot('turtlebot3_burger')
-    driver = driver_of(flat, looks=True, kind=kind)
+    driver = driver_of(flat, looks=True)
     assert not flat.run(until=lambda: robot.bumped, timeout=20.0)
     x = robot.truth().pose.pose.position.x
     assert x == pytest.approx(2.9 - 0.5 + 0.032, abs=0.06)
