@@ -3,6 +3,7 @@
 
 """Law 61: no contact of a machine pulls, and its friction is within the cone, in every step."""
 
+from contextlib import suppress
 import math
 import random
 
@@ -48,10 +49,8 @@ def machine_on_a_floor(seed):
             said['rate'] = pick.uniform(-20.0, 20.0)
         if kind == 'spring':
             said['stiffness'] = 10.0 ** pick.uniform(1.0, 4.0)
-        try:
+        with suppress(Refusal):
             join(sim, f'j/{number}', kind, points, a=f'b/{one}', b=pick.choice(others), **said)
-        except Refusal:
-            continue
     return sim
 
 
