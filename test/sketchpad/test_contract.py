@@ -118,6 +118,8 @@ def test_all_that_is_to_be_read_has_contrast(open_sheet: OpenSheet, scheme: str)
     assert poor(sheet) == {}
     for name in ('Worlds', 'Save', 'Help'):
         sheet.press(name)
+        # Its script is loaded when it is asked for.
+        sheet.page.locator('dialog[open]').wait_for()
         assert poor(sheet) == {}
         sheet.page.keyboard.press('Escape')
 

@@ -73,10 +73,18 @@ def chosen(sheet: Sheet, x: float, y: float) -> None:
     sheet.page.get_by_role('button', name='Delete body').wait_for()
 
 
-def pointed(sheet: Sheet, share: float) -> list[float]:
-    """Point into the large plot, that far from its left, and return the numbers read there."""
+def typed(sheet: Sheet, label: str, text: str) -> None:
+    """Enter a number of the body that is chosen, in its panel for the first time."""
+    sheet.page.get_by_text('Enter numbers').click()
+    field = sheet.page.get_by_label(label)
+    field.fill(text)
+    field.press('Enter')
+
+
+def pointed(sheet: Sheet, share: float, down: float = 0.5) -> list[float]:
+    """Point into the large plot, that far from its left and top, and return what is read there."""
     box = sheet.page.get_by_label('Large plot').bounding_box()
-    sheet.page.mouse.move(box['x'] + share * box['width'], box['y'] + box['height'] / 2)
+    sheet.page.mouse.move(box['x'] + share * box['width'], box['y'] + down * box['height'])
     reading = sheet.page.locator('#plot output')
     sheet.until(lambda: '·' in reading.inner_text(), 'a reading')
     text = reading.inner_text().replace('\N{MINUS SIGN}', '-')
@@ -120,8 +128,7 @@ def test_the_course_that_was_left_stays_as_a_second_line(sheet: Sheet) -> None:
     sheet.play_until(1.0)
     assert sheet.page.evaluate('physsim.records["ball/1"][1]') == 0
     sheet.seek(0.5)
-    sheet.page.get_by_text('Enter numbers').click()
-    sheet.enter('vy [m/s]', '5')
+    typed(sheet, 'vy [m/s]', '5')
     # Of the frames that this page has shown: a slow one has few.
     sheet.wait('physsim.records["ball/1"][1] > 0')
     before = sheet.page.evaluate('physsim.records["ball/1"]')
@@ -131,12 +138,33 @@ def test_the_course_that_was_left_stays_as_a_second_line(sheet: Sheet) -> None:
     assert after[1] == before[1]
 
 
+@pytest.mark.parametrize('way', ['undo', 'course'])
+def test_a_plot_shows_what_happens_in_the_line_that_is_returned_to(sheet: Sheet, way: str) -> None:
+    chosen(sheet, -7.5, 8.0)
+    if way == 'course':
+        sheet.play_until(1.0)
+        sheet.seek(0.2)
+    typed(sheet, 'vy [m/s]', '5')
+    sheet.wait('physsim.records["ball/0"][0] < 20')
+    sheet.play_until(0.9)
+    if way == 'undo':
+        sheet.press('Undo')
+        sheet.wait('physsim.time === 0')
+        sheet.play_until(0.7)
+    else:
+        sheet.page.get_by_role('button', name='Go back to how it went').click()
+        sheet.page.get_by_text('Back on the other course').wait_for()
+    sheet.press('Large plot')
+    # The other course, which is dashed, is higher.
+    time, height = pointed(sheet, 0.7, 0.8)
+    assert height == pytest.approx(8.0 - G * time**2 / 2, abs=0.01 + G * time * 0.001)
+
+
 def test_a_plot_has_the_difference_of_this_run_and_the_last_one(sheet: Sheet) -> None:
     chosen(sheet, -7.5, 8.0)
     sheet.play_until(1.0)
     sheet.seek(0.5)
-    sheet.page.get_by_text('Enter numbers').click()
-    sheet.enter('vx [m/s]', '5')
+    typed(sheet, 'vx [m/s]', '5')
     sheet.wait('physsim.records["ball/0"][1] > 0')
     sheet.play_until(0.9)
     sheet.press('Large plot')
