@@ -76,9 +76,7 @@ def chosen(sheet: Sheet, x: float, y: float) -> None:
 def typed(sheet: Sheet, label: str, text: str) -> None:
     """Enter a number of the body that is chosen, in its panel for the first time."""
     sheet.page.get_by_text('Enter numbers').click()
-    field = sheet.page.get_by_label(label)
-    field.fill(text)
-    field.press('Enter')
+    sheet.enter(label, text)
 
 
 def pointed(sheet: Sheet, share: float, down: float = 0.5) -> list[float]:
