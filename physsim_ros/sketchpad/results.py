@@ -4,8 +4,8 @@
 """
 The results of lessons in a world: who has answered what, right or not, when, after how many tries.
 
-Laws: results outlive pages and restarts, in one file of the user; an answer that was right is not
-lost by later ones.
+Laws: results outlive pages and restarts, in one file of the user, which one node writes; an answer
+that was right is not lost by later ones.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 import time
 from typing import Any
 
-from physsim_ros.files import make_directory, read_bytes, write_file
+from physsim_ros.files import DirectoryLock, read_bytes, write_file
 
 # Results that are kept, each of one person and lesson: a class of thirty, and all lessons.
 MOST_RESULTS = 600
@@ -63,11 +63,20 @@ class Results:
     The results of a world.
 
     :param path: of their file
+    :param lock: of its directory
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, lock: DirectoryLock) -> None:
         self._path = path
-        self._results = {(each['person'], each['lesson']): each for each in read_results(path)}
+        self._lock = lock
+        self._read()
+
+    def _read(self) -> None:
+        """Read the file, which no other node changes if the lock is held."""
+        self._is_own = self._lock.is_held
+        self._results = {
+            (each['person'], each['lesson']): each for each in read_results(self._path)
+        }
 
     def __iter__(self) -> Iterator[Result]:
         """Iterate over the results, the latest last."""
@@ -78,8 +87,10 @@ class Results:
         Note an answer, and return what is known of it.
 
         :param lesson: title of the lesson
+        :raises InUse: another node writes the file; nothing is noted
         :raises OSError: the file cannot be written; nothing is noted
         """
+        self._acquire()
         before = self._results.get((person, lesson), {})
         tries = before.get('tries', 0) + 1
         result = {
@@ -108,12 +119,19 @@ class Results:
         """
         Forget all results.
 
+        :raises InUse: another node writes the file; nothing is forgotten
         :raises OSError: the file cannot be written; nothing is forgotten
         """
+        self._acquire()
         self._replace({})
+
+    def _acquire(self) -> None:
+        """Acquire the lock; the first time, read what another node has written before."""
+        self._lock.acquire()
+        if not self._is_own:
+            self._read()
 
     def _replace(self, results: dict[tuple[str, str], Result]) -> None:
         """Have other results, once they are in the file."""
-        make_directory(self._path.parent)
         write_file(self._path, _text_of(list(results.values())), mode=0o600)
         self._results = results
