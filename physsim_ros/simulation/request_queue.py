@@ -309,7 +309,6 @@ class RequestQueue:
         """Whether a call that has read the world is under way, for which other calls wait."""
         return any(each.call.wait is Wait.TO_READ for each in self._under_way)
 
-
     def _continue_calls(self, calls: Iterable[_UnderWay]) -> None:
         """Go on with those calls that have what they wait for."""
         for each in [each for each in calls if each.awaited.done()]:

@@ -10,6 +10,7 @@ from concurrent.futures import wait
 import errno
 import os
 from pathlib import Path
+import signal
 from threading import Event
 import time
 from typing import Any
@@ -23,11 +24,13 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave as module
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 from physsim_ros.sketchpad.file_work import FileWork
+from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser, Page
 from ..building import BOX, spawning
 from ..client import Client
+from ..outside import Outside
 from ..worlds.film import state_of
 
 
@@ -269,6 +272,74 @@ def test_a_failure_is_told_on_all_pages_also_later_ones_in_events_and_diagnostic
     browser.until(lambda: tick() or any(event['message'] in of(each) for each in told))
     later = browser.open_page()
     browser.until(lambda: tick() or event_on(later))
+
+
+def test_what_is_drawn_during_a_save_by_name_is_autosaved(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
+    simulation = Simulation()
+    autosave = autosave_in(tmp_path, lock, names_in(simulation))
+    drawn(simulation, autosave, 'a/0')
+    saved = simulation.world.scene
+    drawn(simulation, autosave, 'a/1')
+    autosave.note_saved(saved)
+    assert autosave.is_due(time.monotonic())
+    # The frame of a save that ends at once is shown after it.
+    simulation.perform(spawning('a/2', BOX))
+    autosave.note_saved(simulation.world.scene)
+    autosave.note_frame(simulation.advance_frame(), drawn=True)
+    assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
+
+
+def test_a_directory_that_cannot_be_written_is_no_hindrance(
+    tmp_path: Path, lock: DirectoryLock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    simulation = Simulation()
+    with monkeypatch.context() as patches:
+        patches.setattr(os, 'open', refuse)
+        autosave = autosave_in(tmp_path, lock, names_in(simulation))
+    assert autosave.failure is None
+    drawn(simulation, autosave, 'a/0')
+    end_save(autosave)
+    assert (tmp_path / '.autosave.yaml').read_text() == 'a/0'
+
+
+def test_of_two_nodes_on_a_directory_one_autosaves_until_it_ends(
+    start: Callable[..., PhysSim],
+    outside: Outside,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for name in ('PERIOD', 'STILL_PERIOD', 'SHARE'):
+        monkeypatch.setattr(module, name, 0.0)
+    given = {'sketchpad': 'serve', 'sketchpad_port': 0, 'world_dir': tmp_path}
+    first = outside.start_world(**given)
+    first.wait_for('ready')
+    kept = tmp_path / '.autosave.yaml'
+    kept.write_text('drawn in the first')
+    browser = Browser(start(**given | {'world_dir': str(tmp_path)}))
+    page = browser.open_page()
+    browser.until(lambda: 'in_use' in {each['code'] for each in page.of_type('answer')})
+    lesson = {'lesson': 'Lever', 'answer': '2', 'right': True}
+    assert page.ask('answered', **lesson)['code'] == 'in_use'
+    assert page.ask('forget')['code'] == 'in_use'
+    assert page.spawn('a/0')['ok']
+    assert page.ask('save', name='mine')['ok']
+    assert page.spawn('a/1')['ok']
+    browser.physsim.run(0.1)
+    finish_files()
+    assert kept.read_text() == 'drawn in the first'
+    assert not (tmp_path / '.unsaved.yaml').exists()
+
+    first.interrupt(signal.SIGKILL)
+    assert page.ask('answered', **lesson)['ok']
+    assert page.spawn('a/2')['ok']
+    browser.until(lambda: browser.physsim.step() or 'a/2' in kept.read_text())
+    assert (tmp_path / '.unsaved.yaml').read_text() == 'drawn in the first'
+    browser.close()
 
 
 def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(
