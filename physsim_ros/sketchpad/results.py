@@ -5,11 +5,13 @@
 The results of lessons in a world: who has answered what, right or not, when, after how many tries.
 
 Laws: results outlive pages and restarts, in one file of the user, which one node writes; an answer
-that was right is not lost by later ones.
+that was right is not lost by later ones. Beyond the number of results, the oldest one of the
+visitor with most gives way: nobody drives out others by names or titles.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 import json
@@ -28,6 +30,8 @@ _MOST_BYTES = 2**20
 # `tries` up to the first right answer.
 Result = dict[str, Any]
 _TYPES = {'person': str, 'lesson': str, 'answer': str, 'right': bool, 'at': int, 'tries': int}
+# The person and the title.
+_Key = tuple[str, str]
 
 
 def results_file(world_dir: Path) -> Path:
@@ -69,6 +73,8 @@ class Results:
     def __init__(self, path: Path, lock: DirectoryLock) -> None:
         self._path = path
         self._lock = lock
+        # Who has noted a result; those of earlier starts were noted by their persons.
+        self._visitors: dict[_Key, str] = {}
         self._read()
 
     def _read(self) -> None:
@@ -82,11 +88,12 @@ class Results:
         """Iterate over the results, the latest last."""
         return iter(self._results.values())
 
-    def note(self, person: str, lesson: str, answer: str, *, right: bool) -> Result:
+    def note(self, person: str, lesson: str, answer: str, *, right: bool, visitor: str) -> Result:
         """
         Note an answer, and return what is known of it.
 
         :param lesson: title of the lesson
+        :param visitor: who it is, whatever name is chosen
         :raises InUse: another node writes the file; nothing is noted
         :raises OSError: the file cannot be written; nothing is noted
         """
@@ -105,10 +112,17 @@ class Results:
             results = dict(self._results)
             results.pop((person, lesson), None)
             results[person, lesson] = result
+            self._visitors[person, lesson] = visitor
             if len(results) > MOST_RESULTS:
-                del results[next(iter(results))]
+                del results[self._oldest_of_most(results)]
             self._replace(results)
         return result
+
+    def _oldest_of_most(self, results: dict[_Key, Result]) -> _Key:
+        """Return the key of the oldest result of the visitor who has most."""
+        visitors = {key: self._visitors.get(key, key[0]) for key in results}
+        ((most, _),) = Counter(visitors.values()).most_common(1)
+        return next(key for key, visitor in visitors.items() if visitor == most)
 
     def last_of(self, person: str) -> Result:
         """Return the latest result of a person; empty where there is none."""
@@ -131,7 +145,8 @@ class Results:
         if not self._is_own:
             self._read()
 
-    def _replace(self, results: dict[tuple[str, str], Result]) -> None:
+    def _replace(self, results: dict[_Key, Result]) -> None:
         """Have other results, once they are in the file."""
         write_file(self._path, _text_of(list(results.values())), mode=0o600)
         self._results = results
+        self._visitors = {key: each for key, each in self._visitors.items() if key in results}
