@@ -25,6 +25,8 @@ from .mutations import Mutation, mutations_of
 
 PACKAGE = Path('physsim_ros')
 CORE = PACKAGE / 'engine/core'
+# Folders of tests that are about parts of the package of another name.
+FURTHER = {'engine': ('laws', 'relations', 'sensing'), 'model': ('laws', 'simulation')}
 # Many times what the fast tests of a folder take [s].
 LONGEST = 1800
 
@@ -56,9 +58,9 @@ def tests_of(path: Path) -> list[str]:
     """Return the files whose tests have to notice a mutation of a file, the likeliest first."""
     folder = path.parts[1]
     folders = [folder] if (ROOT / 'test' / folder).is_dir() else ['.']
-    if folder == 'engine':
-        folders += ['laws', 'relations', 'sensing']
-    words = [word.removesuffix('s') for word in path.stem.split('_')]
+    folders += FURTHER.get(folder, ())
+    # The stems of words, so that `measures` is like `measuring`.
+    words = [word[:6] for part in path.with_suffix('').parts[2:] for word in part.split('_')]
 
     def unlikeness(test: Path) -> tuple[int, int]:
         named = sum(word in test.stem for word in words)
