@@ -62,17 +62,17 @@ def tests_of(path: Path) -> list[str]:
     # The stems of words, so that `measures` is like `measuring`.
     words = [word[:6] for part in path.with_suffix('').parts[2:] for word in part.split('_')]
 
-    def unlikeness(test: Path) -> tuple[int, int]:
+    def unlikeness(test: Path) -> tuple[int, int, Path]:
         named = sum(word in test.stem for word in words)
         text = test.read_text(encoding='utf-8')
-        return -named, -sum(len(re.findall(rf'\b{word}', text)) for word in words)
+        return -named, -sum(len(re.findall(rf'\b{word}', text)) for word in words), test
 
     # Limits are promised by documents, whatever folder they are of.
     found = {
         ROOT / 'test/test_limits.py',
         *itertools.chain(*((ROOT / 'test' / each).rglob('test_*.py') for each in folders)),
     }
-    return [str(each.relative_to(ROOT)) for each in sorted(sorted(found), key=unlikeness)]
+    return [str(each.relative_to(ROOT)) for each in sorted(found, key=unlikeness)]
 
 
 def is_noticed(tree: Path, path: Path) -> bool:
