@@ -121,7 +121,7 @@ coverage: $(TOOLS)  ## count the lines of Python and C that the tests run
 	$(BIN)/python -m tools.coverage $(ARGS)
 
 # With SEED=0 and COUNT=12 unless they are given; ARGS='engine/core/floor' tries files whose path begins so.
-mutate: $(TOOLS)  ## change constants and conditions at random; tell which of them no fast test notices
+mutate: $(TOOLS)  ## change forty constants and operators at random; tell which of them no test notices
 	$(BIN)/python -m tools.mutate $(ARGS)
 
 bench: $(TOOLS)  ## measure what steps, frames, robots and pages cost

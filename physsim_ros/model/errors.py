@@ -209,6 +209,12 @@ class Running(Refusal):
     code = 'running'
 
 
+class InUse(Refusal):
+    """Another node has the lock of the directory."""
+
+    code = 'in_use'
+
+
 class Busy(Refusal):
     """More requests wait than may wait."""
 

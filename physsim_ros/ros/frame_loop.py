@@ -196,7 +196,7 @@ class FrameLoop:
         if self.started:
             self.apply_in_time()
         elif wait is not Wait.NONE:
-            self._simulation.requests.apply_waiting()
+            self._simulation.requests.finish_calls()
             # No tick goes on with a replay that the call began.
             self._simulation.finish_work(lambda: False)
 

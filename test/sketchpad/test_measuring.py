@@ -89,6 +89,68 @@ def pointed(sheet: Sheet, share: float, down: float = 0.5) -> list[float]:
     return [float(each) for each in re.findall(r' (-?[\d.]+)', text)]
 
 
+# The unit of each quantity, and its value, of a sample.
+QUANTITIES = """async ([sample, body, gravity]) => {
+    const {QUANTITIES} = await import('/page/measures/quantities.js');
+    return Object.fromEntries(Object.entries(QUANTITIES).map(([key, {label, of}]) =>
+        [key, [label.match(/\\[(.*)\\]/)[1], of(sample, body, gravity)]]));
+}"""
+# Exponents of mass, length and time.
+DIMENSIONS = {
+    's': (0, 0, 1),
+    'm': (0, 1, 0),
+    'rad': (0, 0, 0),
+    'm/s': (0, 1, -1),
+    'rad/s': (0, 0, -1),
+    'm/s²': (0, 1, -2),
+    'N': (1, 1, -2),
+    'N s': (1, 1, -1),
+    'N m': (1, 2, -2),
+    'J': (1, 2, -2),
+    'N m s': (1, 2, -1),
+}
+
+
+def quantities(sheet: Sheet, mass: float, length: float, time: float) -> dict[str, Any]:
+    """Return unit and value of all quantities of a sample, by other units of measurement."""
+    speed, acceleration = length / time, length / time**2
+    kinds = ('weight', 'normal', 'friction', 'joint', 'applied', 'sum')
+    sample = {
+        'time': 1.7 * time,
+        'yaw': 0.4,
+        'x': 2.1 * length,
+        'y': 0.8 * length,
+        'vx': -1.3 * speed,
+        'vy': 0.6 * speed,
+        'ax': 0.9 * acceleration,
+        'ay': -3.1 * acceleration,
+        'spin': 0.7 / time,
+        'spinning': -0.2 / time**2,
+        'forces': {kind: (3 + number) * mass * acceleration for number, kind in enumerate(kinds)},
+    }
+    body = {'mass': 2.3 * mass, 'moment': 0.9 * mass * length**2}
+    gravity = [1.1 * acceleration, -9.8 * acceleration]
+    return dict(sheet.page.evaluate(QUANTITIES, [sample, body, gravity]))
+
+
+def test_quantities_have_the_dimension_of_their_unit_and_make_up_each_other(sheet: Sheet) -> None:
+    scales = 2.0, 3.0, 5.0
+    found, other = quantities(sheet, 1.0, 1.0, 1.0), quantities(sheet, *scales)
+    value = {key: each for key, (_, each) in found.items()}
+    for key, (unit, each) in other.items():
+        scale = math.prod(map(math.pow, scales, DIMENSIONS[unit]))
+        assert each == pytest.approx(scale * value[key]), key
+    assert value['energy'] == pytest.approx(value['motion'] + value['height'])
+    assert value['motion'] == pytest.approx((2.3 * (1.3**2 + 0.6**2) + 0.9 * 0.7**2) / 2)
+    assert value['height'] == pytest.approx(2.3 * (9.8 * 0.8 - 1.1 * 2.1))
+    for size, x, y in (
+        ('speed', 'vx', 'vy'),
+        ('momentum', 'px', 'py'),
+        ('acceleration', 'ax', 'ay'),
+    ):
+        assert value[size] == pytest.approx(math.hypot(value[x], value[y]))
+
+
 def test_a_large_plot_tells_what_is_under_the_pointer(sheet: Sheet) -> None:
     chosen(sheet, -7.5, 8.0)
     sheet.play_until(0.9)
