@@ -398,17 +398,3 @@ def test_what_is_loaded_is_saved_as_it_was_though_contacts_end_within_steps():
         loaded.apply(Restore(state=saved))
 
         assert repr(loaded.save().memory) == repr(saved.memory)
-
-
-def test_a_gear_whose_carrier_alone_is_dynamic_turns_it():
-    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
-    for name in ('sun/0', 'ring/0'):
-        spawn(world, name, DISC, kinematic=True, spin=1.0)
-    spawn(world, 'arm/0', BOX)
-    gear = {'a': 'sun/0', 'b': 'ring/0', 'ratio': -1.0, 'carrier': 'arm/0'}
-
-    join(world, 'gear', [(0.0, 0.0)], name='gear/0', **gear)
-
-    world.step(10)
-    # Willis: ring and sun turn alike as seen from the arm, one against the other.
-    assert world.snapshot().twists[2, 2] == pytest.approx(1.0)
