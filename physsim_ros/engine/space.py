@@ -10,7 +10,7 @@ a wrench changes.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 import math
 
 from physsim_ros.engine.bodies import (
@@ -213,7 +213,7 @@ class Space:
             old.body = body
             self.commands.drop_without_drive(body)
             if pose != old.pose:
-                self.set_pose(old, pose)
+                self.set_poses([(old, pose)])
             if twist != self.twist_of(old):
                 self.set_twist(old, twist)
             return
@@ -255,22 +255,25 @@ class Space:
         self._take_out(rigid)
         return rigid
 
-    def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
-        """Set the pose of a body."""
-        touching = self.bodies.touching(rigid.pm_body)
-        rigid.pose = self.joints.with_turns(rigid, pose)
-        self.bodies.note_moved()
-        self.bodies.wake_around(rigid, touching)
-        if rigid.body.medium is not None:
-            wake_bodies(each.pm_body for each in self.bodies.by_name.values())
-        if rigid.body.anchored:
-            self._core.note_moved_static()
-        # It attracts others from another place.
+    def set_poses(self, poses: Sequence[tuple[RigidBody, Pose]]) -> None:
+        """Set the poses of bodies."""
+        for rigid, pose in poses:
+            touching = self.bodies.touching(rigid.pm_body)
+            rigid.pose = self.joints.with_turns(rigid, pose)
+            self.bodies.note_moved()
+            self.bodies.wake_around(rigid, touching)
+            if rigid.body.anchored:
+                self._core.note_moved_static()
+            self._release(touching)
+        moved = [rigid for rigid, _ in poses]
+        rigids = self.bodies.by_name.values()
+        if any(rigid.body.medium is not None for rigid in moved):
+            wake_bodies(each.pm_body for each in rigids)
+        # They attract others from other places.
         attracting = len(self._table.columns.attractors) if self._table is not None else 0
-        for each in self.bodies.by_name.values() if attracting else (rigid,):
+        for each in rigids if attracting else moved:
             each.begin_fields()
-        self._release(touching)
-        self._changes += 1
+        self._changes += len(poses)
 
     def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
         """Set the velocity of a body: it flies then, unless joints or contacts hold it."""

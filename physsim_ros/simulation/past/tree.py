@@ -104,8 +104,9 @@ class Tree(LineInForce):
         self.left: dict[int, Line] = {}
         self.undone: list[Line] = []
         self.resets: list[Line] = []
-        # By tip and head of another line, the step at which that line parts from this one.
-        self._partings: dict[tuple[Node, int], int | None] = {}
+        # By tip and head of another line: the number of nodes that it has in common with this one,
+        # and the step at which it parts from this one.
+        self._partings: dict[tuple[Node, int], tuple[int, int | None]] = {}
         # The oldest keyframe when lines that part before it were dropped last.
         self._oldest: Keyframe | None = None
 
@@ -137,8 +138,9 @@ class Tree(LineInForce):
             after = apart[0].after if apart else head
             lost = kept == 0 or (kept == 1 and after < self.keyframes[0].step)
             steps = [each[0].step for each in (self.nodes[kept:], apart) if each]
-            self._partings[tip, head] = None if lost else min(steps, default=self.head)
-        return self._partings[tip, head]
+            step = None if lost else min(steps, default=self.head)
+            self._partings[tip, head] = kept, step
+        return self._partings[tip, head][1]
 
     def _apart(self, tip: Node) -> tuple[int, list[Node]]:
         """Return the number of nodes in common with another line, and its other nodes."""
@@ -189,7 +191,9 @@ class Tree(LineInForce):
                 keyframe for keyframe in node.keyframes if keyframe.step <= following.after
             ]
         self.keyframes += tip.keyframes
-        self._partings.clear()
+        # A line that grows parts from others where it did, but from those that it goes on from.
+        same = {} if left else self._partings
+        self._partings = {line: found for line, found in same.items() if found[0] < kept}
         steps = [head, *(each[0].step for each in (left, apart) if each)]
         self.head = head
         self._drop_old()

@@ -315,8 +315,7 @@ def set_poses(live: LiveSpace, poses: Mapping[str, Pose]) -> None:
     bodies = live.space.bodies.by_name
     placed = [(bodies[name], at) for name, at in placed_with_parts(live.space, poses).items()]
     live.capacity.check_bodies([(rigid.body, pose, rigid) for rigid, pose in placed])
-    for rigid, pose in placed:
-        live.space.set_pose(rigid, pose)
+    live.space.set_poses(placed)
 
 
 def _change(
@@ -340,6 +339,5 @@ def _change(
         live.capacity.check_body(body, pose, old=old)
     followers = placed_with_parts(live.space, {body.name: pose}) if pose != old.pose else {}
     live.space.change(old, body, pose, twist)
-    for name, at in followers.items():
-        if name != body.name:
-            live.space.set_pose(live.space.bodies.by_name[name], at)
+    bodies = live.space.bodies.by_name
+    live.space.set_poses([(bodies[name], followers[name]) for name in followers if name != body.name])

@@ -23,7 +23,7 @@ import numpy as np
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.overlaps import bounds_of_pieces, count_inside, count_overlaps, laid_out
 from physsim_ros.engine.space import Space
-from physsim_ros.model.attraction import check_attraction
+from physsim_ros.model.attraction import attracts, check_attraction
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
@@ -136,7 +136,7 @@ class Capacity:
 
         :raises WorldFull: too many bodies would attract each other
         """
-        if self.checking:
+        if self.checking and attracts(body, self._space.settings):
             check_attraction(self._with(body), self._space.settings)
 
     def _with(self, body: Body) -> Iterator[Body]:
