@@ -49,7 +49,9 @@ def names_of(count: int) -> tuple[str, ...]:
 
 def command(count: int) -> Command:
     """Return the request that sets the poses of all discs."""
-    return Command(names=names_of(count), poses=np.array([(2.0 * n, 1.0, 0.0) for n in range(count)]))
+    return Command(
+        names=names_of(count), poses=np.array([(2.0 * n, 1.0, 0.0) for n in range(count)])
+    )
 
 
 def move(count: int) -> MoveBodies:

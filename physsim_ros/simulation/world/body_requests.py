@@ -340,4 +340,6 @@ def _change(
     followers = placed_with_parts(live.space, {body.name: pose}) if pose != old.pose else {}
     live.space.change(old, body, pose, twist)
     bodies = live.space.bodies.by_name
-    live.space.set_poses([(bodies[name], followers[name]) for name in followers if name != body.name])
+    live.space.set_poses(
+        [(bodies[name], followers[name]) for name in followers if name != body.name]
+    )
