@@ -109,7 +109,7 @@ class FrameMaker:
         """
         view = self._view
         if view is None or self.is_changed:
-            self._observe_frame(moved=view is None or view.snapshot.step != self.step)
+            self._observe_frame()
         assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
         return self._view
 
@@ -163,12 +163,12 @@ class FrameMaker:
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
         self.requests.apply_waiting()
-        return self._observe_frame(moved=False) if self.is_changed else None
+        return self._observe_frame() if self.is_changed else None
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
         self._run_periods(1)
-        return self._observe_frame(moved=True)
+        return self._observe_frame()
 
     def pass_frames(self, count: int) -> Frame | None:
         """
@@ -178,7 +178,7 @@ class FrameMaker:
         """
         self._run_periods(count)
         if self._is_frame_due:
-            return self._observe_frame(moved=True)
+            return self._observe_frame()
         self._begin_frame(is_read=True)
         return None
 
@@ -262,7 +262,7 @@ class FrameMaker:
         due = self._due_frames(now_ns, is_overdue, ends_frame, by_steps=by_steps)
         frames = tuple(due)
         if not frames and playback.changed and not self._is_unfinished:
-            return (self._observe_frame(moved=False),)
+            return (self._observe_frame(),)
         return frames
 
     def _due_frames(
@@ -288,7 +288,7 @@ class FrameMaker:
                     playback.clock.restart()
                     return
                 if self._is_frame_due:
-                    yield self._observe_frame(moved=True)
+                    yield self._observe_frame()
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame
             else:
@@ -299,7 +299,7 @@ class FrameMaker:
     def _finished_frame(self) -> Frame | None:
         """Return the frame of steps that have ended in this call, if they began in another one."""
         was_unfinished, self._is_unfinished = self._is_unfinished, False
-        return self._observe_frame(moved=True) if was_unfinished and self._is_frame_due else None
+        return self._observe_frame() if was_unfinished and self._is_frame_due else None
 
     @property
     def _is_frame_due(self) -> bool:
@@ -332,34 +332,33 @@ class FrameMaker:
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
-        before = self.playback.step
         if not self._carry_out(self.playback.rewind(steps), is_overdue):
             return None
         _finished(self.playback.replay_ahead(steps), is_overdue)
         if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self.requests.report_oldest('; paused')
-        return self._observe_frame(moved=self.playback.step < before)
+        return self._observe_frame()
 
-    def _observe_frame(self, *, moved: bool) -> Frame:
+    def _observe_frame(self) -> Frame:
         """Return the frame that is shown, with all answers; fit the past into its budget."""
         past, playback, requests = self.past, self.playback, self.requests
-        snapshot, contacts = playback.observe_frame(moved=moved)
+        snapshot, contacts = playback.observe_frame()
         requests.note_arrival()
         past.fit_memory(playback.moment)
         if past.reports:
             requests.answers += past.reports
             past.reports.clear()
-        playback.changed = False
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if past.reports_contacts else None,
             answers=requests.take_answers() if requests.answers else (),
             speed=playback.speed,
-            moved=moved,
+            stepped=playback.stepped,
             past=snapshot.step < past.tree.head,
             course=past.tree.course,
         )
+        playback.changed = playback.stepped = False
         before, last = self._passed, self._view
         if last is not None and (before is None or before.step == snapshot.step):
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before

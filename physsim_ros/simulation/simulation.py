@@ -323,7 +323,7 @@ class Simulation(FrameMaker):
         self.requests.note_jump()
         self.driving = {drive.name: drive for drive in saved.driving}
         self._view = View(saved.frame, saved.before)
-        self.playback.changed = False
+        self.playback.changed = self.playback.stepped = False
 
     def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> str:
         """

@@ -71,7 +71,7 @@ class TimelineReport:
         """
         last = self._sent
         # A running world without requests changes nothing but its time.
-        runs = frame.moved and not frame.answers and frame.speed != 0.0
+        runs = frame.passing and not frame.answers
         known = last is not None and last.speed == frame.speed
         if runs and known and now - self._read_at < TIMELINE_PERIOD:
             return None

@@ -231,7 +231,7 @@ class Player:
         while count > 0 and self.sim.speed != 0.0:
             self._now += 16_666_667
             for frame in self.sim.advance(self._now):
-                if frame.moved and count > 0:
+                if frame.stepped and count > 0:
                     count -= 1
                     yield frame.snapshot
         self.sim.speed = 0.0
