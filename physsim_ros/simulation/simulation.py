@@ -261,7 +261,7 @@ class Simulation(FrameMaker):
 
         A world that begins with this state, and gets no request, repeats the run.
         """
-        return self.at_shown_moment().frames.saver_of_run()
+        return self.at_shown_moment().saver_of_run()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """

@@ -14,6 +14,8 @@ checkpoint, the requests after it, and the frames beside the one that is shown a
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -129,6 +131,33 @@ class Past:
         :return: None if it is not kept
         """
         return self.tree.course_snapshot(course, self.steps_in(seconds))
+
+    def saver_of_run(self) -> Callable[[], WorldState]:
+        """
+        Return a function that returns, on any thread, the state with which the run began.
+
+        That is the state after the last request of the line, or at the first that is kept.
+        """
+        tree, rate, frame_steps = self.tree, self.physics_rate, self.frame_steps
+        moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
+        keyframe = tree.keyframe_before(*moment)
+        # Not the nodes: one that becomes the root has another request from then on.
+        nodes = tree.nodes_between(keyframe.serial, moment.serial)
+        requests = [(node.step, node.request) for node in nodes]
+
+        def save() -> WorldState:
+            # In a world of its own, since this one goes on meanwhile.
+            run = World(physics_rate=rate, frame_steps=frame_steps)
+            run.resume(keyframe.checkpoint)
+            for step, request in requests:
+                run.step(step - run.step_count)
+                # A replay reports a refusal as a divergence.
+                with suppress(Refusal):
+                    run.reapply(request)
+            run.step(moment.step - run.step_count)
+            return run.save()
+
+        return save
 
     def fit_memory(self, shown: Moment) -> None:
         """

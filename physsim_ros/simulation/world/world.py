@@ -282,12 +282,15 @@ class World(LiveSpace):
 
     def step(self, count: int) -> tuple[str, ...]:
         """
-        Make a number of steps.
+        Make a number of steps at once, in a world beside the live one, which its failure spares.
 
         :return: bodies that left the range of numbers and were removed
-        :raises StepFailed: in place of any error
+        :raises RuntimeError: in place of any error
         """
-        finish(self.slices_of_steps(count))
+        try:
+            finish(self.slices_of_steps(count))
+        except StepFailed as error:
+            raise RuntimeError(str(error)) from error
         return tuple(self.take_lost())
 
     def slices_of_steps(self, count: int) -> Generator[None]:
