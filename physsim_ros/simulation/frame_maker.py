@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 import math
 
 from physsim_ros.model.checks import number
-from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.sensing import View
@@ -325,10 +325,14 @@ class FrameMaker:
 
     def _drive_on(self) -> None:
         """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
-        for drive in self.driving.values():
-            if not is_driving(self.world, drive, self.frame_steps):
-                # Nobody undoes a tick.
-                self.past.apply_unasked(drive)
+        for name, drive in [*self.driving.items()]:
+            try:
+                if not is_driving(self.world, drive, self.frame_steps):
+                    # Nobody undoes a tick.
+                    self.past.apply_unasked(drive)
+            except (UnknownBody, BadProperty):
+                # Its robot is gone, or has no drive any more.
+                del self.driving[name]
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""

@@ -98,7 +98,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
     requests.CommandMotors: joint_requests.command_motors,
-    requests.DriveRobot: robot_requests.drive,
+    requests.DriveRobot: robot_requests.drive_robot,
     requests.Configure: configure,
     requests.Restore: restore,
 }
