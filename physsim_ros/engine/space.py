@@ -22,7 +22,7 @@ from physsim_ros.engine.bodies import (
 )
 from physsim_ros.engine.body_table import BodyTable, check_columns, check_floor, columns_of
 from physsim_ros.engine.boundary import Boundary
-from physsim_ros.engine.commands import Commands
+from physsim_ros.engine.commands import CommandSet
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
@@ -78,7 +78,7 @@ class Space:
         self.boundary = Boundary(self.pm_space, self.shapes)
         self._core = CoreWorld(self.pm_space, dt)
         self.joints = JointSet(self.pm_space, self.bodies.by_name, self._core, dt)
-        self.commands = Commands(self.bodies, self.joints, dt)
+        self.commands = CommandSet(self.bodies, self.joints, dt)
         self.broken: list[tuple[str, float]] = []
         self.joined: set[str] = set()
         self._changes = self._age = 0

@@ -235,7 +235,7 @@ class Cursor(Replay):
         """Whether an amendment is under way."""
         return self._work is not None and self._work.kind is _Kind.AMENDMENT
 
-    def work(self, slices: Iterator[None]) -> None:
+    def begin_amendment(self, slices: Iterator[None]) -> None:
         """Have an amendment be carried out slice by slice, from now on."""
         self.finish_work()
         self._work = _Work(_Kind.AMENDMENT, slices)
