@@ -4,8 +4,8 @@
 """
 Space: the bodies, joints and walls that are in the engine, and all that can be done to them.
 
-Laws: a Pymunk object never leaves the engine's folder; true velocities do not jump when gravity or
-a wrench changes.
+Laws: no other folder uses a Pymunk object; true velocities do not jump when gravity or a
+wrench changes.
 """
 
 from __future__ import annotations

@@ -119,8 +119,8 @@ def moving_with_parts(space: Space, twists: Mapping[str, Twist]) -> dict[str, Tw
     moving = dict(twists)
     for leader, follower in _followers(space, twists):
         vx, vy, spin = twists[leader.body.name]
-        dx, dy = follower.pm_body.position - leader.pm_body.position
-        moving[follower.body.name] = vx - spin * dy, vy + spin * dx, spin
+        (x, y), (at_x, at_y) = follower.center, leader.center
+        moving[follower.body.name] = vx - spin * (y - at_y), vy + spin * (x - at_x), spin
     return moving
 
 

@@ -95,7 +95,7 @@ class Capacity:
             shapes += pieces - (0 if old is None else len(old.body.shape.form.pieces))
             added += _inside(body) + space.bodies.count_near(
                 bounds_of_pieces(body.shape, pose),
-                without=None if old is None else old.pm_body,
+                without=old,
                 moving_only=body.anchored,
                 most=most,
             )
