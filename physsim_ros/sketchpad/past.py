@@ -29,7 +29,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.model.transform import local_to_world, rotated_each
-from physsim_ros.simulation.past.line import CachedFrame
+from physsim_ros.simulation.past import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.message import Content

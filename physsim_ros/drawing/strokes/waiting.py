@@ -33,6 +33,7 @@ from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
 from physsim_ros.drawing.strokes.meanings import stroke_in_scene
 from physsim_ros.drawing.strokes.stages import Context, GRAVITY, Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
+from physsim_ros.model.body_description import new_body
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -40,7 +41,6 @@ from physsim_ros.model.requests import Configure, Delete, Join, Request, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import Pose, rotated_each
-from physsim_ros.simulation.world.body_description import new_body
 
 # Meanings that a stroke has by the bodies under it, and by an axle.
 _BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})

@@ -4,9 +4,9 @@
 """
 A world: requests go in, steps are made, snapshots come out; it knows only the present.
 
-Not here: the time of a request, and the past (`past`). Start with the table of
-handlers in `world`; those for bodies, robots, joints and hands are in files of their own. Other
-folders import the names below.
+Not here: the time of a request, and the past (`past`); what needs no space, as the body that a
+request describes (`model`). Start with the table of handlers in `world`; those for bodies, robots,
+joints and hands are in files of their own. Folders other than `simulation` import the names below.
 """
 
 from physsim_ros.simulation.world.forces_now import forces_now

@@ -5,8 +5,9 @@
 Requests for bodies: spawned, changed, moved, commanded, anchored, deleted.
 
 Laws: everything is checked before anything is changed: a handler that raises a `Refusal` has
-changed nothing. A body that is spawned where it already is, in the colour that it has, keeps both
-to the bit, so that markers which are published back change nothing.
+changed nothing, but `spawn` of a robot and `cut`, which end with the joints. A body that is
+spawned where it already is, in the colour that it has, keeps both to the bit, so that markers
+which are published back change nothing.
 """
 
 from __future__ import annotations
@@ -19,9 +20,17 @@ from typing import Any
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.body_description import (
+    changed_body,
+    changed_twist,
+    check_command,
+    check_start,
+    fields_set_by,
+    new_body,
+)
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, nothing_at
+from physsim_ros.model.errors import BadProperty, nothing_at
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
@@ -33,10 +42,10 @@ from physsim_ros.model.requests import (
     DeleteAll,
     DeleteBodies,
     MoveBodies,
+    parts_of,
     Release,
     Spawn,
 )
-from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, REST
@@ -47,20 +56,12 @@ from physsim_ros.simulation.world.assembly import (
     check_same_parts,
     members,
     moving_with_parts,
-    parts_of,
     placed_with_parts,
 )
-from physsim_ros.simulation.world.body_description import (
-    changed_body,
-    changed_twist,
-    fields_set_by,
-    new_body,
-)
-from physsim_ros.simulation.world.live_space import (
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import (
     body_of_name,
-    check_start,
     is_same_pose,
-    LiveSpace,
     points_in_world,
     pose_in_world,
 )
@@ -192,19 +193,6 @@ def command(live: LiveSpace, request: Command) -> Answer:
     quantities = {'pose': request.poses, 'velocity': request.twists, 'force': request.wrenches}
     said = ' and '.join(noun for noun, rows in quantities.items() if len(rows))
     return _done(f'set {said or "nothing"} of', request.names)
-
-
-def check_command(body: Body, request: Command) -> None:
-    """
-    Refuse a command that a body cannot obey.
-
-    :raises Anchored: it is anchored, and takes a pose only
-    :raises BadProperty: it is kinematic, and forces do not move it
-    """
-    if body.anchored and (request.twists.size or request.wrenches.size):
-        raise Anchored(f'{body.name} is anchored; it takes a pose only', field='joint_names')
-    if body.kinematic and request.wrenches.size:
-        raise BadProperty(f'{body.name} is kinematic; forces do not move it', field='wrench')
 
 
 def anchor(live: LiveSpace, request: Anchor) -> Answer:

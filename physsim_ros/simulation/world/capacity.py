@@ -29,6 +29,7 @@ from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import (
+    check_limit,
     MOST_HANDS,
     MOST_JOINTS_ON_BODY,
     MOST_ROBOT_TOPICS,
@@ -43,8 +44,6 @@ _INSIDE = 10
 # than this many times the pieces of the requests since the last count [1]. A count takes 3 µs for
 # each piece and overlap, a request a third of a millisecond more.
 _PIECE = 100
-# The counts that the settings limit.
-_COUNTED = {'max_bodies': 'bodies', 'max_shapes': 'convex pieces', 'max_joints': 'joints'}
 
 
 class Capacity:
@@ -198,18 +197,6 @@ def check_state(state: WorldState) -> None:
     count = _count([(each.body, each.pose) for each in state.bodies], most)
     if count > most:
         raise _too_many(count, most)
-
-
-def check_limit(limit: str, count: int, settings: WorldSettings) -> None:
-    """
-    Refuse a number of bodies, convex pieces or joints.
-
-    :param limit: name of the greatest number in the settings
-    :raises WorldFull: it is too great
-    """
-    most = getattr(settings, limit)
-    if count > most:
-        raise WorldFull(f'the world would have {count} {_COUNTED[limit]}; {limit} is {most}')
 
 
 def _count(

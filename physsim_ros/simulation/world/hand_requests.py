@@ -20,7 +20,8 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.model.transform import rotated, world_to_local
 from physsim_ros.simulation.world.body_requests import set_poses
-from physsim_ros.simulation.world.live_space import LiveSpace, points_in_world, pose_in_world
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import points_in_world, pose_in_world
 
 
 def grab(live: LiveSpace, request: Grab) -> Answer:

@@ -9,11 +9,10 @@ Law: no two robots have one topic or frame.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
-from physsim_ros.model.errors import BadProperty, Exists, UnknownBody
+from physsim_ros.model.body_description import check_namespaces
+from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Drive, Robot
 from physsim_ros.model.scene import Body
@@ -110,28 +109,3 @@ def _prefix_of(robot: Robot, body: str) -> str:
     """Return the prefix of the names of topics and frames of a robot."""
     namespace = robot.namespace_of(body)
     return f'{namespace}/' if namespace else ''
-
-
-def check_namespaces(bodies: Iterable[Body]) -> None:
-    """
-    Refuse two robots of one namespace, topic or frame; of two bodies of one name the first counts.
-
-    A sensor may have the topic of another robot, whose namespace is nested in that of its own.
-
-    :raises Exists: there are
-    """
-    taken: dict[str, str] = {}
-    seen: set[str] = set()
-    for body in bodies:
-        if body.robot is None or body.name in seen:
-            continue
-        seen.add(body.name)
-        namespace = body.robot.namespace_of(body.name)
-        for name in body.robot.names_below(namespace):
-            other = taken.setdefault(name, body.name)
-            if other != body.name:
-                raise Exists(
-                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
-                    'one of them another namespace',
-                    field='namespace',
-                )
