@@ -29,7 +29,7 @@ from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.line import CachedFrame, Line, Moment
 from physsim_ros.simulation.past.tree import Budget, Tree
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import Change, World
 
 # Check of the times of a past [s].
 _SPAN = Within(0.0, LONGEST, 's')
@@ -207,10 +207,10 @@ class Past:
         :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        answer = self._apply(request, gesture, author)
-        if self.cursor.world.changed:
+        change = self._apply(request, gesture, author)
+        if change.has_changed:
             self.tree.drop_undone()
-        return answer
+        return change.answer
 
     def apply_unasked(self, request: Request) -> None:
         """
@@ -222,16 +222,16 @@ class Past:
         """
         self._apply(request, self.tree.node(self.cursor.serial).gesture)
 
-    def _apply(self, request: Request, gesture: int, author: str = '') -> Answer:
+    def _apply(self, request: Request, gesture: int, author: str = '') -> Change:
         cursor = self.cursor
-        answer = self.carry_out(request)
-        if cursor.world.changed:
+        change = self.carry_out(request)
+        if change.has_changed:
             if not cursor.is_newest:
                 self._begin_course()
-            cursor.log(request, answer.subject, gesture, author)
-        return answer
+            cursor.log(request, change, gesture, author)
+        return change
 
-    def carry_out(self, request: Request) -> Answer:
+    def carry_out(self, request: Request) -> Change:
         """
         Carry out a request, in the space in which a replay will carry it out.
 
@@ -244,7 +244,7 @@ class Past:
             with self.boundary.message(type(request).__name__):
                 return world.apply(request)
         except Refusal as refusal:
-            if world.changed or isinstance(refusal, Failed):
+            if refusal.is_half_done or isinstance(refusal, Failed):
                 cursor.seek_moment(*cursor.moment, elsewhere=True)
             raise
 

@@ -11,6 +11,14 @@ joints and hands are in files of their own. Folders other than `simulation` impo
 
 from physsim_ros.simulation.world.forces_now import forces_now
 from physsim_ros.simulation.world.live_space import Beginning, beginning_of, steps_covering
-from physsim_ros.simulation.world.world import load_message, World
+from physsim_ros.simulation.world.world import Change, load_message, World
 
-__all__ = ['Beginning', 'World', 'beginning_of', 'forces_now', 'load_message', 'steps_covering']
+__all__ = [
+    'Beginning',
+    'Change',
+    'World',
+    'beginning_of',
+    'forces_now',
+    'load_message',
+    'steps_covering',
+]
