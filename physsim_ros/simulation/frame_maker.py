@@ -128,6 +128,15 @@ class FrameMaker:
         """Have the next frame be the first one of its world: there is none before it."""
         self._view = self._passed = None
 
+    def _show_again(self, frame: Frame, before: Snapshot | None) -> None:
+        """
+        Show a frame that was made before, of the same moment.
+
+        :param before: snapshot of another time that was shown before it; None if there is none
+        """
+        self._view = View(frame, before)
+        self.playback.changed = self.playback.stepped = False
+
     def at_shown_moment(self) -> Past:
         """
         Apply the requests that wait, and return the past, its cursor at the moment that is shown.

@@ -24,7 +24,6 @@ from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.world import Beginning, forces_now, load_message
@@ -322,8 +321,7 @@ class Simulation(FrameMaker):
         self._note_beginning()
         self.requests.note_jump()
         self.driving = {drive.name: drive for drive in saved.driving}
-        self._view = View(saved.frame, saved.before)
-        self.playback.changed = self.playback.stepped = False
+        self._show_again(saved.frame, saved.before)
 
     def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> str:
         """

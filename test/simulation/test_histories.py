@@ -55,13 +55,13 @@ def test_a_history_shows_the_same_in_another_process():
 
 @pytest.mark.slow
 def test_a_replay_that_leaves_out_requests_is_found_and_shrunk_to_a_short_program(monkeypatch):
-    replay = World.replay
+    reapply = World.reapply
 
     def forgetful(world: World, request: Request) -> None:
         if not isinstance(request, Command):
-            replay(world, request)
+            reapply(world, request)
 
-    monkeypatch.setattr(World, 'replay', forgetful)
+    monkeypatch.setattr(World, 'reapply', forgetful)
     found = next(seed for seed in range(40) if difference_of(history_of(seed)))
     with pytest.raises(Difference, match=f'seed {found}: '):
         check(found)

@@ -90,7 +90,7 @@ class Replay:
         yield from self._apply_logged(tree.serial_at(world.step_count))
         yield from self._enter_checkpoint()
         stop = tree.next_stop(world.step_count, end)
-        yield from self._make_steps(stop, is_new=stop > tree.head)
+        yield from self._make_steps(stop, is_new=False)
         yield from self._apply_logged(tree.serial_shown_at(world.step_count))
 
     def _make_steps(self, end: int, *, is_new: bool) -> Generator[None]:

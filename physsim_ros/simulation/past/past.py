@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import LONGEST, Within
@@ -166,7 +167,6 @@ class Past:
         :param shown: the moment that is shown, which is kept
         """
         tree, frames, budget = self.tree, self.frames, self.budget
-        tree.shown = shown
         tree.drop_lost()
         self._count_memory()
         if budget.told and budget.used <= _RELIEF * budget.size:
@@ -180,7 +180,7 @@ class Past:
         for drop in (
             tree.drop_oldest_frames,
             tree.drop_oldest_line,
-            tree.drop_oldest_checkpoint,
+            partial(tree.drop_oldest_checkpoint, shown),
         ):
             while budget.used > budget.size and drop():
                 self._count_memory()
@@ -346,7 +346,7 @@ class Past:
         :param moment: that is shown
         """
         tree, (_, serial) = self.tree, moment
-        redo = tree.undone[-1].words if tree.has_undone() else ''
+        redo = tree.undone[-1].words if tree.can_redo else ''
         if gesture := tree.last_gesture(serial):
             first, count = gesture
             return first.phrase(count), redo
@@ -382,7 +382,7 @@ class Past:
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
         tree, resets = self.tree, self.tree.reset_count
-        if not tree.has_undone():
+        if not tree.can_redo:
             raise OutOfHistory('there is nothing to redo', field='history')
         words = tree.undone[-1].words
         left, _ = self.go_to(tree.undone[-1])

@@ -101,15 +101,15 @@ class Capacity:
             self._since += pieces
         check_limit('max_shapes', shapes, settings)
         new = [(body, pose) for body, pose, _ in placed]
+        names = {body.name for body, _ in new}
         if len(new) > 1:
-            added += _count(new, most)
+            added += _count(new, most, first=names)
         if self._bound is not None and self._bound + added <= most:
             self._bound += added
             return
         # The bound is exceeded: count.
         before = self._bound
         if before is None or self._age != space.age or self._since * _PIECE > shapes + before:
-            names = {body.name for body, _ in new}
             rigids = space.bodies.by_name.values()
             others = [(each.body, each.pose) for each in rigids if each.body.name not in names]
             before = _count(others, most)

@@ -125,19 +125,19 @@ class LiveSpace:
         return checkpoint
 
     @suspended_collection()
-    def resume(self, checkpoint: Checkpoint, *, going_over: bool = False) -> None:
-        """
-        Go back, or forward, to a checkpoint.
-
-        :param going_over: whether the world is at that moment now, with the same bodies; the
-            contacts of the unfinished frame are kept then
-        """
-        finish(self.slices_of_resumption(checkpoint, going_over=going_over))
+    def resume(self, checkpoint: Checkpoint) -> None:
+        """Go back, or forward, to a checkpoint."""
+        finish(self.slices_of_resumption(checkpoint))
 
     def slices_of_resumption(
         self, checkpoint: Checkpoint, *, going_over: bool = False
     ) -> Generator[None]:
-        """Do as `resume` in slices; yield after each."""
+        """
+        Do as `resume` in slices; yield after each.
+
+        :param going_over: whether the world is at that moment now, with the same bodies; the
+            contacts of the unfinished frame are kept then
+        """
         space = yield from slices_of_restore(checkpoint, self._sub_step)
         old, pool = self.space, self._pool
         if going_over:
