@@ -138,6 +138,8 @@ class Playback:
             now=shown.step / rate,
             newest=tree.head / rate,
             course=tree.course,
+            line=self._past.frames.line,
+            parts=self._past.frames.parts / rate,
             undo=undo and f'undo {undo}',
             redo=redo and f'redo {redo}',
             courses=tuple(

@@ -107,6 +107,8 @@ def timeline_content(status: TimelineStatus) -> dict[str, Any]:
         'now': status.now,
         'newest': status.newest,
         'course': status.course,
+        'line': status.line,
+        'parts': status.parts,
         'undo': status.undo,
         'redo': status.redo,
         'courses': [

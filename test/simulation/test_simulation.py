@@ -380,19 +380,6 @@ def test_reset_returns_to_what_was_loaded_at_time_0():
         assert sim.world.reports_contacts
 
 
-def test_reset_without_a_load_empties_the_world():
-    sim = simulation()
-    sim.requests.submit(spawning('a/0'), topic='~/spawn')
-    periods(sim, 5)
-    sim.perform(Configure(changes={'gravity': (0.0, -9.0)}))
-
-    sim.reset()
-
-    assert len(sim.world) == 0
-    assert sim.world.settings == NOWHERE
-    assert sim.world.step_count == 0
-
-
 def full() -> WorldState:
     """Return a state with more bodies than it may have."""
     sim = simulation()

@@ -100,17 +100,6 @@ def test_the_pose_of_any_shape_is_its_origins(shape, anchored, world):
     assert pose(world, 'a/0') == pytest.approx((3.0, -4.0, 2.5), abs=ROUNDING)
 
 
-def test_bodies_are_listed_in_the_order_of_their_spawning(world):
-    order = ('b/1', 'a/9', 'c/0', 'a/2')
-    for place, name in enumerate(order):
-        spawn(world, name, DISC, (3.0 * place, 0.0, 0.0), anchored=place % 2 == 0)
-
-    world.step(3)
-
-    assert names(world) == order
-    assert world.snapshot().poses[:, 0] == pytest.approx([0.0, 3.0, 6.0, 9.0], abs=1e-12)
-
-
 # Delete
 
 
@@ -158,23 +147,6 @@ def test_bodies_and_joints_are_deleted_together_or_not_at_all(world):
     assert world.apply(DeleteBodies(names=(), joints=('j/2',))).answer.message == 'deleted 1 joint'
 
 
-def test_everything_is_deleted_and_the_world_goes_on(world):
-    for number in range(5):
-        spawn(world, f'a/{number}', DISC, anchored=number % 2 == 0)
-    world.step(2)
-
-    world.apply(DeleteAll())
-    world.step(2)
-
-    assert names(world) == ()
-    assert len(world) == 0
-    assert world.snapshot().poses.shape == (0, 3)
-    assert world.step_count == 4
-    spawn(world, 'a/0', DISC)
-    world.step(1)
-    assert names(world) == ('a/0',)
-
-
 # Lifetime
 
 
@@ -196,25 +168,6 @@ def test_a_lifetime_ends_at_its_step(rate, lifetime, steps):
         assert 'a/0' in world
         world.step(1)
         assert 'a/0' not in world
-
-
-def test_lifetimes_end_within_many_steps(world):
-    for number in range(5):
-        spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 0.0), lifetime=(5 - number) / 240)
-
-    world.step(3)
-
-    assert names(world) == ('a/0', 'a/1')
-
-
-def test_a_lifetime_is_kept_until_another_is_said(world):
-    spawn(world, 'a/0', DISC, lifetime=10 / 240)
-    world.step(5)
-
-    spawn(world, 'a/0', BOX)
-    assert body(world, 'a/0').expires == 10
-    spawn(world, 'a/0', BOX, lifetime=10 / 240)
-    assert body(world, 'a/0').expires == 15
 
 
 def test_who_dies_under_another_leaves_it_falling():

@@ -563,6 +563,7 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     assert page.ask('change', name='a/0', properties={'velocity': [3, 0]})['ok']
     page.until_last('timeline', lambda timeline: timeline['courses'])
     (left,) = page.last('timeline')['courses']
+    assert page.last('timeline')['parts'] == pytest.approx(0.5)
     assert (left['from'], left['to']) == pytest.approx((0.5, 1.0))
     physsim.run(0.5)
     page.until(lambda: any(each.time == pytest.approx(1.0) for each in page.ghosts))

@@ -45,6 +45,12 @@ def test_the_grid_has_a_line_at_every_whole_metre_and_says_which(recording):
         # Labels hang below their points: those at the left are raised by half their height.
         assert label in {f'{x:g} m', f'{math.floor(y):g} m'}
         assert x < -10.0 or y < 0.0, 'a label covers the world'
+    across = {
+        float(label[:-2]) for (_, y, _), label in zip(places, labels, strict=True) if y < 0.0
+    }
+    up = {float(label[:-2]) for (x, _, _), label in zip(places, labels, strict=True) if x < -10.0}
+    assert across == {-10.0, -5.0, 0.0, 5.0, 10.0}
+    assert up == {0.0, 5.0, 10.0}
 
 
 def contacts(*impulses, pair=(0, -1)):

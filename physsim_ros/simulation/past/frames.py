@@ -63,10 +63,13 @@ class FrameCache:
         each body in each frame of the past
 
     :ivar size: memory that the frames take [bytes]
+    :ivar line: number of the line in force: each that is put in force gets the next one
+    :ivar parts: the first step at which that line may differ from the one before
     """
 
     def __init__(self, replay: Replay, world: World, tree: Tree) -> None:
         self.size = 0
+        self.line = self.parts = 0
         self._replay = replay
         self._world = world
         self._tree = tree
@@ -111,8 +114,9 @@ class FrameCache:
         return CachedFrame(frame.snapshot, old.contacts)
 
     def drop_from(self, step: int) -> list[CachedFrame]:
-        """Drop the frames from a step on, and return them in the order of time."""
+        """Drop the frames from a step on, where a line parts; return them in the order of time."""
         self._segment = None
+        self.line, self.parts = self.line + 1, step
         return self._drop(bisect_left(self._steps, step), len(self._steps))
 
     def cached_frame(self, step: int) -> CachedFrame | None:
