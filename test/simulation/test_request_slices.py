@@ -179,7 +179,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file
     assert tick(simulation, 1) == 0
     future.set_result('loaded')
     (frame,) = simulation.advance(2 * FRAME)
-    assert frame.moved
+    assert frame.stepped
     assert frame.snapshot.scene.names == ('late/0',)
 
 
@@ -200,7 +200,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_all_requests():
     for number in range(1, COUNT // SLICE):
         assert tick(simulation, number) == 0
     (frame,) = simulation.advance(10**9, is_spent=spent_after(SLICE + 1))
-    assert frame.moved
+    assert frame.stepped
     assert len(frame.snapshot.scene.bodies) == COUNT
 
 
