@@ -63,8 +63,8 @@ class Fits:
     :param corners: (k, 2) float64: the meeting points of straight sides [m]
     :param measures: by name, as the table of evidence has them: error and aspect of the ellipse;
         the distances (rms) from the rectangle and from the sides, in shares of the size; that of
-        the rectangle's farthest corner, in widths of it; the number of corners; the bulge of sides,
-        and the share of the turning that lies within them
+        the rectangle's farthest corner, in widths of it; the number of corners; the bulge of
+        sides, and the share of the turning that lies within them
     """
 
     ellipse: Ellipse
