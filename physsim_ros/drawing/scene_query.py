@@ -176,7 +176,7 @@ class SceneQuery:
         bodies, poses = self.snapshot.scene.bodies, self.snapshot.poses[rows]
         x, y = rotated_each(point - poses[:, :2], -poses[:, 2]).T
         away = distances_from_outlines([bodies[row].shape.form for row in rows], x, y)
-        is_region = [bodies[row].medium is not None for row in rows]
+        is_region = np.array([bodies[row].medium is not None for row in rows])
         return tuple(beside[at] for at in np.lexsort((away, is_region)).tolist())
 
     def bodies_along(self, start: Point, end: Point) -> tuple[str, ...]:

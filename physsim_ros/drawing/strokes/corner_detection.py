@@ -132,7 +132,7 @@ def turning_within(outline: Floats, at: list[int]) -> float:
     slope = (points * _ALONG[:, None]).sum(axis=1) / float((_ALONG**2).sum())
     bend = (points * _PARABOLA[:, None]).sum(axis=1) / float((_PARABOLA**2).sum())
     bend *= 2.0 * _ALONG[-1]
-    turn = float(angles(slope - bend, slope + bend).sum()) / (2.0 * math.pi * _ALONG[-1])
+    turn = float(angles(slope - bend, slope + bend).sum() / (2.0 * math.pi * _ALONG[-1]))
     return turn if signed_area(outline) > 0.0 else -turn
 
 
