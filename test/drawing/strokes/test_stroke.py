@@ -224,7 +224,8 @@ def test_the_first_step_of_a_finger_is_kept(way: str, share: float, batch: int) 
 def test_the_long_sides_between_the_round_ends_of_a_plank_of_few_samples_stay_straight() -> None:
     angle = np.linspace(-math.pi / 2, math.pi / 2, 5)
     end = 0.1 * np.column_stack((np.cos(angle), np.sin(angle)))
-    plank = np.vstack((end + (1.0, 0.0), -end - (1.0, 0.0), end[:1] + (1.0, 0.0)))
+    end[:, 0] += 1.0
+    plank = np.vstack((end, -end, end[:1]))
 
     outline = resample_stroke(plank).outline
 
