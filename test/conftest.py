@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .client import Client
     from .outside import Outside
 
-# Fixtures that start other processes: a test that asks for one is slow.
+# Fixtures that start other processes: a test that asks for one is slow, unless it is `everyday`.
 PROCESSES = {'chromium', 'outside', 'server'}
 # For setup, call and teardown of a test each [s]: ten times what the slowest may take.
 LONGEST = 300.0
@@ -42,7 +42,8 @@ if not is_compiled():
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for item in items:
-        if PROCESSES.intersection(getattr(item, 'fixturenames', ())):
+        starts = PROCESSES.intersection(getattr(item, 'fixturenames', ()))
+        if starts and not item.get_closest_marker('everyday'):
             item.add_marker(pytest.mark.slow)
 
 

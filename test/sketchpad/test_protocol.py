@@ -332,7 +332,7 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     assert not simulation.requests.apply_up_to_seek()
     assert not page.answers(shared)
     physsim.node.apply_requests()
-    page.until(lambda: page.answers(shared))
+    page.until(lambda: sketchpad.handle_messages() or page.answers(shared))
     assert simulation.world.stamp == 500_000_000
     text = text_of(simulation.save(), simulation.physics_rate)
     assert page.answers(shared)[0]['values']['yaml'] == text
@@ -563,6 +563,7 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     assert page.ask('change', name='a/0', properties={'velocity': [3, 0]})['ok']
     page.until_last('timeline', lambda timeline: timeline['courses'])
     (left,) = page.last('timeline')['courses']
+    assert page.last('timeline')['parts'] == pytest.approx(0.5)
     assert (left['from'], left['to']) == pytest.approx((0.5, 1.0))
     physsim.run(0.5)
     page.until(lambda: any(each.time == pytest.approx(1.0) for each in page.ghosts))

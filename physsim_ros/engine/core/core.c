@@ -3,8 +3,8 @@
 
 // The beginning and the end of a world, and its tables.
 
-#include "joint_parts.h"
 #include "one_way.h"
+#include "springs.h"
 #include "stages.h"
 #include <stdlib.h>
 

@@ -13,13 +13,6 @@
 // A body on a spring is never in free flight. As it begins, its velocity gets half a step of what its weight and its
 // springs change that by; from then on it leads, as that of a body on a rod does.
 //
-// Support graph.
-// Problem: where a floor, an anchor or a joint is removed, Chipmunk still warm starts with the impulses that carried
-// the pile on it, which would accelerate its bodies upward; and a body that falls from that moment on has no lead
-// yet, so that its reported velocity would begin with half a step of gravity upward.
-// Method: bodies that contacts or joints tie to nothing that stands are in free fall as one, without the impulses of
-// the step before; a search for that moment only.
-//
 // Reports.
 // Law: the impulses of contacts and joints, with gravity, are what changes the momentum of a body, but for m times a
 // lead: a body whose contact is lost flies without a jump of the engine's velocity, and lands without one.
@@ -30,103 +23,16 @@
 //
 // Cost: a comparison of velocities before and after each step.
 
-#include "joint_parts.h"
+#include "lost_support.h"
+#include "springs.h"
 #include "stages.h"
 
 // Difference of a sum in another order, as a share of the velocity.
 static const double rounding_of_velocity = 1e-12;
 
-// Bodies that support each other.
-typedef struct Support {
-    World *world;
-    int *parents;
-    int released; // place of the body whose neighbours are looked for
-    // (body_count): place of the released body that touched a body last, and that pressed on it last, counted from 1.
-    int *touching, *pressing;
-} Support;
-
 // Whether springs or motors hold the island of a body.
 static bool is_held(const Body *body) {
     return body->sprung || body->motored;
-}
-
-// Whether a body may have lost what it rested on.
-static bool is_loose(const Body *body) {
-    return body->state.released && body->dynamic;
-}
-
-static bool presses(const cpArbiter *arbiter) {
-    for (int number = 0; number < arbiter->count; number++) {
-        if (arbiter->contacts[number].jnAcc != 0.0 || arbiter->contacts[number].jtAcc != 0.0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Note which bodies touched a released one in the last step.
-static void note_contacts(const Support *support) {
-    const cpBody *engine = support->world->bodies[support->released].engine;
-    for (const cpArbiter *each = engine->arbiterList; each != NULL; each = next_of(each, engine)) {
-        int other = place_of(support->world, each->body_a == engine ? each->body_b : each->body_a);
-        support->touching[other] = support->released + 1;
-        if (presses(each)) {
-            support->pressing[other] = support->released + 1;
-        }
-    }
-}
-
-static void support_by(cpShape *shape, void *points, void *data) {
-    (void)points;
-    const Support *support = data;
-    int other = place_of(support->world, shape->body), mark = support->released + 1;
-    // A body that touched it without pressing only lies beside it.
-    bool lies_beside = support->touching[other] == mark && support->pressing[other] != mark;
-    if (!shape->sensor && other != support->released && !lies_beside) {
-        unite(support->parents, support->released, other);
-    }
-}
-
-// Find which bodies have lost all that they rested on; `unsupported` (body_count) is 0 before.
-static void find_unsupported(World *world, uint8_t *unsupported) {
-    Support support = {.world = world, .parents = sets_of(world)};
-    support.touching = TAKE(&world->own->arena, int, world->body_count);
-    support.pressing = TAKE(&world->own->arena, int, world->body_count);
-    for (int number = 0; number < arbiter_count(world); number++) {
-        const cpArbiter *each = arbiter_at(world, number);
-        if (!is_loose(body_of(each->body_a)) && !is_loose(body_of(each->body_b)) && presses(each)) {
-            unite(support.parents, place_of(world, each->body_a), place_of(world, each->body_b));
-        }
-    }
-    for (int number = 0; number < world->joint_count; number++) {
-        unite(support.parents, world->joints[number].a, world->joints[number].b);
-    }
-    // Contacts of released bodies are searched for anew, as the next step finds them.
-    for (int place = 0; place < world->body_count; place++) {
-        const Body *released = world->bodies + place;
-        if (!is_loose(released)) {
-            continue;
-        }
-        support.released = place;
-        note_contacts(&support);
-        for (cpShape *shape = released->engine->shapeList; shape != NULL; shape = shape->next) {
-            if (!shape->sensor) {
-                world->chipmunk.shape_query(world->space, shape, support_by, &support);
-            }
-        }
-    }
-    bool *stands = TAKE(&world->own->arena, bool, world->body_count);
-    bool *falls = TAKE(&world->own->arena, bool, world->body_count);
-    for (int place = 0; place < world->body_count; place++) {
-        const Body *body = world->bodies + place;
-        int root = root_of(support.parents, place);
-        stands[root] = stands[root] || !body->dynamic;
-        falls[root] = falls[root] || is_loose(body);
-    }
-    for (int place = 0; place < world->body_count; place++) {
-        int root = root_of(support.parents, place);
-        unsupported[place] = falls[root] && !stands[root];
-    }
 }
 
 // Whether a contact that pressed on a body in the last step parts by less than the step pulls its bodies together.

@@ -9,15 +9,7 @@
 // Where Chipmunk stores an impulse of a constraint; a pivot has two.
 double *impulse_at(const Part *part, int component);
 
-// Whether a joint is a spring between two points.
-static inline bool is_spring_joint(const World *world, const Joint *joint) {
-    return joint->part_count > 0 && world->parts[joint->first_part].kind == PART_SPRING;
-}
-
-// Have springs with a greatest force obey it.
-void prepare_springs(World *world);
-
-// Add what springs change the velocities of some bodies by in a time [s]; `pulled` and `changes` (body_count).
-void pull_springs(World *world, const bool *pulled, Twist *changes, double lapse);
+// The impulse of a constraint in the last sub-step; of all but pivots in the first component.
+Vec impulse_of_part(const Part *part);
 
 #endif

@@ -80,7 +80,7 @@ double remaining_time(const Body *a, const Body *b);
 Twist displacement_gained(const Body *body, Twist after, double remaining, double dt);
 void set_remaining_move(Body *body, Twist gained);
 
-// Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
+// Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_report.c`).
 void find_joint_islands(World *world);
 void solve_joints(World *world);
 void correct_joint_positions(World *world);

@@ -15,19 +15,16 @@ between two checkpoints, is replayed forward while the segment after it is shown
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Iterator
 from itertools import chain, islice
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import Refusal
 from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.cursor import Replay
-from physsim_ros.simulation.past.line import CachedFrame, Keyframe, Moment
+from physsim_ros.simulation.past.line import CachedFrame, Keyframe
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -66,10 +63,13 @@ class FrameCache:
         each body in each frame of the past
 
     :ivar size: memory that the frames take [bytes]
+    :ivar line: number of the line in force: each that is put in force gets the next one
+    :ivar parts: the first step at which that line may differ from the one before
     """
 
     def __init__(self, replay: Replay, world: World, tree: Tree) -> None:
         self.size = 0
+        self.line = self.parts = 0
         self._replay = replay
         self._world = world
         self._tree = tree
@@ -97,33 +97,6 @@ class FrameCache:
         first, last = bisect_right(self._steps, step), bisect_right(self._steps, end)
         return [self._frames[each].copy() for each in self._steps[first:last]]
 
-    def saver_of_run(self) -> Callable[[], WorldState]:
-        """
-        Return a function that returns, on any thread, the state with which the run began.
-
-        That is the state after the last request of the line, or at the first that is kept.
-        """
-        tree, world = self._tree, self._world
-        moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
-        keyframe = tree.keyframe_before(*moment)
-        # Not the nodes: one that becomes the root has another request from then on.
-        nodes = tree.nodes_between(keyframe.serial, moment.serial)
-        requests = [(node.step, node.request) for node in nodes]
-
-        def save() -> WorldState:
-            # In a world of its own, since this one goes on meanwhile.
-            run = World(physics_rate=world.physics_rate, frame_steps=world.frame_steps)
-            run.resume(keyframe.checkpoint)
-            for step, request in requests:
-                run.step(step - run.step_count)
-                # A replay reports a refusal as a divergence.
-                with suppress(Refusal):
-                    run.reapply(request)
-            run.step(moment.step - run.step_count)
-            return run.save()
-
-        return save
-
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown; a past without length has none."""
         if not self._tree.length:
@@ -141,8 +114,9 @@ class FrameCache:
         return CachedFrame(frame.snapshot, old.contacts)
 
     def drop_from(self, step: int) -> list[CachedFrame]:
-        """Drop the frames from a step on, and return them in the order of time."""
+        """Drop the frames from a step on, where a line parts; return them in the order of time."""
         self._segment = None
+        self.line, self.parts = self.line + 1, step
         return self._drop(bisect_left(self._steps, step), len(self._steps))
 
     def cached_frame(self, step: int) -> CachedFrame | None:

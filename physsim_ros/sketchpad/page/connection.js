@@ -43,6 +43,7 @@ export class Connection extends Emitter {
     this.pause = SHORTEST_PAUSE;
     this.silence = 0; // ticks since the last message
     this.opened = false; // whether the last socket was open at all
+    this.line = 0; // number of the line of events that the last timeline told of
     setInterval(() => this.#watch(), TICK);
     /** @type {?WebSocket} */
     this.socket = null;
@@ -186,7 +187,17 @@ export class Connection extends Emitter {
       this.waiting.delete(message.request);
     }
     this.#tell(message.type, message);
+    if (message.type === 'timeline') this.#followLine(message);
     if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.#tell('world', message);
+  }
+
+  /** @param {{line: number, parts: number}} timeline */
+  #followLine({line, parts}) {
+    if (line === this.line) return;
+    // Where it missed one, it does not know since when.
+    const since = line === this.line + 1 ? parts : 0;
+    this.line = line;
+    this.#tell('line', {since});
   }
 
   /**

@@ -21,8 +21,8 @@ import type {Numbers} from './measures/numbers.js';
 import type {Plots} from './measures/plots.js';
 import type {Plotting} from './measures/plotting.js';
 import type {Records} from './measures/records.js';
-import type {Trail} from './measures/records.js';
 import type {Stopwatch} from './measures/stopwatch.js';
+import type {Trail} from './measures/trail.js';
 import type {Driving} from './panels/driving.js';
 import type {Material} from './panels/material.js';
 import type {Panel} from './panels/panel.js';
@@ -31,10 +31,10 @@ import type {Dialog} from './ui/dialog.js';
 import type {Files} from './ui/files.js';
 import type {Hints} from './ui/hints.js';
 import type {Lessons} from './ui/lessons.js';
-import type {Sound} from './ui/narrator.js';
 import type {Notes} from './ui/notes.js';
+import type {Readings} from './ui/readings.js';
 import type {Settings} from './ui/settings.js';
-import type {Readings} from './ui/strokes.js';
+import type {Sound} from './ui/sound.js';
 import type {TimeBar} from './ui/time_bar.js';
 import type {Toolbar} from './ui/toolbar.js';
 import type {Arrows} from './view/arrows.js';
@@ -320,6 +320,10 @@ export interface Timeline {
   now: number;
   newest: number;
   course: number;
+  /** Number of the line of events in force. */
+  line: number;
+  /** Time from which on it may differ from the line before [s]. */
+  parts: number;
   undo: string;
   redo: string;
   speed: number;

@@ -788,7 +788,7 @@ STAGES: dict[
         'geometry.LEAST_SINE', are_x, (0.295, 0.31), (False, True),
     ),
     'length of a line beyond the other one of an x': (
-        'x._BEYOND_OF_TWO', are_crossed, (0.255, 0.275), (False, True),
+        'x._BEYOND_OF_TWO', are_crossed, (0.26, 0.29), (False, True),
     ),
     'depth of the teeth of a gear whose corners are eight': (
         'corner_detection._WOBBLE_CLOSED', lambda it: corners_of(gear(it)), (0.23, 0.245), (8, 4),

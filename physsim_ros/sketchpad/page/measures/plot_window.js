@@ -80,7 +80,7 @@ export class PlotWindow {
     this.element.classList.add('folded');
     this.element.replaceChildren(createElement('header', {},
       inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')), this.legend),
-      more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.canvas, this.reading);
+      more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.reading, this.canvas);
     this.element.hidden = false;
     this.#show(names);
     const {room, selection, lessons} = this.parts;
@@ -144,7 +144,7 @@ export class PlotWindow {
     this.legend.replaceChildren(...names.map((name, i) => {
       const button = textButton(`${this.parts.words.item(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
       button.style.color = this.parts.view.palette[COLORS[i % COLORS.length]];
-      button.title = t('Take {name} out of the plot', {name});
+      button.title = t('Take {name} out of the plot', {name: this.parts.words.item(name)});
       return button;
     }));
     this.#draw();

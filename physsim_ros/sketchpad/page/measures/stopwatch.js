@@ -41,6 +41,10 @@ export class Stopwatch {
     parts.connection.on('touches', ({touches}) => this.#add(touches));
     parts.connection.on('frame', ({time}) => this.#goTo(time));
     parts.connection.on('open', () => this.#follow());
+    parts.connection.on('line', ({since}) => {
+      this.touches = this.touches.filter(({time}) => time < since);
+      if (this.following) this.#follow();
+    });
     parts.connection.on('world', () => {
       this.start = this.stop = this.counted = '';
       [this.began, this.ended, this.laps] = [null, null, []];

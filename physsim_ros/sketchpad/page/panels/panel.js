@@ -6,15 +6,11 @@
  * numbers; what can be changed is behind one line, until somebody unfolds it.
  */
 
-import {bodyContent} from './body_panel.js';
 import {createElement, elementOf, foldButton, iconButton, replaceContent} from '../dom.js';
-import {jointContent} from './joint_panel.js';
-import {severalContent} from './several_panel.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
-import {worldContent} from './world_panel.js';
 
-/** @import {Kind} from '../input/selection.js' */
+/** @import {CONTENTS} from './contents.js' */
 /** @import {PanelParts, SceneView} from '../types.js' */
 
 /**
@@ -22,9 +18,6 @@ import {worldContent} from './world_panel.js';
  *   name: of the subject, where that is not the title; first: lines that are always shown; live: shows what changes from
  *   frame to frame, and draws it
  */
-
-/** Of each kind of subject, by its names; null where that is gone. @type {Record<Exclude<Kind, ''>, (parts: PanelParts, names: string[], render: () => void) => ?Content>} */
-const CONTENTS = {body: bodyContent, several: severalContent, joint: jointContent, world: worldContent, measure: ({stopwatch}) => stopwatch.content()};
 
 const UNFOLDED = 'physsim-panel'; // key
 
@@ -34,6 +27,8 @@ export class Panel {
     this.parts = parts;
     this.element = elementOf('panel');
     this.shown = ''; // kind and names of the subject
+    /** @type {?typeof CONTENTS} null until a panel is asked for */
+    this.contents = null;
     /** As somebody has chosen in this browser; a small page has no room for all of it at once. */
     this.unfolded = localStorage.getItem(UNFOLDED) === '1' && isRoomy();
     /** @type {(view: SceneView) => void} */
@@ -74,10 +69,16 @@ export class Panel {
   render() {
     const {parts, element} = this, {kind, subject} = parts.selection;
     this.isStale = false;
+    if (kind && !this.contents) {
+      parts.notes.load(import('./contents.js'), ({CONTENTS}) => {
+        this.contents = CONTENTS;
+        this.render();
+      });
+      return;
+    }
     element.hidden = !kind;
-    if (!kind) return;
-    /** @type {?Content} */
-    const content = CONTENTS[kind](parts, subject, () => this.render());
+    if (!kind || !this.contents) return;
+    const content = this.contents[kind](parts, subject, () => this.render());
     if (!content) {
       parts.selection.select([]);
       return;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Strokes: the card of what the pen understands, each as a small picture that draws itself; and how strokes are read, with other guesses to choose. */
+/** The card of what the pen understands: each stroke as a small picture that draws itself. */
 
-import {createElement, createGraphic, elementOf, iconButton, textButton} from '../dom.js';
+import {createElement, createGraphic, elementOf, iconButton} from '../dom.js';
 import {t} from '../strings.js';
-import {thingWord} from '../words.js';
 
-/** @import {Parts, Point, Reading} from '../types.js' */
+/** @import {Parts} from '../types.js' */
 
 /**
  * What it is called, the stroke that is drawn, and what is there before it. In a box of 60 by 40.
@@ -85,91 +84,4 @@ function picture(stroke, before = '') {
   return createGraphic('svg', {viewBox: '0 0 60 40', 'aria-hidden': 'true'},
     ...before ? [createGraphic('path', {d: before, class: 'before'})] : [],
     createGraphic('path', {d: stroke, class: 'stroke', pathLength: '1'}));
-}
-
-const LIKELY = 0.05; // the least confidence of a runner-up that is offered
-const GLANCED = 2500; // ms for which a reading without a runner-up is shown
-
-export class Readings {
-  /** @param {Parts<'connection' | 'notes' | 'view' | 'world'>} parts */
-  constructor(parts) {
-    this.parts = parts;
-    /** @type {Map<string, Point[]>} strokes by their request */
-    this.strokes = new Map();
-    this.dismiss = () => {};
-    this.shown = ''; // request whose reading is shown
-    parts.view.overlays.push((view) => {
-      for (const stroke of this.strokes.values()) view.line(stroke, view.palette.accent, [8, 6]);
-    });
-    parts.connection.on('reading', (reading) => this.#show(reading));
-    parts.connection.on('answer', ({request, ok, code}) => {
-      if (ok || code === 'not_recognised') return;
-      this.strokes.delete(request);
-      // Read, but not built.
-      if (request === this.shown) this.dismiss();
-    });
-    // Until then they are shown as what is to be sent again.
-    parts.connection.on('welcome', () => this.strokes.clear());
-  }
-
-  /**
-   * @param {string} request
-   * @param {Point[]} stroke
-   */
-  addStroke(request, stroke) {
-    this.dismiss();
-    if (request) this.strokes.set(request, stroke);
-  }
-
-  /** @param {Reading} reading */
-  #show({request, meaning, confidence, guesses, also, outline, built}) {
-    const stroke = this.strokes.get(request) ?? outline;
-    if (!stroke.length) return;
-    this.dismiss();
-    this.shown = request;
-    const at = /** @type {Point} */ ([
-      stroke.reduce((sum, [x]) => sum + x, 0) / stroke.length, Math.max(...stroke.map(([, y]) => y))]);
-    if (built) {
-      this.strokes.delete(request);
-      // A rope may be meant as a chain: no stroke tells them apart.
-      const other = guesses.slice(1).filter(([guess, sure], i) => i ? guess === 'chain' : sure > LIKELY)
-        .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: thingWord(guess)}), request, guess));
-      // Where somebody has chosen another guess, it is sure.
-      const label = guesses.some(([, sure]) => sure > confidence) ? thingWord(meaning) : labelOf(meaning, confidence);
-      const content = [[label, ...also.map(thingWord)].join('; '), ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.parts;
-      // A note at the place would cover a running machine.
-      this.dismiss = world.paused ? notes.pin(() => at, content, shown) : notes.dock(content, shown);
-      return;
-    }
-    const choices = guesses.map(([guess, sure]) => this.#guessButton(labelOf(guess, sure), request, guess));
-    const close = textButton('×', () => this.dismiss());
-    close.ariaLabel = t('Forget the stroke');
-    const words = choices.length ? t('Not sure. Is it') : t('Not recognised');
-    const remove = this.parts.notes.pin(() => at, [words, ...choices, close], 0);
-    this.dismiss = () => {
-      remove();
-      this.strokes.delete(request);
-    };
-  }
-
-  /**
-   * @param {string} label
-   * @param {string} request of the stroke
-   * @param {string} meaning
-   */
-  #guessButton(label, request, meaning) {
-    return textButton(label, () => {
-      this.parts.connection.send('instead', {meaning});
-      this.dismiss();
-      this.strokes.delete(request);
-    });
-  }
-}
-
-/**
- * @param {string} meaning
- * @param {number} confidence 0 .. 1
- */
-function labelOf(meaning, confidence) {
-  return `${thingWord(meaning)} ${Math.round(100 * confidence)} %`;
 }

@@ -195,9 +195,10 @@ export function drawGrid({ctx, camera, palette}) {
 /** @param {SceneView} view at whose insets the rulers lie, on top of bodies; a bar covers no number */
 export function drawRulers(view) {
   const {camera, palette, insets} = view, step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
+  const [unit, metres] = step < 1000 ? ['m', 1] : ['km', 1000];
   const [left, top] = camera.toWorld(insets.left, insets.top), [right, bottom] = camera.toWorld(camera.width - insets.right, camera.height - insets.bottom);
   const write = (/** @type {number} */ value, /** @type {Point} */ at, /** @type {CanvasTextAlign} */ align) =>
-    view.write(`${fixed(value, digits)} m`, at, palette.faint, align, SMALLEST);
+    view.write(`${fixed(value / metres, digits)} ${unit}`, at, palette.faint, align, SMALLEST);
   const low = camera.height - insets.bottom;
   for (const value of multiplesOf(step, left, right)) {
     const [x] = camera.toPage(value, 0);
