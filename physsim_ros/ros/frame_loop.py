@@ -123,7 +123,7 @@ class FrameLoop:
         self._rest_ns = time.perf_counter_ns() - request_time.ended
         self._was_overdue = tick_time.is_overdue()
         statistics = self._outputs.statistics
-        if frames and not frames[-1].moved:
+        if frames and not frames[-1].stepped:
             statistics.reset_pace()
             return
         statistics.add(

@@ -16,9 +16,6 @@ from physsim_ros.model.sizes import request_size
 from physsim_ros.model.slices import Sliced
 from physsim_ros.model.snapshot import Answer
 
-# Memory of a marker as rclpy decodes it [bytes].
-_UNREAD = 2500
-
 
 @dataclass(frozen=True, slots=True)
 class Seek:
@@ -58,10 +55,12 @@ class Unread:
 
     :param subject: name of the body or joint that it names
     :param convert: returns the request, at the moment that is shown; raises a Refusal
+    :param size: memory of what it is made of [bytes]
     """
 
     subject: str
     convert: Callable[[], Request]
+    size: int = 0
 
 
 class Wait(Enum):
@@ -159,7 +158,7 @@ class Entry:
 def size_of(request: Request | Unread | Amend | TakeBack) -> int:
     """Return the memory that a request takes [bytes]."""
     if isinstance(request, Unread):
-        return _UNREAD
+        return request.size
     if isinstance(request, Amend):
         return sum(map(size_of, request.requests))
     if isinstance(request, TakeBack):

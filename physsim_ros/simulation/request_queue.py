@@ -255,7 +255,7 @@ class RequestQueue:
                     case Amend() | TakeBack() as change:
                         entry.origin.check()
                         self._playback.seek_shown()
-                        self._past.cursor.work(self._amend(change, entry))
+                        self._past.cursor.begin_amendment(self._amend(change, entry))
                     case Seek(stamp=stamp):
                         message = self.seek(stamp)
                         self._answer_arrival = partial(self._answer_seek, entry.origin, message)

@@ -155,7 +155,7 @@ def test_requests_go_on_while_a_file_is_written_and_only_calls_that_read_it_wait
     assert tick(simulation, 1) == 1
     assert len(simulation.world) == 1
     # Who wants the world at once does not wait for the file.
-    assert simulation.advance_frame().moved
+    assert simulation.advance_frame().stepped
 
     def call(each: Wait) -> list[Answer]:
         seen.append(each)
@@ -179,7 +179,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file
     assert tick(simulation, 1) == 0
     future.set_result('loaded')
     (frame,) = simulation.advance(2 * FRAME)
-    assert frame.moved
+    assert frame.stepped
     assert frame.snapshot.scene.names == ('late/0',)
 
 
@@ -200,7 +200,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_all_requests():
     for number in range(1, COUNT // SLICE):
         assert tick(simulation, number) == 0
     (frame,) = simulation.advance(10**9, is_spent=spent_after(SLICE + 1))
-    assert frame.moved
+    assert frame.stepped
     assert len(frame.snapshot.scene.bodies) == COUNT
 
 
