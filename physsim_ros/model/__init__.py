@@ -4,8 +4,9 @@
 """
 Values that all folders use, frozen and checked, and tools for any code.
 
-NumPy is the most that is imported here. Nothing here moves, reads a clock or knows an engine. Modules are imported by their names; the
-packages `shapes`, `requests` and `robots` by their fronts. Start with `scene` and `requests`.
+NumPy is the most that is imported here. Nothing here moves, reads a clock or knows an engine.
+Modules are imported by their names; the packages `shapes`, `requests` and `robots` by their
+fronts. Start with `scene` and `requests`.
 
 - Shared by all values: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`, `texts`.
 - Descriptions of a world: `shapes`, `body_properties`, `joints`, `robots`, `settings`, `scene`.
