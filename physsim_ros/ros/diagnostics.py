@@ -15,7 +15,8 @@ from collections.abc import Iterator
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.snapshot import Answer, Frame, run_state, Snapshot
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.timeline import run_state
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
