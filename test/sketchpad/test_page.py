@@ -48,6 +48,21 @@ def test_the_note_of_a_body_tells_what_the_line_before_it_is_now(sheet: Sheet) -
     assert re.fullmatch(r'circle \d+ %; rod.*', sheet.page.evaluate('heard.notes')[1])
 
 
+@pytest.mark.parametrize('way', ['earlier', 'undo'])
+def test_the_note_of_a_stroke_goes_with_what_it_built(sheet: Sheet, way: str) -> None:
+    sheet.play_until(0.3)
+    # A rope from the ball to the box.
+    sheet.drag((0.0, 0.5), (0.8, 2.0), (2.0, 2.8), (3.2, 2.0), (4.0, 0.5))
+    choice = sheet.page.get_by_role('button', name='or chain')
+    # Who is at its button keeps it.
+    choice.hover()
+    if way == 'undo':
+        sheet.page.keyboard.press('Control+z')
+    else:
+        sheet.seek(0.1)
+    choice.wait_for(state='detached')
+
+
 def test_a_stroke_ends_where_the_pen_is_lifted(sheet: Sheet) -> None:
     # The browser of a busy machine has no move to the last place.
     places = [sheet.place(*point) for point in ((-2.0, 5.0), (-1.0, 5.0), (2.0, 5.0))]
