@@ -251,14 +251,19 @@ def test_a_polygon_is_closed_by_the_enter_key(sheet: Sheet) -> None:
 
 
 def test_undo_takes_back_what_was_drawn_and_redo_draws_it_again(sheet: Sheet) -> None:
-    before = sheet.names()
     sheet.press('Circle')
-    sheet.drag((0.0, 6.0), (0.4, 6.0))
-    name = sheet.wait_for_new(before)
-    sheet.press('Undo')
-    sheet.wait('name => !(name in physsim.bodies)', name)
-    sheet.press('Redo')
-    sheet.wait('name => name in physsim.bodies', name)
+    names = []
+    for x in (0.0, 2.0):
+        before = sheet.names()
+        sheet.drag((x, 6.0), (x + 0.4, 6.0))
+        names.append(sheet.wait_for_new(before))
+    for name in reversed(names):
+        sheet.press('Undo')
+        sheet.wait('name => !(name in physsim.bodies)', name)
+    for name in names:
+        sheet.press('Redo')
+        sheet.wait('name => name in physsim.bodies', name)
+        assert sheet.page.get_by_role('status').inner_text() == 'Redone: add the circle'
 
 
 def test_two_pages_see_one_world_and_each_has_its_own_tool(
