@@ -11,11 +11,12 @@ Other folders import the names below.
 
 from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.session import DrawingSession, submit_reading
+from physsim_ros.drawing.session import Check, DrawingSession, submit_reading
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.stages import Reading
 
 __all__ = [
+    'Check',
     'DrawingSession',
     'DrawingSettings',
     'Reading',

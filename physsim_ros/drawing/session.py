@@ -9,7 +9,6 @@ Law: a session changes only itself; it returns ordinary requests, to be submitte
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 import math
@@ -23,14 +22,14 @@ from physsim_ros.drawing.strokes.choice import not_recognised, reading_of
 from physsim_ros.drawing.strokes.figure import Figure
 from physsim_ros.drawing.strokes.grouping import likeliest_group, MOST_STROKES
 from physsim_ros.drawing.strokes.marks import mark_reading, marked_solid
-from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.reading import stroke_in_scene
 from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.strokes.waiting import readings_over
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised
+from physsim_ros.model.errors import NotRecognised, Refusal
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import Cut, Join, Request, Spawn
 from physsim_ros.model.shapes import as_tuples
@@ -39,8 +38,14 @@ from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.entries import Amend, Origin
 from physsim_ros.simulation.simulation import Simulation
 
+# Raises a Refusal of a reading that may not be.
+Check = Callable[[Reading], object]
 # The least confidence in a runner-up that the label of a preview mentions.
 _MENTIONED = 0.05
+
+
+def _all_may_be(_reading: Reading) -> None:
+    """Refuse nothing."""
 
 
 class DrawingSession:
@@ -67,7 +72,7 @@ class DrawingSession:
         self.preview: Preview = NO_PREVIEW
         self._gesture = Gesture(tool)
         # The last figures, the earliest first.
-        self._figures: deque[Figure] = deque(maxlen=MOST_STROKES)
+        self._figures: tuple[Figure, ...] = ()
         # The mark on the last figure.
         self._marks: tuple[Figure, ...] = ()
         # The lowest numbers that this session has not yet given to a body or joint.
@@ -106,7 +111,13 @@ class DrawingSession:
         return result
 
     def stroke(
-        self, samples: Floats, frame: str, snapshot: Snapshot, *, began: float = -math.inf
+        self,
+        samples: Floats,
+        frame: str,
+        snapshot: Snapshot,
+        *,
+        began: float = -math.inf,
+        check: Check = _all_may_be,
     ) -> Reading:
         """
         Return the reading of a stroke, with its requests.
@@ -116,82 +127,108 @@ class DrawingSession:
 
         :param samples: (n, 3) float64: x, y [m], time from any start [s]
         :param frame: of the samples: '' for the world, or the name of a body
-        :param snapshot: of the world that it was drawn over
+        :param snapshot: of the world that was drawn on
         :param began: time of the first sample [s]; without it the stroke is read by itself
+        :param check: raises a Refusal of a reading that may not be; the session is then as before
         :raises Refusal: it is not recognised, or cannot be drawn
         """
         scene = self._query(snapshot)
         self.preview = NO_PREVIEW
-        placed = _in_world(samples, frame, scene)
-        drawn = resample_stroke(placed)
-        figure = Figure.read(
+        drawn = resample_stroke(_in_world(samples, frame, scene))
+        last = Figure.read(
             stroke_in_scene(drawn, scene, self.settings),
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
         )
-        if not self._marks and marked_solid(self._figures, figure, self.settings):
+        if not self._marks and marked_solid(self._figures, last, self.settings):
             # The solid stays the last figure: another reading of it may follow.
-            self._marks = (figure,)
-            return self._shown(mark_reading(figure))
+            return self._keep(self._figures, (last,), mark_reading(last), check)
         # A second line may make an x of a mark.
-        self._figures.extend(replace(each, scene=scene) for each in self._marks)
-        self._marks = ()
-        group = likeliest_group(self._figures, figure, self.settings, self._clock)
-        if group is not None:
-            figure = group
-            while self._figures and self._figures[-1].began >= figure.began:
-                self._figures.pop()
-        self._figures.append(figure)
+        marks = (replace(each, context=each.over(scene, self.settings)) for each in self._marks)
+        earlier = [*self._figures, *marks]
+        figure = likeliest_group(earlier, last, self.settings, self._clock)
+        if figure is None:
+            figure = last
+        else:
+            while earlier and earlier[-1].began >= figure.began:
+                earlier.pop()
         if figure.chosen is None:
+            self._figures, self._marks = (*earlier, figure), ()
             self.preview = _unrecognised_preview(drawn.points)
             raise not_recognised(figure.guesses)
-        return self._shown(self._build(figure, figure.chosen))
+        try:
+            built, marked, reading = self._built(figure, figure.chosen, earlier)
+        except Refusal:
+            # A sign over nothing waits for what it is to change.
+            self._figures, self._marks = (*earlier, figure), ()
+            raise
+        return self._keep((*earlier, built), marked, reading, check)
 
-    def instead(self, meaning: str = '') -> Reading:
+    def instead(self, meaning: str = '', *, check: Check = _all_may_be) -> Reading:
         """
         Return the reading of the last figure by another guess, which replaces the last one.
 
-        :param meaning: of the guess; '' is the next one
+        :param meaning: of the guess; '' is the next one that the world can have
+        :param check: raises a Refusal of a reading that may not be; the session is then as before
         :raises NotRecognised: there is no such guess
         :raises Refusal: the world cannot have its outcome
         """
-        if self._figures:
-            figure = self._figures[-1]
+        refusals: list[Refusal] = []
+        for figure in self._figures[-1:]:
             for number in figure.other_guesses:
-                if meaning in {'', figure.guesses[number].meaning}:
-                    return self._shown(self._build(figure, number))
-        raise NotRecognised('there is no other reading of what was drawn last', field='poses')
+                if meaning not in {'', figure.guesses[number].meaning}:
+                    continue
+                earlier = self._figures[:-1]
+                try:
+                    built, marked, reading = self._built(figure, number, earlier)
+                except Refusal as refusal:
+                    refusals.append(refusal)
+                    continue
+                return self._keep((*earlier, built), marked or self._marks, reading, check)
+        nothing = NotRecognised('there is no other reading of what was drawn last', field='poses')
+        raise next(iter(refusals), nothing)
 
     def note_gesture(self, gesture: int) -> None:
         """Note the number of the gesture with which the last reading was submitted."""
-        self._figures[-1].gestures = (gesture,)
+        *earlier, last = self._figures
+        self._figures = (*earlier, replace(last, gestures=(gesture,)))
 
-    def _build(self, figure: Figure, number: int) -> Reading:
+    def _built(
+        self, figure: Figure, number: int, earlier: Sequence[Figure]
+    ) -> tuple[Figure, tuple[Figure, ...], Reading]:
         """
-        Return the reading of a figure by one of its guesses.
+        Return a figure by one of its guesses, the marks that earlier ones are on it, its reading.
 
         :raises Refusal: the world cannot have its outcome
         """
-        figure.chosen = number
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
         requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
-        figure.requests = requests
-        earlier = [each for each in self._figures if each is not figure]
+        figure = replace(figure, chosen=number, requests=requests)
         message, also = reading.message, []
+        marks: tuple[Figure, ...] = ()
         for (stroke, *_), over in readings_over(figure, earlier, self.settings):
             requests += over.requests
             message += f'; {over.message}'
             also.append(over.meaning)
             if over.meaning == 'mark':
-                self._marks = (replace(stroke, requests=(), gestures=()),)
+                marks = (replace(stroke, requests=(), gestures=()),)
             elif over.meaning == 'velocity':
-                reading = figure.offer_gravity(reading)
-        figure.requests = requests
-        return replace(reading, requests=requests, message=message, also=tuple(also))
+                figure = figure.with_gravity()
+                reading = replace(reading, guesses=figure.guesses)
+        reading = replace(reading, requests=requests, message=message, also=tuple(also))
+        return replace(figure, requests=requests), marks, reading
 
-    def _shown(self, reading: Reading) -> Reading:
-        """Return a reading after its preview is made and its names are reserved."""
+    def _keep(
+        self,
+        figures: Iterable[Figure],
+        marks: tuple[Figure, ...],
+        reading: Reading,
+        check: Check,
+    ) -> Reading:
+        """Return a reading that may be, after its figures, preview and names are kept."""
+        check(reading)
+        self._figures, self._marks = tuple(figures)[-MOST_STROKES:], marks
         self.preview = _reading_preview(reading)
         self._reserve_names(reading.requests)
         return reading

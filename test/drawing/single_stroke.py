@@ -5,8 +5,8 @@
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.choice import guesses_of, is_likely, not_recognised, reading_of
-from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.choice import is_likely, not_recognised, reading_of
+from physsim_ros.drawing.strokes.reading import guesses_of, stroke_in_scene
 from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats

@@ -22,8 +22,8 @@ import numpy as np
 from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.choice import guesses_of, reading_of
-from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.choice import reading_of
+from physsim_ros.drawing.strokes.reading import guesses_of, stroke_in_scene
 from physsim_ros.drawing.strokes.stages import MOST_GUESSES
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats

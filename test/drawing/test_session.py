@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Reading, submit_reading
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NothingThere, NotRecognised, UnknownBody
+from physsim_ros.model.errors import Frozen, NothingThere, NotRecognised, UnknownBody
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Command, Configure, Join, MoveBodies, Request, Spawn
 from physsim_ros.model.robots import Robot
@@ -48,20 +48,20 @@ class Desk:
             self.simulation.requests.submit(request, topic='t')
         self._settle()
 
-    def draw(self, way: Way | Floats, *, after: float = 0.3) -> Reading:
-        """Draw a stroke of 0.5 s, so long after the last one."""
+    def draw(self, way: Way | Floats, *, after: float = 0.3, **said: Any) -> Reading:
+        """Draw a stroke of 0.5 s, so long after the last one; what is said goes to the session."""
         points = np.array(way, dtype=np.float64)
         if len(points) < 20:
             sides = itertools.pairwise(points)
             points = np.vstack([np.linspace(a, b, 25) for a, b in sides])
-        return self.draw_samples(points, after=after)
+        return self.draw_samples(points, after=after, **said)
 
-    def draw_samples(self, points: Floats, *, after: float = 0.3) -> Reading:
+    def draw_samples(self, points: Floats, *, after: float = 0.3, **said: Any) -> Reading:
         """Draw a stroke of no more than these samples."""
         times = np.linspace(0.0, 0.5, len(points))
         samples = np.column_stack((points, times))
         began, self.now = self.now + after, self.now + after + 0.5
-        reading = self.session.stroke(samples, '', self.frame.snapshot, began=began)
+        reading = self.session.stroke(samples, '', self.frame.snapshot, began=began, **said)
         self._submit(reading)
         return reading
 
@@ -490,6 +490,39 @@ def test_what_was_not_recognised_can_be_built_instead() -> None:
 
     assert reading.meaning == 'disc'
     assert desk.shapes == ['Disc']
+
+
+CROSSED = [(-0.35, 0.0), (2.0, 0.0), (2.0, 2.0), (0.2, 2.0), (0.2, -0.35)]
+
+
+def test_a_guess_that_the_world_cannot_have_changes_nothing_and_is_passed_over() -> None:
+    desk = Desk()
+    guesses = [each.meaning for each in desk.draw(CROSSED).guesses]
+    assert guesses == ['rectangle', 'polygon', 'anchor']
+    with pytest.raises(NothingThere):
+        desk.session.instead('anchor')
+
+    assert [desk.instead().meaning for _ in range(3)] == ['polygon', 'rectangle', 'polygon']
+    assert desk.draw([(-0.5, 1.0), (2.5, 1.0)]).meaning == 'mark'
+
+
+@pytest.mark.parametrize('ways', [SQUARE, [CIRCLE, DIAMETER], [CROSSED]])
+def test_a_reading_that_may_not_be_leaves_the_session_as_it_was(ways: list[Way]) -> None:
+    def refuse(_reading: Reading) -> None:
+        raise Frozen('somebody has locked it')
+
+    def drawn(*, with_refused: bool) -> list[tuple[str, tuple[Request, ...], tuple[int, ...]]]:
+        desk, readings = Desk(), []
+        for way in ways:
+            if with_refused:
+                with pytest.raises(Frozen):
+                    desk.draw(way, check=refuse)
+                with suppress(Frozen, NotRecognised):
+                    desk.session.instead(check=refuse)
+            readings.append(desk.draw(way, after=0.3 - 0.8 * with_refused))
+        return [(each.meaning, each.requests, each.amends) for each in readings]
+
+    assert drawn(with_refused=True) == drawn(with_refused=False)
 
 
 def plank(angle: float) -> Floats:

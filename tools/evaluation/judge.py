@@ -27,7 +27,8 @@ from physsim_ros.drawing.strokes import judge
 from physsim_ros.drawing.strokes.choice import guesses_by_rules, is_likely, measures_of
 from physsim_ros.drawing.strokes.evidence import log_odds
 from physsim_ros.drawing.strokes.judge import Node, TABLE, Tree
-from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.meanings import meanings_of
+from physsim_ros.drawing.strokes.reading import stroke_in_scene
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal
@@ -57,7 +58,7 @@ def examples(count: int, half: str) -> Iterator[Example]:
         except Refusal:
             continue
         context = stroke_in_scene(stroke, scene.view, settings)
-        guesses = guesses_by_rules(context)
+        guesses = guesses_by_rules(meanings_of(context), context)
         if is_likely(guesses, settings):
             measures = measures_of(guesses, context)
             yield guesses[0].confidence, measures, guesses[0].meaning == scene.meaning

@@ -15,14 +15,13 @@ prints how well they hold.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cache
 
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.evidence import log_odds, logistic
 from physsim_ros.drawing.strokes.judge import judged
-from physsim_ros.drawing.strokes.meanings import meanings_of
 from physsim_ros.drawing.strokes.stages import (
     CLOSED,
     Context,
@@ -46,14 +45,14 @@ _GROUP_BIAS, _GROUP_SLOPE = -0.4, 1.9
 _SURE = 0.9
 
 
-def guesses_of(context: Context) -> tuple[Guess, ...]:
+def guesses_among(meanings: Iterable[Meaning], context: Context) -> tuple[Guess, ...]:
     """
     Return the most likely meanings of a stroke by the rules, and how sure the first one is.
 
     The confidence in the first one is that of the judge; the others have no more, nor more than it
     leaves.
     """
-    guesses = guesses_by_rules(context)
+    guesses = guesses_by_rules(meanings, context)
     if not guesses:
         return ()
     first, *others = guesses
@@ -76,12 +75,12 @@ def measures_of(guesses: Sequence[Guess], context: Context) -> dict[str, float]:
     }
 
 
-def guesses_by_rules(context: Context) -> tuple[Guess, ...]:
+def guesses_by_rules(meanings: Iterable[Meaning], context: Context) -> tuple[Guess, ...]:
     """Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first."""
     weights: dict[str, float] = {}
     # Of each meaning, the likeliest one.
     best: dict[str, Meaning] = {}
-    for each in meanings_of(context):
+    for each in meanings:
         weights[each.name] = weights.get(each.name, 0.0) + each.weight
         if each.name not in best or each.weight > best[each.name].weight:
             best[each.name] = each

@@ -12,7 +12,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.choice import guesses_of, is_likely
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.choice import is_likely
+from physsim_ros.drawing.strokes.meanings import in_scene
+from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.stages import (
     Context,
     DELETION,
@@ -22,7 +25,6 @@ from physsim_ros.drawing.strokes.stages import (
     MOST_GUESSES,
     OPEN,
     POLYGON,
-    Reading,
     RECTANGLE,
 )
 from physsim_ros.model.arrays import Floats
@@ -41,7 +43,7 @@ _HEADS = frozenset({POLYGON, DELETION})
 ON_SOLID = 0.6
 
 
-@dataclass(slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Figure:
     """
     One or several strokes that are read together.
@@ -49,7 +51,7 @@ class Figure:
     :param strokes: each (COUNT, 2) float64: evenly spaced [m]
     :param began: when its first stroke began [s]
     :param ended: when its last stroke ended [s]
-    :param scene: over which the first one was drawn
+    :param context: its strokes as one, in the scene over which the first one was drawn
     :param guesses: its possible meanings, the likeliest first
     :param chosen: index of the guess that was taken; None where it was not recognised
     :param requests: of that reading; () where the world cannot have it
@@ -59,7 +61,7 @@ class Figure:
     strokes: tuple[Floats, ...]
     began: float
     ended: float
-    scene: SceneQuery
+    context: Context
     guesses: tuple[Guess, ...]
     chosen: int | None = None
     requests: tuple[Request, ...] = ()
@@ -80,11 +82,20 @@ class Figure:
             strokes=strokes,
             began=began,
             ended=ended,
-            scene=context.scene,
+            context=context,
             guesses=guesses,
             chosen=0 if likely else None,
             requests=_requests_of(guesses[0]) if likely else (),
         )
+
+    @property
+    def scene(self) -> SceneQuery:
+        """Return the scene over which its first stroke was drawn."""
+        return self.context.scene
+
+    def over(self, scene: SceneQuery, settings: DrawingSettings) -> Context:
+        """Return its strokes as one over another scene."""
+        return in_scene(self.context.features, self.context.forms, scene, settings)
 
     @property
     def meaning(self) -> str:
@@ -117,14 +128,13 @@ class Figure:
         """Return whether it is a body of its own."""
         return self.meaning in {DISC, RECTANGLE, POLYGON}
 
-    def offer_gravity(self, reading: Reading) -> Reading:
-        """Return a reading of a body with the guess that the arrow before it did turn gravity."""
-        chosen, *rest = reading.guesses
+    def with_gravity(self) -> Figure:
+        """Return a new body with the guess that the arrow before it did turn gravity."""
+        chosen = self.guesses[self.chosen or 0]
         # The body alone is built.
         turned = replace(chosen, meaning=GRAVITY, confidence=1.0 - chosen.confidence)
-        rest = [each for each in rest if each.meaning != GRAVITY]
-        self.guesses, self.chosen = (chosen, turned, *rest)[:MOST_GUESSES], 0
-        return replace(reading, guesses=self.guesses)
+        rest = (each for each in self.guesses if each is not chosen and each.meaning != GRAVITY)
+        return replace(self, guesses=(chosen, turned, *rest)[:MOST_GUESSES], chosen=0)
 
     @property
     def other_guesses(self) -> list[int]:

@@ -34,7 +34,8 @@ from physsim_ros.drawing.strokes.joining import (
     touch,
     touching,
 )
-from physsim_ros.drawing.strokes.meanings import in_scene, stroke_in_scene
+from physsim_ros.drawing.strokes.meanings import in_scene
+from physsim_ros.drawing.strokes.reading import stroke_in_scene
 from physsim_ros.drawing.strokes.signs import x
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
 from physsim_ros.drawing.strokes.stages import CLOSED, Context
@@ -74,8 +75,8 @@ def likeliest_group(
             return None
         whole = _as_one(group, settings)
         if whole is not None and not (hatching and whole.meaning == 'anchor'):
-            whole.gestures = tuple(number for figure in group for number in figure.gestures)
-            return whole
+            gestures = tuple(number for figure in group for number in figure.gestures)
+            return replace(whole, gestures=gestures)
     return None
 
 

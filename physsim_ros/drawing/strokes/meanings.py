@@ -17,8 +17,7 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
 from physsim_ros.drawing.strokes.bodies_under import joint_ends, wheels_passed
 from physsim_ros.drawing.strokes.evidence import LEAST
-from physsim_ros.drawing.strokes.features import Features, features_of
-from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stages import (
     BETWEEN,
@@ -31,7 +30,6 @@ from physsim_ros.drawing.strokes.stages import (
     POLYGON,
     RECTANGLE,
 )
-from physsim_ros.drawing.strokes.stroke import Stroke
 
 # The function from each form to its meanings, by the form's name.
 _MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
@@ -60,12 +58,6 @@ def in_scene(
         ends=ends,
         wheels=wheels_passed(points, ends, scene, settings.snap) if ends else (),
     )
-
-
-def stroke_in_scene(stroke: Stroke, scene: SceneQuery, settings: DrawingSettings) -> Context:
-    """Return a stroke in the scene that it was drawn over, with all forms that it may have."""
-    features = features_of(stroke)
-    return in_scene(features, forms_of(features), scene, settings)
 
 
 def meanings_of(context: Context) -> Iterator[Meaning]:

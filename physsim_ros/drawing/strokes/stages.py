@@ -1,33 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""
-The stages of reading a stroke, and what each returns.
-
-Laws: a stage changes nothing, and its result depends on its arguments alone. A reading holds
-ordinary requests, to be submitted.
-
-=======================  ==================  ======================================================
-stage                    returns             which is
-=======================  ==================  ======================================================
-`stroke.resample_stroke` `Stroke`            samples cleaned, a path of evenly spaced points
-`features.features_of`   `Features`          its turns, swings and crossings
-`forms.forms_of`         `Form` of each kind its looks, each with a weight: signs and the shapes of
-                                             outlines by evidence, lines by their corners
-`meanings.in_scene`      `Context`           all that, over the bodies at its ends
-`meanings.meanings_of`   `Meaning`           of each form what it would be in this scene
-`choice.guesses_of`      `Guess`, at most 3  the likeliest meanings, and how sure the first one is
-`choice.reading_of`      `Reading`           the requests of one of them, and words about these
-=======================  ==================  ======================================================
-
-The scene divides the weight of a form among the meanings of the form. Meanings are chosen by
-group: closed outlines are one group, since circles, ovals and rounded polygons look alike; open
-lines are another; every sign is a group of its own. The likeliest group is chosen first, and then
-the likeliest meaning in it. A stroke is refused when the confidence in the group is too small.
-
-Several strokes may be one figure (`grouping`), and a new body may change what earlier strokes are
-(`waiting`, `marks`): these are read by the same stages again.
-"""
+"""What the stages of reading a stroke return; `reading` has their order."""
 
 from __future__ import annotations
 

@@ -24,15 +24,15 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
-from physsim_ros.drawing.strokes.choice import guesses_of, is_likely, reading_of
+from physsim_ros.drawing.strokes.choice import is_likely, reading_of
 from physsim_ros.drawing.strokes.figure import Figure
 from physsim_ros.drawing.strokes.geometry import few_points, middle_half, point_of
 from physsim_ros.drawing.strokes.grouping import arrow_in, crossing_in, pause_between, SLOWLY
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
-from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.stages import Context, GRAVITY, Reading
-from physsim_ros.drawing.strokes.stroke import resample_stroke
+from physsim_ros.model.body_description import new_body
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -40,7 +40,6 @@ from physsim_ros.model.requests import Configure, Delete, Join, Request, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import Pose, rotated_each
-from physsim_ros.simulation.world.body_description import new_body
 
 # Meanings that a stroke has by the bodies under it, and by an axle.
 _BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})
@@ -87,8 +86,7 @@ def _motor(
     for figure in reversed(figures):
         if figure.meaning not in _BY_AXLE or figure.requests:
             continue
-        stroke = resample_stroke(joined_strokes(figure.strokes))
-        reading = _likely_reading(stroke_in_scene(stroke, scene, settings), _BY_AXLE)
+        reading = _likely_reading(figure.over(scene, settings), _BY_AXLE)
         if reading is not None:
             yield (figure,), reading
             return
@@ -196,14 +194,13 @@ def _reading_over(
 ) -> Reading | None:
     """Return the reading of figures that reach a new body, or None where it is the same."""
     strokes = [stroke for each in group for stroke in each.strokes]
-    path = joined_strokes(strokes)
     context = crossing_in(scene, strokes, settings) or arrow_in(scene, strokes, settings)
     if context is None and len(group) == 1:
-        context = stroke_in_scene(resample_stroke(path), scene, settings)
+        context = group[0].over(scene, settings)
     reading = None if context is None else _likely_reading(context, _BY_BODIES)
     if reading is None:
         return None
-    ends = (point_of(each) for each in path[[0, -1]])
+    ends = (point_of(each) for each in joined_strokes(strokes)[[0, -1]])
     within = (each for each in ends if name in scene.bodies_at(each))
     match reading.requests[0]:
         case Join(kind=JointKind.ROD | JointKind.ROPE):

@@ -11,7 +11,7 @@ import time
 from typing import Any, Literal
 
 import numpy as np
-from physsim_ros.drawing import Reading, submit_reading, Tool
+from physsim_ros.drawing import Check, Reading, submit_reading, Tool
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import LONGEST, number, shown
@@ -74,7 +74,11 @@ def read_stroke(page: PageSession, origin: Origin, points: Floats) -> None:
     duration = float(np.ptp(points[:, 2])) if len(points) else 0.0
     began = time.monotonic() - duration
     snapshot = page.world.current_snapshot()
-    _submit(page, origin, lambda: page.drawing.stroke(points, '', snapshot, began=began))
+
+    def read(check: Check) -> Reading:
+        return page.drawing.stroke(points, '', snapshot, began=began, check=check)
+
+    _submit(page, origin, read)
 
 
 @message('instead', '~/instead', meaning=Optional(fields.text))
@@ -82,18 +86,21 @@ def read_instead(page: PageSession, origin: Origin, meaning: str = '') -> None:
     """Replace the last reading by another guess; '' is the next one."""
     # The requests of the last reading may wait.
     page.world.current_snapshot()
-    _submit(page, origin, lambda: page.drawing.instead(meaning))
+    _submit(page, origin, lambda check: page.drawing.instead(meaning, check=check))
 
 
-def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> None:
-    """Send the page a reading, built or not, and submit its requests."""
+def _submit(page: PageSession, origin: Origin, read: Callable[[Check], Reading]) -> None:
+    """Send the page a reading that it has the right to, built or not, and submit its requests."""
+
+    def check(reading: Reading) -> None:
+        check_locked(page.role, reading.requests, page.world)
+        check_taken_back(page.role, reading.amends, page.world)
+
     try:
-        reading = read()
+        reading = read(check)
     except NotRecognised as refusal:
         page.send(_reading_content(origin, refusal.values))
         raise
-    check_locked(page.role, reading.requests, page.world)
-    check_taken_back(page.role, reading.amends, page.world)
     page.send(_reading_content(origin, reading.values, reading))
     reading = replace(reading, requests=page.with_material(reading.requests))
     submit_reading(page.world.simulation, page.drawing, reading, origin)

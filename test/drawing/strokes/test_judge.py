@@ -9,9 +9,10 @@ from importlib.resources import files
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
-from physsim_ros.drawing.strokes.choice import guesses_by_rules, guesses_of, measures_of
+from physsim_ros.drawing.strokes.choice import guesses_by_rules, measures_of
 from physsim_ros.drawing.strokes.judge import judged, TABLE
-from physsim_ros.drawing.strokes.meanings import stroke_in_scene
+from physsim_ros.drawing.strokes.meanings import meanings_of
+from physsim_ros.drawing.strokes.reading import guesses_of, stroke_in_scene
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stages import Context
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -42,13 +43,13 @@ def test_every_tree_ends_in_leaves_and_asks_for_measures_that_readings_have(
         assert children <= nodes.keys() if measure else not children & nodes.keys()
     had = {f'form {sign.name}' for sign in SIGNS}
     for context in contexts:
-        had |= measures_of(guesses_by_rules(context), context).keys()
+        had |= measures_of(guesses_by_rules(meanings_of(context), context), context).keys()
     assert {each for each in nodes.values() if not each.startswith('read as')} - {''} <= had
 
 
 def test_the_judge_changes_no_reading(contexts: list[Context]) -> None:
     for context in contexts:
-        by_rules, guesses = guesses_by_rules(context), guesses_of(context)
+        by_rules, guesses = guesses_by_rules(meanings_of(context), context), guesses_of(context)
 
         assert [each.meaning for each in guesses] == [each.meaning for each in by_rules]
         confidences = [each.confidence for each in guesses]

@@ -45,11 +45,11 @@ _MIDDLE_ON_ENDS = Limit(0.15)
 
 
 def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
-    """Yield teeth in a row, sharp or round; the points are the two ends."""
+    """Yield teeth in a row, sharp or round; the points are its ends and bends."""
     swings, stroke = features.swings, features.stroke
     high = swings.height > TREMOR.at * stroke.size
     if swings.count >= FEWEST and high and swings.spread > _CLOSEST:
-        yield Candidate(measures=features.measures, points=stroke.points[[0, -1]])
+        yield Candidate(measures=features.measures, points=bends_of(stroke.points))
 
 
 def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
@@ -63,7 +63,7 @@ def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
         spring = _ON_ENDS.below(share) if ends[1].body != WORLD else 1.0 - share
     body = bodies_under.hatched_body(drawn.points, context.scene)
     if body is not None and (ends is None or ends[1].body == WORLD):
-        lines = len(bends_of(drawn.points)) - 1
+        lines = len(form.points) - 1
         yield open_lines.hatching_meaning(body, lines, context, weight=weight)
         return
     yield Meaning(
@@ -74,7 +74,7 @@ def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     yield Meaning(
         name='wall',
         weight=weight * (1.0 - spring),
-        build=lambda: outcomes.wall(bends_of(drawn.points), context),
+        build=partial(outcomes.wall, form.points, context),
     )
 
 
