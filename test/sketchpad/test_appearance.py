@@ -192,13 +192,10 @@ def test_the_grid_far_from_the_origin_has_no_line_beside_the_page(open_sheet: Op
     assert all(0 <= x <= 1200.5 and 0 <= y <= 800.5 for x, y in far)
 
 
-def test_numbers_at_the_edge_of_a_world_are_apart_at_every_scale(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address)
+def test_numbers_at_the_edge_of_a_world_are_apart_at_every_scale(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
     scales = [step * 10.0**power for power in range(-5, 4) for step in (1, 1.4, 2, 3, 5, 7)]
     assert all(sheet.page.evaluate(SPACE, scale) > 4 for scale in scales)
-    sheet.close()
 
 
 def test_on_a_small_page_a_panel_leaves_room_for_what_is_said_and_for_a_plot(
