@@ -370,6 +370,9 @@ void core_copy_contacts(World *world, const World *old) {
     const Report *from = old->own->report;
     free(report->pairs);
     *report = (Report){0};
+    free(world->begun);
+    world->begun = NULL;
+    world->begun_count = 0;
     if (from == NULL || from->room == 0) {
         return;
     }
@@ -379,9 +382,6 @@ void core_copy_contacts(World *world, const World *old) {
     report->follows = false;
     report->pairs = allocated((size_t)from->room, sizeof(ReportedPair));
     memcpy(report->pairs, from->pairs, (size_t)from->room * sizeof(ReportedPair));
-    free(world->begun);
-    world->begun = NULL;
-    world->begun_count = 0;
     world->frame_steps = old->frame_steps;
     for (int number = 0; number < old->begun_count; number++) {
         add_begun(world, report, old->begun[number]);

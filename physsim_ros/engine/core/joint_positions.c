@@ -281,6 +281,10 @@ void solve_positions(Solve *solve) {
     bool has_steps = false;
     for (int number = 0; number <= MOST_STEPS; number++) {
         measure_gaps(solve, &move);
+        if (number == 0) {
+            // Where no sum is a number, bodies stay.
+            memcpy(best.poses, solve->poses, (size_t)island->body_count * sizeof(Pose));
+        }
         if (number > 0 && move.widest <= closed) {
             best.sum = INFINITY;
         }

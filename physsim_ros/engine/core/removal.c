@@ -87,6 +87,7 @@ void core_remove_shapes(World *world, cpBody **bodies, int32_t count) {
     for (int number = 0; number < count; number++) {
         removal.bodies[number] = bodies[number];
     }
+    assert(count > 0 && removal.last != NULL);
     sort((void *)removal.bodies, count, sizeof(cpBody *), by_address);
     for (int number = 0; number < count; number++) {
         release_around(world, bodies[number]);

@@ -46,7 +46,8 @@ void find_pushes(World *world);
 // Contacts of one-way bodies that carry a load (`one_way.c`).
 void find_loaded(World *world);
 
-// Fast bodies end their step where they first hit something (`continuous.c`), and keep small boxes (`tight_boxes.c`).
+// Fast bodies end their step where they first hit something (`continuous.c`), and move on after that
+// (`rest_of_step.c`); they keep small boxes (`tight_boxes.c`).
 void clamp_moves(World *world);
 void finish_moves(World *world);
 void tighten_boxes(World *world);
@@ -61,8 +62,8 @@ void begin_rolling(World *world);
 double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
-// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that roll
-// (`rolling.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`), rounds of the
+// Between narrow phase and solver: contacts that begin (`first_touch.c`), surfaces that move along their outlines
+// (`belts.c`), contacts that roll (`rolling.c`), the first of two points (`contact_order.c`), rounds of the
 // solver (`steep_friction.c`), the greatest load (`impact_loads.c`), contacts next to an impact
 // (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);

@@ -62,8 +62,8 @@ static void find_lost(World *world) {
 static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
-    move_belts(world);
     correct_first_touches(world);
+    move_belts(world);
     order_points(world);
     damp_steep_friction(world);
     bound_loads(world);
@@ -89,7 +89,7 @@ static Body **step_chipmunk(World *world, int *count) {
     return awake;
 }
 
-static void step(World *world) {
+static void make_sub_step(World *world) {
     arena_reset(&world->own->arena);
     begin_fields(world);
     begin_half_step(world);
@@ -119,7 +119,7 @@ static void step(World *world) {
     find_pushes(world);
     reckon_odometry(world);
     use_batteries(world);
-    if (world->reports_contacts) {
+    if (world->own->reports) {
         report_contacts(world);
     } else {
         forget_contacts(world);
@@ -144,7 +144,7 @@ typedef struct {
     double ended; // its last part [s]
 } CallTime;
 
-// End a part; whether another one as long as this would end too late. So it would where the clock was set back.
+// End a part; whether another one as long as this would end too late. A clock that was set back ends the call, too.
 static bool end_part(const World *world, CallTime *time) {
     double now = wall_clock(), part = now - time->ended, took = now - time->began;
     time->ended = now;
@@ -169,7 +169,8 @@ static bool begin_step(World *world, CallTime *time) {
     }
     own->choosing = false;
     move_actors(world);
-    world->frame_steps += world->reports_contacts;
+    own->reports = world->reports_contacts;
+    world->frame_steps += own->reports;
     return true;
 }
 
@@ -196,7 +197,7 @@ int32_t core_step(World *world, int32_t count) {
             world->within_step = true;
             break;
         }
-        step(world);
+        make_sub_step(world);
         own->all_active = false;
         own->sub_step = (own->sub_step + 1) % SUB_STEPS;
         world->within_step = own->sub_step > 0;

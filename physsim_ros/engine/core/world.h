@@ -41,6 +41,7 @@ typedef struct Private {
     Arena system_arenas[2];
     int system_turn;
     int call_step;   // number of the step in this call
+    bool reports;    // contacts of this step are reported
     bool all_active; // requests may have changed any body since the last sub-step
     // Whether there is a body on which a floor acts; one-way, with a belt, with rolling resistance; a sensor.
     bool has_floor, has_one_way, has_belt, has_rolling, has_sensor;
