@@ -121,11 +121,9 @@ typedef struct Under {
 static bool find_under(int number, void *data) {
     Under *under = data;
     const Body *conveyor = under->conveyors->list[number];
-    Rotation by = rotation(conveyor->scratch.begin.yaw);
-    Vec local = rotated_back(sub(under->body->scratch.begin.p, conveyor->scratch.begin.p), by);
-    const cpShape *shape = conveyor != under->body && number > under->last ? conveyor->engine->shapeList : NULL;
-    for (; shape != NULL; shape = shape->next) {
-        under->last = covers(shape, local) ? number : under->last;
+    bool may_be = conveyor != under->body && number > under->last;
+    if (may_be && body_covers(conveyor->engine, conveyor->scratch.begin, under->body->scratch.begin.p)) {
+        under->last = number;
     }
     return true;
 }

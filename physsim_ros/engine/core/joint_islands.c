@@ -123,7 +123,7 @@ static Touches touches_of_jointed(World *world) {
     }
     assert(touches.count <= most);
     sort(touches.list, touches.count, sizeof(Bearing), compare_touches);
-    world->own->bearers = members.marks;
+    world->own->now.bearers = members.marks;
     return touches;
 }
 

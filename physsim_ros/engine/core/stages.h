@@ -34,7 +34,7 @@ void begin_actors(World *world);
 bool choose_velocity(World *world);
 void move_actors(World *world);
 
-// Wheels, odometry and batteries of robots (`drives.c`).
+// Wheels (`drives.c`), odometry (`odometry.c`) and batteries (`batteries.c`) of robots.
 void roll_wheels(World *world);
 void reckon_odometry(World *world);
 void use_batteries(World *world);

@@ -90,7 +90,7 @@ static Body **step_chipmunk(World *world, int *count) {
 }
 
 static void make_sub_step(World *world) {
-    arena_reset(&world->own->arena);
+    reset_memory(world);
     begin_fields(world);
     begin_half_step(world);
     begin_bodies(world);
@@ -155,7 +155,7 @@ static bool end_part(const World *world, CallTime *time) {
 static bool begin_step(World *world, CallTime *time) {
     Private *own = world->own;
     if (!own->choosing) {
-        arena_reset(&own->arena);
+        reset_memory(world);
         damp_resting(world);
         clear_totals(world);
         find_gaps(world);
