@@ -235,7 +235,7 @@ void apply_floor(World *world) {
     assert(robot == world->robots + world->robot_count && actor == world->actors + world->actor_count);
 }
 
-void find_pushes(World *world) {
+void find_floor_pushes(World *world) {
     if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
         return;
     }

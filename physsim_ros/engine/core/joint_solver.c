@@ -104,7 +104,7 @@ void solve_joints(World *world) {
     for (int number = 0; number < found->count; number++) {
         const Island *island = found->islands + number;
         begin_system(own->systems + number, island->inverses);
-        found->solves[number] = joint_solve(world, island, own->systems + number);
+        found->solves[number] = island_solve(world, island, own->systems + number);
         solve_velocities(found->solves + number);
     }
 }
@@ -118,8 +118,8 @@ void correct_joint_positions(World *world) {
 void remove_closing_impulses(World *world) {
     for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->now.joint_islands->count; number++) {
         const Island *island = world->own->now.joint_islands->islands + number;
-        for (const Bearing *touch = island->touches; touch < island->touches + island->touch_count; touch++) {
-            touch->point->jnAcc -= touch->closing;
+        for (const Bearing *bearing = island->bearings; bearing < island->bearings + island->bearing_count; bearing++) {
+            bearing->point->jnAcc -= bearing->closing;
         }
     }
 }

@@ -41,7 +41,7 @@ void use_batteries(World *world);
 
 // The floor under bodies, and how contacts and joints have pushed what it carries (`floor.c`).
 void apply_floor(World *world);
-void find_pushes(World *world);
+void find_floor_pushes(World *world);
 
 // Contacts of one-way bodies that carry a load (`one_way.c`).
 void find_loaded(World *world);
@@ -89,11 +89,11 @@ void correct_joint_positions(World *world);
 // (`impact_loads.c`).
 void remove_closing_impulses(World *world);
 void remove_impact_impulses(World *world);
-void clear_totals(World *world);
-void find_gaps(World *world);
+void clear_joint_reports(World *world);
+void measure_drawn_joints(World *world);
 // Add to what joints report: their impulses, and those by which gaps were closed.
-void add_impulses(World *world);
-void add_closings(World *world);
+void report_joint_impulses(World *world);
+void report_joint_closings(World *world);
 void find_broken(World *world);
 
 // Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).

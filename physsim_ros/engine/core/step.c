@@ -32,7 +32,8 @@ static void begin_sleepers(Body *const *bodies, int count) {
     }
 }
 
-static void save_twists(World *world) {
+// Note the velocities that the sub-step begins with, and what requests did to bodies before it.
+static void save_start(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->scratch.twist = twist_of(body->engine);
@@ -104,19 +105,19 @@ static void make_sub_step(World *world) {
     tighten_boxes(world);
     prepare_parts(world);
     command_motors(world);
-    save_twists(world);
+    save_start(world);
     int awake_count = 0;
     Body **awake = step_chipmunk(world, &awake_count);
     keep_fields(world);
     find_leads(world, world->has_fields);
     ignore_jitter(world);
     solve_joints(world);
-    add_impulses(world);
+    report_joint_impulses(world);
     find_loaded(world);
     finish_moves(world);
     correct_joint_positions(world);
-    add_closings(world);
-    find_pushes(world);
+    report_joint_closings(world);
+    find_floor_pushes(world);
     reckon_odometry(world);
     use_batteries(world);
     if (world->own->reports) {
@@ -157,8 +158,8 @@ static bool begin_step(World *world, CallTime *time) {
     if (!own->choosing) {
         reset_memory(world);
         damp_resting(world);
-        clear_totals(world);
-        find_gaps(world);
+        clear_joint_reports(world);
+        measure_drawn_joints(world);
         begin_actors(world);
     }
     own->choosing = true;
