@@ -121,7 +121,7 @@ coverage: $(TOOLS)  ## count the lines of Python and C that the tests run
 	$(BIN)/python -m tools.coverage $(ARGS)
 
 # With SEED=0 and COUNT=12 unless they are given; ARGS='engine/core/floor' tries files whose path begins so.
-mutate: $(TOOLS)  ## change constants and conditions at random; tell which of them no fast test notices
+mutate: $(TOOLS)  ## change forty constants and operators at random; tell which of them no test notices
 	$(BIN)/python -m tools.mutate $(ARGS)
 
 bench: $(TOOLS)  ## measure what steps, frames, robots and pages cost
@@ -165,7 +165,7 @@ release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/;
 
 # MINUTES=30 and SEED=0 unless they are given.
 soak: $(TOOLS)  ## disturb a world at random for MINUTES=30, SEED=0, and fail if it suffers
-	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary $(ARGS)
+	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary
 
 clean:  ## remove .venv and all that was built
 	rm -rf $(VENV) physsim_ros/engine/core/*.so physsim_ros/engine/core/_declarations.py build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache

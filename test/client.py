@@ -17,6 +17,7 @@ from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Trigger
 
 from .outside import PATIENCE
@@ -27,6 +28,12 @@ KEPT = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
+
+
+def stamp_of(message: Any) -> int:
+    """Return the time of a message [ns]."""
+    stamp = message.clock if isinstance(message, Clock) else message.header.stamp
+    return int(stamp.sec * 10**9 + stamp.nanosec)
 
 
 class Event(NamedTuple):

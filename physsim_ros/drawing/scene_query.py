@@ -22,7 +22,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.robots import part_name, whole_of
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Body, Joint, seat_of
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contain_each, contains_each, extent_of
 from physsim_ros.model.snapshot import Snapshot
@@ -39,7 +39,6 @@ from physsim_ros.model.transform import (
     Twist,
     world_to_local,
 )
-from physsim_ros.simulation.world.joint_requests import seat_of
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'

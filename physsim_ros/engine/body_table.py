@@ -164,7 +164,7 @@ class BodyTable:
         if not len(self._noisy):
             return
         blocks = range(step // _BLOCK, (step + count - 1) // _BLOCK + 1)
-        if blocks[0] not in self._blocks or blocks[-1] not in self._blocks:
+        if blocks != self._blocks:
             self._make_blocks(blocks)
         begin = step - self._blocks[0] * _BLOCK
         self.robots['noise'][self._noisy] = self._noise_rows + 2 * self._noise.itemsize * begin

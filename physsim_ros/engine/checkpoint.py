@@ -131,7 +131,7 @@ def _restore_bodies(
     """Put the bodies of a checkpoint into a space, at rest; yield after each slice."""
     scene, memory = checkpoint.scene, checkpoint.memory
     rigids = []
-    for bodies in _in_slices(scene.bodies):
+    for bodies in _in_slices(scene.bodies, _SLICE):
         rigids += [_rigid_body(body, pool) for body in bodies]
         yield
     states = _body_states(checkpoint)
@@ -141,7 +141,7 @@ def _restore_bodies(
         rigids[row].driven = driven
     for row, acting in zip(scene.actor_rows.tolist(), checkpoint.actors, strict=True):
         rigids[row].acting = acting
-    for some in _in_slices(rigids):
+    for some in _in_slices(rigids, _SLICE):
         space.bodies.add_without_shapes(some)
         yield
     put_commands(space, rigids, checkpoint)
@@ -150,7 +150,8 @@ def _restore_bodies(
     at_rest[:, 3:] = 0.0
     space.core.write_state(at_rest)
     yield
-    for some in _in_slices([rigids[row] for row in sorted(range(len(rigids)), key=scattered)]):
+    order = sorted(range(len(rigids)), key=scattered)
+    for some in _in_slices([rigids[row] for row in order], _SLICE):
         space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in some)
         yield
 
@@ -165,7 +166,7 @@ def put_commands(space: Space, rigids: Sequence[RigidBody], checkpoint: Checkpoi
 
 def _restore_joints(space: Space, checkpoint: Checkpoint) -> Iterator[None]:
     """Put the joints of a checkpoint into a space that has its bodies; yield after each slice."""
-    for joints in _in_slices(checkpoint.scene.joints):
+    for joints in _in_slices(checkpoint.scene.joints, _SLICE):
         for joint in joints:
             space.joints.add(joint)
         yield
@@ -187,7 +188,7 @@ def _size(entry: Body | RigidBody | Joint) -> int:
     return len(body.shape.form.pieces)
 
 
-def _in_slices(entries: Sequence[_Entry], most: int = _SLICE) -> Iterator[Sequence[_Entry]]:
+def _in_slices(entries: Sequence[_Entry], most: int) -> Iterator[Sequence[_Entry]]:
     """Yield bodies or joints in order, some at once that together have about `most` pieces."""
     begin = size = 0
     for end, entry in enumerate(entries, 1):

@@ -197,10 +197,10 @@ def write_impulses(
     :param dt: of its sub-steps [s]
     """
     # A step in which nothing moves and nothing is pushed apart has the engine find the contacts.
-    gravity, iterations, bias = pm_space.gravity, pm_space.iterations, pm_space.collision_bias
-    pm_space.gravity, pm_space.iterations, pm_space.collision_bias = (0.0, 0.0), 1, 1.0
+    iterations, bias = pm_space.iterations, pm_space.collision_bias
+    pm_space.iterations, pm_space.collision_bias = 1, 1.0
     pm_space.step(dt)
-    pm_space.gravity, pm_space.iterations, pm_space.collision_bias = gravity, iterations, bias
+    pm_space.iterations, pm_space.collision_bias = iterations, bias
     found = shapes.contacts()
     known, now = _same(memory, found)
     impulses = np.zeros((len(found.points), 2))

@@ -242,6 +242,54 @@ def test_a_scene_of_rube_has_masses_motion_and_joints(tmp_path, capsys):
     assert 'left out: linearDamping of a body' in printed
 
 
+def turned(scene, angle):
+    """Return a scene of R.U.B.E. that is turned about the origin."""
+    c, s = math.cos(angle), math.sin(angle)
+
+    def around(vector):
+        x, y = vector['x'], vector['y']
+        return {'x': c * x - s * y, 'y': s * x + c * y}
+
+    moved = [
+        {**body, 'position': around(body['position']), 'angle': body['angle'] + angle}
+        for body in scene['body']
+    ]
+    return {**scene, 'body': moved}
+
+
+@pytest.mark.parametrize('angle', [0.3, -1.2])
+def test_joints_of_a_scene_of_rube_that_is_turned_keep_their_limits(tmp_path, capsys, angle):
+    disc = [{'density': 1, 'circle': {'radius': 0.5, 'center': 0}}]
+    of_both = {'bodyA': 0, 'bodyB': 1, 'enableLimit': True, 'anchorA': 0, 'anchorB': 0}
+    joints = [
+        {'type': 'revolute', 'name': 'hinge', 'refAngle': 0.2, 'lowerLimit': -0.7,
+         'upperLimit': 1},
+        {'type': 'prismatic', 'name': 'rail', 'localAxisA': {'x': 3, 'y': 4}, 'lowerLimit': -3,
+         'upperLimit': 4},
+    ]  # fmt: skip
+    scene = {
+        'gravity': 0,
+        'body': [
+            {'type': 2, 'position': {'x': 1, 'y': 2}, 'angle': 0.5, 'fixture': disc},
+            {'type': 2, 'position': {'x': 2, 'y': 3}, 'angle': 0.9, 'fixture': disc},
+        ],
+        'joint': [of_both | joint for joint in joints],
+    }
+
+    def limits(name, scene):
+        _, world, _ = converted(tmp_path, f'{name}.json', json.dumps(scene), capsys)
+        (tmp_path / 'out.yaml').unlink()
+        return {each.name: (each.number('lower'), each.number('upper')) for each in world.joints}
+
+    found = limits('as it is', scene)
+    assert found['hinge/0'] == pytest.approx((-0.7 - 0.2, 1.0 - 0.2))
+    # The second body is farther on the axis, whose direction is that of the first.
+    along = math.sqrt(2.0) * math.cos(math.atan2(4.0, 3.0) + 0.5 - math.pi / 4)
+    assert found['rail/0'] == pytest.approx((-3.0 - along, 4.0 - along))
+    for name, each in limits('turned', turned(scene, angle)).items():
+        assert each == pytest.approx(found[name])
+
+
 def test_a_file_that_is_there_is_not_written_over(tmp_path, capsys):
     source = tmp_path / 'scene.json'
     source.write_text(json.dumps(RUBE))

@@ -11,7 +11,7 @@ from physsim_ros.engine import bodies
 from physsim_ros.model.errors import Anchored
 from physsim_ros.model.requests import Command, Delete
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Chain
+from physsim_ros.model.shapes import Chain, Polygon
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 import pymunk
@@ -28,12 +28,14 @@ from ..building import (
     ROUNDING_OF_SUMS,
     SHAPES,
     spawn,
-    TRIANGLE,
     twist,
     unlimit_wrenches,
 )
 
 REST = (0.0, 0.0, 0.0)
+# Off-centre along one of the axes.
+BESIDE = Polygon(outline=((0.0, -0.5), (1.0, -0.5), (1.0, 0.5), (0.0, 0.5)))
+ABOVE = Polygon(outline=((-0.5, 0.0), (0.5, 0.0), (0.5, 1.0), (-0.5, 1.0)))
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 
 
@@ -56,7 +58,7 @@ def test_free_flight_is_exact_for_any_shape(shape):
     assert pose(world, 'a/0')[2] == pytest.approx(0.3 + 5.0, abs=ROUNDING_OF_SUMS)
 
 
-@pytest.mark.parametrize('shape', [ELL, TRIANGLE], ids=['ell', 'triangle'])
+@pytest.mark.parametrize('shape', [ELL, BESIDE, ABOVE], ids=['ell', 'beside', 'above'])
 def test_an_off_centre_body_turns_about_its_centre_of_mass(shape, world):
     spawn(world, 'a/0', shape, (1.0, 2.0, 0.3), spin=math.pi / 2)
     x, y = shape.form.centroid
@@ -146,7 +148,7 @@ def test_a_command_moves_many_bodies_at_once(world):
         spawn(world, f'a/{number}', DISC)
     poses, twists = ((1.0, 0.0, 0.0), (2.0, 0.0, 0.0)), ((3.0, 0.0, 0.0), (4.0, 0.0, 0.0))
 
-    answer = world.apply(Command(names=('a/2', 'a/0'), poses=poses, twists=twists))
+    answer = world.apply(Command(names=('a/2', 'a/0'), poses=poses, twists=twists)).answer
 
     assert answer == Answer(message='set pose and velocity of 2 bodies')
     assert world.snapshot().poses[:, 0].tolist() == [2.0, 0.0, 1.0]

@@ -30,8 +30,8 @@ from .scenes import (
 )
 
 ELASTICITIES = [1.0, 0.5, 0.0]
-# Along an axis, backward along the other, and along neither.
-HEADINGS = [math.radians(angle) for angle in (0, 37, 270)]
+# Along an axis, and along none; a relation turns whole scenes.
+HEADINGS = [0.0, math.radians(37)]
 
 
 @pytest.mark.parametrize('heading', HEADINGS)
@@ -277,7 +277,7 @@ def test_boxes_that_meet_obliquely_get_the_impulse_of_the_formula(
 
 @pytest.mark.parametrize('elasticity', ELASTICITIES)
 @pytest.mark.parametrize('height', [1.0, 5.0, 20.0])
-@pytest.mark.parametrize('side', [0, 45, 180, 315])
+@pytest.mark.parametrize('side', [0, 45, 315])
 @pytest.mark.parametrize('yaw', [0, 20])
 def test_a_disc_dropped_on_a_box_bounces_off_the_side_it_came_from(
     report, yaw, side, height, elasticity
@@ -304,7 +304,7 @@ def test_a_disc_dropped_on_a_box_bounces_off_the_side_it_came_from(
 
 
 @pytest.mark.parametrize('speed', [1.0, 10.0, 25.0, 100.0])
-@pytest.mark.parametrize('side', [0, 45, 180, 315])
+@pytest.mark.parametrize('side', [0, 45, 315])
 @pytest.mark.parametrize('elasticity', [1.0, 0.5])
 def test_a_disc_thrown_at_a_loose_box_never_enters_it(report, elasticity, side, speed):
     box = Box(width=1.0, height=1.0)

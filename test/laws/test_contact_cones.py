@@ -3,10 +3,12 @@
 
 """Law 61: no contact of a machine pulls, and its friction is within the cone, in every step."""
 
+from contextlib import suppress
 import math
 import random
 
 import numpy as np
+from physsim_ros.engine.checkpoint import take_checkpoint
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.shapes import Box, Disc
 import pytest
@@ -47,10 +49,8 @@ def machine_on_a_floor(seed):
             said['rate'] = pick.uniform(-20.0, 20.0)
         if kind == 'spring':
             said['stiffness'] = 10.0 ** pick.uniform(1.0, 4.0)
-        try:
+        with suppress(Refusal):
             join(sim, f'j/{number}', kind, points, a=f'b/{one}', b=pick.choice(others), **said)
-        except Refusal:
-            continue
     return sim
 
 
@@ -60,12 +60,11 @@ def outside_the_cone(world):
 
     :return: by pulls, and by friction, shares of the greatest normal impulse [1]
     """
-    state = world.save()
-    memory = state.memory
-    friction = dict.fromkeys(range(memory.following), state.settings.friction)
-    for number, each in zip(memory.ids.tolist(), state.bodies, strict=True):
-        pieces = range(number, number + len(each.body.shape.form.pieces))
-        friction |= dict.fromkeys(pieces, each.body.friction)
+    memory = take_checkpoint(world.space, world.step_count).memory
+    friction = dict.fromkeys(range(memory.following), world.settings.friction)
+    for number, body in zip(memory.ids.tolist(), world.scene.bodies, strict=True):
+        pieces = range(number, number + len(body.shape.form.pieces))
+        friction |= dict.fromkeys(pieces, body.friction)
     normal, across = memory.impulses.T
     if not len(normal):
         return 0.0, 0.0

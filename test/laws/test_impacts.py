@@ -93,7 +93,7 @@ PAIRS = {
 BESIDE = {'discs': 0.001, 'disc and polygon': 0.1, 'polygons': 0.25}
 
 
-@pytest.mark.parametrize('seeds', [range(60), slow(range(60, 400))], ids=['60', '340'])
+@pytest.mark.parametrize('seeds', [range(30), slow(range(30, 400))], ids=['30', '370'])
 @pytest.mark.parametrize('kinds', PAIRS.keys())
 def test_an_impact_in_flight_keeps_momentum_and_angular_momentum(report, kinds, seeds):
     hits = 0
@@ -276,7 +276,7 @@ def throw(pick):
     return nearest - now.poses[0, 0], least, thickness / 2
 
 
-@pytest.mark.parametrize('seeds', [range(60), slow(range(60, 560))], ids=['60', '500'])
+@pytest.mark.parametrize('seeds', [range(30), slow(range(30, 560))], ids=['30', '530'])
 def test_a_thin_body_of_elasticity_0_never_passes_a_wall(report, seeds):
     passed, deepest = 0, -math.inf
     for seed in seeds:

@@ -7,7 +7,6 @@ import math
 import random
 
 import numpy as np
-from physsim_ros.model.errors import Refusal
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
@@ -27,15 +26,11 @@ def double_pendulum():
 
 
 @pytest.mark.parametrize('power', range(3, 9))
-def test_a_spring_is_as_stiff_as_it_says_or_refused(report, power):
+def test_a_spring_is_as_stiff_as_it_says(report, power):
     sim, stiffness = simulation(), 10.0**power
     spawn(sim, 'mass/0', Disc(radius=0.1), mass=1.0)
     said = {'stiffness': stiffness, 'damping': math.sqrt(stiffness), 'a': 'mass/0', 'b': 'world'}
-    try:
-        join(sim, 'spring/0', 'spring', [(0.0, 0.0), (0.0, 1.0)], **said)
-    except Refusal as refusal:
-        assert '57600 N/m' in str(refusal)  # noqa: PT017
-        return
+    join(sim, 'spring/0', 'spring', [(0.0, 0.0), (0.0, 1.0)], **said)
     last = run(sim, 5.0)
     exact = G / stiffness
     what = f'1 kg on {stiffness:g} N/m, extension'

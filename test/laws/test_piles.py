@@ -23,7 +23,7 @@ def _overlaps(poses):
 
 @pytest.mark.parametrize(
     ('count', 'elasticity'),
-    [(400, 0.0), (400, 0.5), pytest.param(1000, 0.0, marks=pytest.mark.slow)],
+    [(200, 0.0), (200, 0.5), pytest.param(1000, 0.0, marks=pytest.mark.slow)],
 )
 def test_discs_and_boxes_that_fall_into_a_bin_stay_out_of_each_other(report, count, elasticity):
     sim = simulation()

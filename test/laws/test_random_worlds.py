@@ -7,6 +7,7 @@ Law 34: random machines and crowds gain no energy.
 Machines have points far off their bodies, or come apart since a body of them is put elsewhere.
 """
 
+from contextlib import suppress
 import math
 import random
 
@@ -63,10 +64,8 @@ def random_world(seed):
         if pick.random() < 0.15:
             said['max_force'] = 10.0 ** pick.uniform(0.0, 3.0)
         other = pick.choice([*others, 'world'])
-        try:
+        with suppress(Refusal):
             join(sim, f'j/{number}', kind, points, a=f'b/{one}', b=other, **said)
-        except Refusal:
-            continue
     return sim
 
 
@@ -129,10 +128,8 @@ def parted_machine(seed, rate):
         if kind in ('axle', 'slider') and pick.random() < 0.5:
             said = {'lower': -pick.uniform(0.0, 0.5), 'upper': pick.uniform(0.0, 0.5)}
         other = pick.choice([*others, 'world'])
-        try:
+        with suppress(Refusal):
             join(sim, f'j/{number}', kind, points, a=f'b/{one}', b=other, **said)
-        except Refusal:
-            continue
     sim.world.step(20)
     moved = f'b/{pick.randrange(len(places))}'
     by = pick.uniform(-2.0, 2.0), pick.uniform(-2.0, 2.0)

@@ -17,7 +17,7 @@ from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
 from ..building import ELL
-from ..client import Client, Event, set_parameter, succeeded
+from ..client import Client, Event, set_parameter, stamp_of, succeeded
 
 # A frame at speed 1 [ns]; stamps are whole nanoseconds.
 PERIOD = 1e9 / 60.0
@@ -33,8 +33,7 @@ def frame_of(message: MultiDOFJointState) -> tuple[int, str]:
         numbers += [spot.x, spot.y, spot.z, turn.x, turn.y, turn.z, turn.w]
         numbers += [twist.linear.x, twist.linear.y, twist.angular.z]
     content = ' '.join(message.joint_names).encode() + struct.pack(f'<{len(numbers)}d', *numbers)
-    stamp = message.header.stamp
-    return stamp.sec * SECOND + stamp.nanosec, blake2b(content, digest_size=8).hexdigest()
+    return stamp_of(message), blake2b(content, digest_size=8).hexdigest()
 
 
 def clock_of(stamp: float) -> Clock:

@@ -19,7 +19,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
-from ..client import Client, KEPT
+from ..client import Client, KEPT, stamp_of
 from ..outside import Outside, ROOT, run_python
 
 # One frame at 60 Hz; stamps are whole nanoseconds [ns].
@@ -157,7 +157,7 @@ def test_a_world_at_time_0_tells_no_time(physsim: PhysSim, client: Client) -> No
     physsim.spawn(box())
     assert clocks == []
     physsim.step(2)
-    stamps = [each.clock.sec * 10**9 + each.clock.nanosec for each in clocks]
+    stamps = [stamp_of(each) for each in clocks]
     assert frames_of(stamps) == [1, 2]
 
 

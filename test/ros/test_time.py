@@ -16,7 +16,7 @@ from rclpy.node import Node
 from std_msgs.msg import Float64
 
 from .journey import clock_of, Journey, PERIOD, SECOND
-from ..client import Client, parameter, set_parameter, succeeded
+from ..client import Client, parameter, set_parameter, stamp_of, succeeded
 
 # Back, and on again
 
@@ -46,12 +46,9 @@ def test_what_is_shown_again_is_what_was_shown_first(
     on = [after - before for before, after in pairwise(stamps)]
     # To a nanosecond or two; half a speed is two steps a frame.
     assert on == pytest.approx([speed * PERIOD] * len(on), abs=2.0)
-    clocks = [each.clock.sec * SECOND + each.clock.nanosec for each in journey.clocks[before:]]
+    clocks = [stamp_of(each) for each in journey.clocks[before:]]
     assert clocks == stamps
     journey.compare(frames, round(0.5 * known / max(1.0, abs(speed))) - 2)
-
-
-# Back, and on again
 
 
 # Parameters follow the time

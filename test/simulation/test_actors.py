@@ -4,8 +4,8 @@
 """Actors in a world: what is refused, and what world files keep of them."""
 
 from physsim_ros.model.errors import BadProperty, UnknownBody
-from physsim_ros.model.requests import Anchor, ChangeBody, Delete, Spawn
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.requests import Anchor, ChangeBody, Spawn
+from physsim_ros.model.shapes import Disc
 import pytest
 import yaml
 
@@ -60,48 +60,6 @@ def test_an_actor_does_not_wait_for_a_body_that_there_is_not(tmp_path, start, fi
     refusal = refusal_of_file(tmp_path, '{name: a/0, circle: {radius: 0.1}}', second)
     assert refusal.field == field
     assert 'there is no body' in str(refusal)
-
-
-def test_actors_under_way_are_saved_and_loaded_to_the_bit(tmp_path):
-    world = seen_from_above()
-    put(world, 'a/0', kinematic=True, actor=PATH)
-    put(world, 'b/0', x=1.0, mass=70.0, actor={'kind': 'orca', 'points': [[3, 0], [-1, 0]]})
-    force = {'kind': 'social_force', 'points': [[-1, 0], [3, 0]], 'repeat': 'loop'}
-    put(world, 'c/0', x=3.0, kinematic=True, actor=force)
-    put(
-        world, 'd/0', x=5.0, shape=Box(width=0.2, height=0.4), actor={**PATH, 'start': {'time': 3}}
-    )
-    gate = {'gate': 'gate/0', 'by': 'a/0'}
-    put(world, 'gate/0', x=1.9, sensor=True, anchored=True)
-    put(world, 'e/0', x=8.0, kinematic=True, actor={**PATH, 'start': gate})
-    world.step(100)
-    # It is in no file then, and the actor waits for ever.
-    world.apply(Delete(name='gate/0'))
-
-    one, other = twins(world, tmp_path)
-    for _ in range(8):
-        assert one.digest() == other.digest()
-        one.step(120)
-        other.step(120)
-    assert one.space.table.actor_states['reached'].any()
-
-
-@pytest.mark.parametrize(
-    ('said', 'code', 'field'),
-    [
-        ('acting: {}', 'bad_property', 'acting'),
-        ('actor: PATH, acting: [1]', 'bad_property', 'acting'),
-        ('actor: PATH, acting: {seconds: a}', 'bad_property', 'seconds'),
-        ('actor: PATH, acting: {reached: -1}', 'bad_property', 'reached'),
-        ('actor: PATH, acting: {begun: 1}', 'unknown_property', 'begun'),
-        ('actor: {kind: walk}', 'bad_property', 'kind'),
-        ('actor: PATH, anchored: true', 'bad_property', 'anchored'),
-    ],
-)
-def test_a_file_with_an_actor_that_cannot_be_is_refused(tmp_path, said, code, field):
-    said = said.replace('PATH', str(PATH))
-    refusal = refusal_of_file(tmp_path, f'{{name: b/0, circle: {{radius: 1}}, {said}}}')
-    assert (refusal.cause, refusal.field) == (code, field)
 
 
 @pytest.mark.parametrize('kinematic', [True, False])

@@ -31,34 +31,6 @@ def amend(simulation: Simulation, gestures: list[int], requests: list[Request]) 
     return simulation.apply_requests()
 
 
-def test_an_amended_world_is_where_it_would_have_come_with_those_requests():
-    wall, ball = spawning('t/0', BOX, (0.0, 1.0, 0.0), anchored=True), spawning('t/1', DISC)
-    later = spawning('t/2', DISC, (0.1, 3.0, 0.0))
-    straight = world_after((2, '', ball), (30, '', later), frames=90)
-    other = world_after((2, '', wall), frames=10)
-    gesture = other.requests.gesture
-    for frame in range(10, 90):
-        if frame == 30:
-            other.requests.submit(later, topic='t')
-        other.advance_frame()
-
-    amend(other, [gesture], [ball])
-
-    assert other.step == straight.step
-    assert other.world.digest() == straight.world.digest()
-
-
-def test_the_amended_gesture_is_undone_as_one():
-    simulation = begun()
-    gesture = simulation.requests.gesture
-    simulation.advance_frame()
-
-    amend(simulation, [gesture], [spawning('t/1', DISC), spawning('t/2', DISC)])
-    simulation.undo()
-
-    assert simulation.world.snapshot().scene.names == ()
-
-
 def test_what_the_amended_past_refuses_later_is_dropped():
     simulation = begun()
     gesture = simulation.requests.gesture
@@ -112,17 +84,6 @@ ROD = joining('rod', [(-3.0, 4.0), (0.0, 9.0)], a='a/0')
 ANNA, BEN = (2, 'Anna', spawning('a/0', DISC, LEFT)), (20, 'Ben', spawning('b/0', BOX, RIGHT))
 
 
-def test_what_is_taken_back_has_never_been_and_what_others_did_stays():
-    simulation, without = world_after(ANNA, BEN), world_after(BEN)
-
-    take_back(simulation, 'Anna')
-
-    assert simulation.step == without.step
-    assert simulation.world.digest() == without.world.digest()
-    answer = take_back(simulation, 'Anna')
-    assert (answer.code, answer.message) == ('out_of_history', 'there is nothing by Anna to undo')
-
-
 def test_what_breaks_again_while_nothing_is_taken_back_is_told_once():
     weak = joining('spring', [RIGHT[:2], (3.0, 9.0)], a='b/0', b='world', break_force=1e-3)
     use = MoveBodies(names=('a/0',), by=(0.0, 1.0))
@@ -131,16 +92,6 @@ def test_what_breaks_again_while_nothing_is_taken_back_is_told_once():
 
     assert take_back(simulation, 'Anna').code == 'not_alone'
     assert not [each for each in simulation.advance_frame().answers if each.code]
-
-
-def test_redo_brings_it_back():
-    simulation = world_after(ANNA, BEN)
-    before = simulation.world.digest()
-
-    take_back(simulation, 'Anna')
-    simulation.redo()
-
-    assert simulation.world.digest() == before
 
 
 @pytest.mark.parametrize('use', [MoveBodies(names=('a/0',), by=(0.0, 1.0)), ROD])

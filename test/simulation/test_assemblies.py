@@ -183,23 +183,6 @@ def test_motors_are_commanded_by_the_names_of_their_joints():
     assert refusal(arm.apply, drive) == (BadProperty, 'name')
 
 
-def test_a_saved_robot_continues_with_its_command_to_the_bit(tmp_path):
-    world = with_robot()
-    world.apply(told(points=((2.0, 1.0, 0.0),)))
-    world.step(100)
-    path = save_world(world.save(), 'w', world_dir=tmp_path, physics_rate=world.physics_rate)
-    state = load_world(path)
-    again, same = World(settings=FLAT), World(settings=FLAT)
-    again.apply(Restore(state=state))
-    same.apply(Restore(state=world.save()))
-    for each in (again, same):
-        each.step(400)
-    assert poses(again) == poses(same)
-    assert poses(again)[UPPER][2] == pytest.approx(1.5, abs=1e-6)
-    # A part that the file does not list is not made.
-    assert len(again) == 3
-
-
 def test_a_world_file_has_a_robot_with_its_parts_by_its_name_alone(tmp_path):
     path = tmp_path / 'w.yaml'
     path.write_text(
@@ -212,26 +195,6 @@ def test_a_world_file_has_a_robot_with_its_parts_by_its_name_alone(tmp_path):
     world.apply(told())
     world.step(600)
     assert poses(world)[UPPER][2] == pytest.approx(1.5, abs=1e-6)
-
-
-def test_a_robot_with_parts_is_shown_again_to_the_bit():
-    simulation = Simulation(settings=FLAT, checkpoints=1.0)
-    simulation.perform(robot_spawn('arm', name='arm/0'))
-    simulation.perform(told(points=((3.0, 1.5, 0.0),)))
-    simulation.run(2.5)
-    simulation.perform(told('arm/0/elbow/0', 'velocity', ((0.0, 0.5),)))
-    simulation.run(2.0)
-    digest = simulation.world.digest()
-    simulation.seek(1_300_000_000)
-    simulation.world.digest()
-    simulation.seek(4_500_000_000)
-    assert simulation.world.digest() == digest
-    moment = simulation.checkpoint()
-    simulation.run(1.0)
-    first = simulation.world.digest()
-    simulation.restore(moment)
-    simulation.run(1.0)
-    assert simulation.world.digest() == first
 
 
 def test_a_laser_does_not_see_the_parts_of_its_robot_and_may_be_on_one():

@@ -4,14 +4,13 @@
 """Batteries of robots: what drains and charges them, and that an empty one stops its robot."""
 
 from physsim_ros import Box, Robot, Simulation
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot, MoveBodies
-from physsim_ros.model.robots import Battery
 from physsim_ros.model.robots import Robot as Description
 from physsim_ros.simulation.world import World
 import pytest
 
-from .driven import body_request, put, refusal_of_file, seen_from_above, twins
+from .driven import body_request, put, seen_from_above
 from ..building import spawning
 
 # Empty after 18 s at rest, and after 4.5 s of motion.
@@ -100,47 +99,10 @@ def test_a_program_reads_the_state_of_a_battery():
     assert Robot(simulation, 'b/0').battery() is None
 
 
-def test_a_charge_is_saved_loaded_and_rewound_to_the_bit(tmp_path):
-    world = powered_world()
-    command(world, 0.1)
-    world.step(321)
-    one, other = twins(world, tmp_path)
-    for each in (world, one, other):
-        each.step(200)
-    assert one.digest() == other.digest()
-    assert drawn(one) == drawn(other) == drawn(world)
-
-    simulation = Simulation(checkpoints=0.3)
-    simulation.begin(one.save())
-    simulation.run(1.0)
-    first = simulation.world.digest()
-    simulation.run(1.0)
-    simulation.seek(round(1e9))
-    assert simulation.world.digest() == first
-
-
 def test_a_dock_that_is_not_there_charges_nothing():
     world = powered_world(docks=['nowhere/0', 'a/0'])
     world.step(240)
     assert drawn(world) == pytest.approx(1.0, abs=1e-9)
-
-
-@pytest.mark.parametrize(
-    ('said', 'refusal'),
-    [
-        ({'capacity': 0}, BadProperty),
-        ({'capacity': float('nan')}, Malformed),
-        ({'level': 1.5}, BadProperty),
-        ({'idle': -1.0}, BadProperty),
-        ({'docks': 'dock/0'}, BadProperty),
-        ({'docks': [f'dock/{number}' for number in range(17)]}, BadProperty),
-        ({'rate': 0}, BadProperty),
-    ],
-)
-def test_a_battery_that_cannot_be_is_refused(said, refusal):
-    with pytest.raises(refusal) as refused:
-        Battery.from_mapping(said)
-    assert refused.value.field in said
 
 
 def test_a_battery_without_a_drive_and_a_second_topic_of_its_name_are_refused():
@@ -151,9 +113,3 @@ def test_a_battery_without_a_drive_and_a_second_topic_of_its_name_are_refused():
     Description.from_mapping(robot)
     with pytest.raises(BadProperty, match='two topics'):
         Description.from_mapping({**robot, 'battery': {}})
-
-
-def test_a_file_with_a_charge_that_cannot_be_is_refused(tmp_path):
-    robot = 'robot: {drive: {kind: omni}, battery: {}}, driven: {drawn: .nan}'
-    refusal = refusal_of_file(tmp_path, f'{{name: a/0, circle: {{radius: 0.1}}, {robot}}}')
-    assert refusal.cause == 'malformed'

@@ -40,19 +40,9 @@ class Run:
             self.at(since + (number + rng.uniform(-jitter, jitter)) / 60.0)
 
 
-@pytest.mark.parametrize('speed', [1.0, 2, 4.0, 16.0, 64.0])
-def test_whole_speeds_end_each_frame_on_the_same_multiples(speed):
-    run = Run(speed)
-
-    run.periods(120)
-
-    quota = round(FRAME * speed)
-    assert run.frames == list(range(quota, 120 * quota + 1, quota))
-
-
-@pytest.mark.parametrize('speed', [1.0, 2.0, 4.0, 64.0])
-@pytest.mark.parametrize('jitter', [0.1, 0.49])
-def test_jitter_of_less_than_half_a_period_changes_nothing(speed, jitter):
+@pytest.mark.parametrize('speed', [1.0, 2, 16.0, 64.0])
+@pytest.mark.parametrize('jitter', [0.0, 0.1, 0.49])
+def test_whole_speeds_end_each_frame_on_the_same_multiples_whatever_the_jitter(speed, jitter):
     run = Run(speed)
 
     run.periods(600, jitter=jitter)
@@ -185,22 +175,14 @@ def test_a_machine_that_is_too_slow_for_good_gives_all_steps_later():
 
 
 @pytest.mark.parametrize('speed', [1.0, 4.0, 0.5, 64.0, 2.5])
-def test_going_back_is_going_on_in_a_mirror(speed):
-    onward = Clock(physics_rate=240.0, frame_steps=4, speed=speed)
-    backward = Clock(physics_rate=240.0, frame_steps=4, speed=-speed)
-    ahead, behind = 0, 0
+@pytest.mark.parametrize('step', [0, 1, 1003])
+def test_going_back_is_going_on_in_a_mirror(speed, step):
+    onward, backward = (
+        Clock(physics_rate=240.0, frame_steps=4, speed=each) for each in (speed, -speed)
+    )
+    ahead, behind = step, -step
     for tick in range(200):
         ahead += onward.due(tick * 16_666_667, ahead)
         behind += backward.due(tick * 16_666_667, behind)
         assert behind == -ahead
-    assert ahead == pytest.approx(199 / 60 * 240 * speed, abs=8 * speed)
-
-
-def test_at_whole_speeds_going_back_ends_on_multiples_of_the_publish_period():
-    clock = Clock(physics_rate=240.0, frame_steps=4, speed=-1.0)
-    step, steps = 1003, []
-    for tick in range(30):
-        step += clock.due(tick * 16_666_667, step)
-        steps.append(step)
-    assert steps[1:4] == [1000, 996, 992]
-    assert all(each % 4 == 0 for each in steps[1:])
+    assert ahead - step == pytest.approx(199 / 60 * 240 * speed, abs=8 * speed)

@@ -61,18 +61,6 @@ def follow(sim: Simulation, shown: dict[int, np.ndarray], since: int) -> None:
         assert sim.step > step
 
 
-def undone_branch() -> Simulation:
-    """Return a pile whose second course parts from the first in a gesture that is undone."""
-    sim = simulation()
-    run(sim, 0.5)
-    act(sim, 1.0)
-    run(sim, 1.5)
-    branch(sim, 1.0, 5.0)
-    sim.undo()
-    sim.undo()
-    return sim
-
-
 def numbers(sim: Simulation) -> list[int]:
     return [course.number for course in sim.status.courses]
 
@@ -91,23 +79,6 @@ def test_a_course_that_was_left_is_returned_to_and_back_to_the_same_bits():
     sim.return_to_course(2)
     follow(sim, second, 244)
     assert sim.world.digest() == last
-
-
-def test_courses_of_courses_are_reached_by_their_branches():
-    sim = simulation()
-    shown = {1: run(sim, 2.0)}
-    # 2 parts from 1 at 1 s, 3 from 2 at 1.5 s, 4 from 3 at 0.5 s, 5 from 4 at 1.5 s.
-    for number, seconds in enumerate((1.0, 1.5, 0.5, 1.5), start=2):
-        before = shown[number - 1]
-        fresh = branch(sim, seconds, float(number))
-        shown[number] = {step: before[step] for step in before if step <= seconds * 240} | fresh
-    assert numbers(sim) == [1, 2, 3, 4]
-
-    for number in (1, 5, 2, 4, 3, 1):
-        sim.return_to_course(number)
-        assert sim.status.course == number
-        assert sorted([*numbers(sim), number]) == [1, 2, 3, 4, 5]
-        follow(sim, shown[number], 40)
 
 
 def test_time_stays_where_both_courses_have_it():
@@ -159,95 +130,6 @@ def test_the_ghost_of_a_course_takes_no_memory_for_contacts():
         act(sim, 1.0)
         sizes.add(sim.past.tree.left[1].size)
     assert len(sizes) == 1
-
-
-def test_undo_and_redo_go_along_a_course():
-    sim = simulation()
-    run(sim, 2.0)
-    first = sim.world.digest()
-    branch(sim, 1.0, 5.0)
-    second = sim.world.digest()
-
-    sim.undo()
-    # The branch has nothing of its own now; the course before is still there.
-    assert numbers(sim) == [1]
-    sim.redo()
-    assert sim.world.digest() == second
-    sim.undo()
-    sim.return_to_course(1)
-    assert sim.status.redo == ''
-    sim.seek(2 * SECOND)
-    assert sim.world.digest() == first
-
-
-def test_a_course_loses_nothing_by_an_undo_in_another():
-    sim = undone_branch()
-    assert (sim.step, numbers(sim)) == (120, [1])
-    sim.redo()
-    assert numbers(sim) == [1]
-    sim.undo()
-    # To a later step than that at which they part, with fewer requests.
-    run(sim, 1.5)
-    assert [tuple(each) for each in sim.status.courses] == [(1, 0.5, 2.0)]
-    act(sim, 3.0)
-    assert numbers(sim) == [1]
-    branch(sim, 0.25, 7.0)
-    assert numbers(sim) == [1, 2]
-
-
-def test_a_course_that_parts_in_what_was_undone_is_returned_to():
-    sim = simulation()
-    run(sim, 0.5)
-    act(sim, 1.0)
-    first = run(sim, 1.5)
-    branch(sim, 1.0, 5.0)
-    sim.undo()
-    sim.undo()
-    undone = run(sim, 1.5)
-    branch(sim, 0.25, 7.0)
-
-    sim.return_to_course(1)
-    follow(sim, first, 124)
-    # As short as the undo has made it, and as long as it went on from there.
-    sim.return_to_course(2)
-    follow(sim, undone, 124)
-
-
-def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off():
-    sim = Simulation()
-    sim.perform(spawning('a/0', BOX, anchored=True))
-    run(sim, 1.0)
-    sim.seek(SECOND // 5)
-    sim.perform(spawning('b/0', BOX, (3.0, 0.0, 0.0), anchored=True))
-    run(sim, 1.0)
-    sim.seek(4 * SECOND // 5)
-    sim.perform(spawning('c/0', BOX, (6.0, 0.0, 0.0), anchored=True))
-    sim.undo()
-    sim.undo()
-    sim.return_to_course(1)
-    sim.return_to_course(2)
-    sim.seek(9 * SECOND // 10)
-    assert sim.world.snapshot().scene.names == ('a/0', 'b/0')
-    sim.return_to_course(3)
-    assert (sim.status.now, sim.world.snapshot().scene.names) == (0.2, ('a/0',))
-
-
-def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_there():
-    sim = Simulation()
-    assert sim.apply_requests() is not None
-    sim.requests.submit(spawning('a/0', BOX, anchored=True), topic='')
-    sim.advance_frame()
-    # Frames back to the checkpoint after the request are made again, from its step on.
-    sim.speed = -0.3
-    for tick in range(25):
-        sim.advance(tick * SECOND // 60)
-    sim.perform(spawning('b/0', BOX, anchored=True))
-    sim.advance_frame()
-    sim.return_to_course(1)
-    sim.speed = -1.0
-    frames = [frame for tick in range(9) for frame in sim.advance(SECOND + tick * SECOND // 60)]
-    assert frames[-1].snapshot.step == 0
-    assert frames[-1].snapshot.scene.names == ()
 
 
 def test_a_step_that_was_shown_without_the_oldest_request_is_not_kept():

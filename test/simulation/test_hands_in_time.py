@@ -6,7 +6,7 @@
 import math
 
 import numpy as np
-from physsim_ros.model.requests import Configure, Grab, HandRequest, LetGo, MoveHand, Spawn
+from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Compound, Disc
 from physsim_ros.simulation.entries import Origin
@@ -167,16 +167,6 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing():
     # The hand of the past lets go where its past ends.
     while sim.world.stamp < end:
         assert sim.advance_frame().snapshot.grips
-    assert not sim.advance_frame().snapshot.grips
-
-
-def test_a_branch_has_no_hands_of_the_course_that_it_left():
-    sim = holding()
-    for _ in range(60):
-        sim.advance_frame()
-    sim.seek(10**9 // 2)
-    sim.perform(Configure(changes={'damping': 0.5}))
-
     assert not sim.advance_frame().snapshot.grips
 
 

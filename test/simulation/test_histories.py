@@ -10,12 +10,11 @@ HISTORIES says how many histories are played, 20 where it does not; `histories` 
 import os
 
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.requests import Command, Request, Spawn
+from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
-from physsim_ros.simulation.world import World
 import pytest
 
-from .histories import check, Difference, difference_of, play, script, shrunk
+from .histories import check, play
 from .random_history import history_of, ROBOTS, SHAPES
 from ..outside import run_python
 
@@ -51,21 +50,3 @@ def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body(
 def test_a_history_shows_the_same_in_another_process():
     words = ('-m', 'test.simulation.histories', '17', '--digest')
     assert run_python(*words, PYTHONHASHSEED='7').strip() == play(history_of(17)).digest()
-
-
-@pytest.mark.slow
-def test_a_replay_that_leaves_out_requests_is_found_and_shrunk_to_a_short_program(monkeypatch):
-    replay = World.replay
-
-    def forgetful(world: World, request: Request) -> None:
-        if not isinstance(request, Command):
-            replay(world, request)
-
-    monkeypatch.setattr(World, 'replay', forgetful)
-    found = next(seed for seed in range(40) if difference_of(history_of(seed)))
-    with pytest.raises(Difference, match=f'seed {found}: '):
-        check(found)
-    short = shrunk(history_of(found), 20.0)
-    assert len(short) <= 8
-    assert script(short).splitlines()[0] == 'player = Player()'
-    assert 'Command(' in script(short)

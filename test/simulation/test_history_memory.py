@@ -29,13 +29,15 @@ import pytest
 from ..slow import slow
 
 SECOND = 1_000_000_000
+# Steps a second, as many as frames [Hz].
+RATE = 60.0
 NAMES = tuple(f'a/{number}' for number in range(100))
 TWISTS = np.random.default_rng(17).uniform(-1.0, 1.0, (64, 100, 3))
 
 
 def crowd(memory: float) -> Simulation:
     """Return a hundred discs above a floor."""
-    sim = Simulation(speed=0.0, history_memory=memory)
+    sim = Simulation(speed=0.0, history_memory=memory, physics_rate=RATE, publish_rate=RATE)
     sim.perform(Configure(changes={'bounds': (-30.0, 0.0, 30.0, 20.0)}))
     for number, name in enumerate(NAMES):
         at = (0.5 * (number % 50) - 12.0, 1.0 + number // 50, 0.0)
@@ -85,7 +87,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
             command(sim, number + part)
         frame = sim.apply_requests() if paused else sim.advance_frame()
         events += [each for each in frame.answers if each.code == 'history']
-        if frame.snapshot.step % 240 == 0:
+        if frame.snapshot.step % RATE == 0:
             digests[frame.snapshot.step] = sim.world.digest()
         assert used(sim) <= LEAST_MEMORY * MEGABYTE
     taken = traced() - before
@@ -94,20 +96,20 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
     assert 0.5 < (used(sim) - first) / taken < 2.0
     assert len(events) == 1
     history = sim.past.tree
-    assert sim.status.oldest == history.oldest / 240
+    assert sim.status.oldest == history.oldest / RATE
     if paused:
         return
     assert 0 < history.oldest < history.head == sim.step
     end = sim.world.digest()
     with pytest.raises(OutOfHistory):
-        sim.seek(round((history.oldest - 4) / 240 * SECOND))
+        sim.seek(round((history.oldest - 1) / RATE * SECOND))
     assert sim.world.digest() == end
     kept = [step for step in digests if step >= history.oldest]
     assert kept
     for step in kept:
-        sim.seek(round(step / 240 * SECOND))
+        sim.seek(round(step / RATE * SECOND))
         assert sim.world.digest() == digests[step]
-    sim.seek(round(history.head / 240 * SECOND))
+    sim.seek(round(history.head / RATE * SECOND))
     assert sim.world.digest() == end
 
 
@@ -156,16 +158,16 @@ def along_points(number: int) -> Request:
 
 ACTS: dict[str, tuple[int, Callable[[Simulation, int], object]]] = {
     'commands': (100, lambda sim, number: (command(sim, number), sim.apply_requests())),
-    'discs': (300, lambda sim, n: spawn_again(sim, Disc(radius=0.2 + 1e-6 * n))),
-    'boxes': (300, lambda sim, n: spawn_again(sim, Box(width=0.2 + 1e-6 * n, height=0.2))),
-    'polygons': (300, lambda sim, n: spawn_again(sim, Polygon(outline=corners(1 + 1e-6 * n)))),
+    'discs': (100, lambda sim, n: spawn_again(sim, Disc(radius=0.2 + 1e-6 * n))),
+    'boxes': (100, lambda sim, n: spawn_again(sim, Box(width=0.2 + 1e-6 * n, height=0.2))),
+    'polygons': (100, lambda sim, n: spawn_again(sim, Polygon(outline=corners(1 + 1e-6 * n)))),
     'frames': (300, lambda sim, _: sim.advance_frame()),
     'checkpoints': (100, lambda sim, _: (sim.advance_frame(), sim.past.cursor.add_keyframe())),
     'branches': (10, throw),
-    'resets': (300, lambda sim, _: begin_again(sim)),
+    'resets': (100, lambda sim, _: begin_again(sim)),
     'motors': (30, lambda sim, number: sim.perform(trajectory(number))),
-    'robots': (100, lambda sim, number: sim.perform(with_landmarks(number))),
-    'actors': (100, lambda sim, number: sim.perform(along_points(number))),
+    'robots': (30, lambda sim, number: sim.perform(with_landmarks(number))),
+    'actors': (30, lambda sim, number: sim.perform(along_points(number))),
 }
 QUICK = ('commands', 'frames', 'resets', 'motors', 'robots', 'actors')
 
@@ -202,21 +204,6 @@ def test_a_past_that_is_given_up_keeps_no_frames():
     assert not sim.past.frames.size
 
 
-@pytest.mark.slow
-def test_thousands_of_resets_take_no_more_than_the_budget():
-    sim = Simulation(history_memory=LEAST_MEMORY)
-    sim.advance_frame()
-    tracemalloc.start()
-    before = traced()
-    for _ in range(2000):
-        begin_again(sim)
-    taken = traced() - before
-    tracemalloc.stop()
-
-    assert taken < 1.25 * LEAST_MEMORY * MEGABYTE
-    assert sim.undo() == 'undid reset, back at 0.017 s'
-
-
 def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last():
     sim = crowd(100.0)
     told(sim, 240)
@@ -246,6 +233,8 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last():
         command(sim, number)
         command(sim, number + 1)
         sim.advance_frame()
+        if sim.status.oldest > 0.0:
+            break
     assert sim.status.courses == ()
     assert sim.status.oldest > 0.0
 

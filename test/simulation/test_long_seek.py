@@ -149,7 +149,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, d
     steps = []
     for tick in range(1, 1000):
         for frame in simulation.advance(tick * SECOND // 60, is_overdue=lambda: True):
-            assert frame.moved
+            assert frame.stepped
             steps.append(frame.snapshot.step)
             assert simulation.world.digest() == digests[frame.snapshot.step]
     assert steps == [484, 488]
@@ -281,20 +281,9 @@ def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_
     assert again.snapshot.scene.names == ('disc/0', 'disc/1')
 
 
-def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(simulation, digests):
-    simulation.past.frames.drop_from(0)
-    simulation.speed = -1.0
-    simulation.apply_requests()
-    ticks_to_a_frame(simulation, 0)
-    first = simulation.step
-    simulation.speed = 0.0
-    assert first < 600
-    assert simulation.world.digest() == digests[first]
-
-
 def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits():
     many = Simulation(settings=FLOOR)
-    for number in range(600):
+    for number in range(200):
         place = (0.9 * (number % 30), 1.0 + number // 30, 0.0)
         many.requests.submit(spawning(f'disc/{number}', DISC, place), topic='')
     many.apply_requests()

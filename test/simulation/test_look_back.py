@@ -25,8 +25,8 @@ from physsim_ros.simulation.world import World
 import pytest
 
 SECOND = 10**9
-# Length of the past, and the time that is looked at [s].
-END, EARLIER = 4, 1
+# Length of the past, the time that is looked at, and one between them [ns].
+END, EARLIER, BETWEEN = 2 * SECOND, SECOND // 2, 5 * SECOND // 4
 Call = Callable[[Robot], Any]
 
 
@@ -50,20 +50,8 @@ def set_speed(simulation: Simulation) -> None:
     simulation.speed = 1.0
 
 
-def begun_anew(simulation: Simulation) -> None:
-    simulation.begin(simulation.save())
-
-
-def restored(simulation: Simulation) -> None:
-    simulation.restore(simulation.checkpoint())
-
-
-def redone(simulation: Simulation) -> tuple[str, str]:
-    return simulation.undo(), simulation.redo()
-
-
 def course_left(simulation: Simulation) -> str:
-    simulation.seek(2 * SECOND)
+    simulation.seek(BETWEEN)
     moved(simulation)
     return simulation.return_to_course(1)
 
@@ -73,7 +61,7 @@ OF_SIMULATION: dict[str, Call] = {
     'advance_frame': of_simulation(Simulation.advance_frame),
     'apply_requests': of_simulation(Simulation.apply_requests),
     'at_shown_moment': of_simulation(Simulation.at_shown_moment),
-    'begin': of_simulation(begun_anew),
+    'begin': of_simulation(lambda it: it.begin(it.save())),
     'checkpoint': of_simulation(Simulation.checkpoint),
     'finish_work': of_simulation(lambda it: it.finish_work(lambda: False)),
     'is_changed': of_simulation(lambda it: it.is_changed),
@@ -83,22 +71,22 @@ OF_SIMULATION: dict[str, Call] = {
     'forces_now': of_simulation(lambda it: it.forces_now(it.frame.snapshot)[1]),
     'frame': of_simulation(lambda it: it.frame),
     'open_world': of_simulation(lambda it: it.open_world(it.save())),
-    'limit_history': of_simulation(lambda it: it.limit_history(2.0)),
+    'limit_history': of_simulation(lambda it: it.limit_history(1.0)),
     'limit_memory': of_simulation(lambda it: it.limit_memory(64.0)),
     'load': of_simulation(lambda it: it.load(it.save())),
     'loaded': of_simulation(lambda it: it.loaded),
     'place': of_simulation(lambda it: it.place('robot/0', 0.5, 0.0)),
     'perform': of_simulation(moved),
-    'redo': of_simulation(redone),
+    'redo': of_simulation(lambda it: (it.undo(), it.redo())),
     'reports_contacts': of_simulation(set_reporting),
     'reset': of_simulation(lambda it: it.reset(3)),
-    'restore': of_simulation(restored),
+    'restore': of_simulation(lambda it: it.restore(it.checkpoint())),
     'return_to_course': of_simulation(course_left),
     'run': of_simulation(lambda it: it.run(0.5)),
     'saver': of_simulation(Simulation.saver),
     'saver_of_run': of_simulation(Simulation.saver_of_run),
     'save': of_simulation(Simulation.save),
-    'seek': of_simulation(lambda it: it.seek(2 * SECOND)),
+    'seek': of_simulation(lambda it: it.seek(BETWEEN)),
     'settings': of_simulation(lambda it: it.settings),
     'speed': of_simulation(set_speed),
     'status': of_simulation(lambda it: it.status),
@@ -130,12 +118,12 @@ LOOKS: dict[str, Call] = {
 
 def driven() -> Robot:
     """Return a robot that has driven to the end of its past, and drives on."""
-    simulation = Simulation(checkpoints=1.0)
+    simulation = Simulation(checkpoints=0.5)
     simulation.begin(load_world(find_world('corridor')))
     simulation.perform(robot_spawn('turtlebot3_burger', name='robot/0', at=(0.0, 0.0)))
     robot = Robot(simulation, 'robot/0')
-    for _ in range(END * 60):
-        if simulation.step % 240 == 0:
+    while simulation.stamp < END:
+        if simulation.step % 120 == 0:
             robot.drive(0.2, 0.1)
         simulation.advance_frame()
     return robot
@@ -143,10 +131,10 @@ def driven() -> Robot:
 
 def look_back(robot: Robot, look: Call | None) -> None:
     """Go to the past, look at it in a way, and return to the end, whose frame is cached."""
-    robot.simulation.seek(EARLIER * SECOND)
+    robot.simulation.seek(EARLIER)
     if look is not None:
         look(robot)
-    robot.simulation.seek(END * SECOND)
+    robot.simulation.seek(END)
 
 
 def told(result: Any) -> object:
@@ -215,7 +203,7 @@ def test_a_checkpoint_after_a_look_back_has_no_grip_of_a_hand():
     robot.simulation.perform(Grab(hand='hand', point=robot.truth().pose[:2]))
     robot.simulation.advance_frame()
     end = robot.simulation.frame.snapshot.stamp
-    robot.simulation.seek(EARLIER * SECOND)
+    robot.simulation.seek(EARLIER)
     robot.simulation.world.digest()
     robot.simulation.seek(end)
     moment = robot.simulation.checkpoint()

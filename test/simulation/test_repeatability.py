@@ -349,7 +349,7 @@ def test_restoring_replaces_everything_but_the_time():
     spawn(world, 'a/1', DISC, (4.0, 0.0, 0.0))
     world.step(10)
 
-    answer = world.apply(Restore(state=state))
+    answer = world.apply(Restore(state=state)).answer
 
     assert answer == Answer(message='loaded 1 body')
     assert names(world) == ('a/0',)

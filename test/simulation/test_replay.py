@@ -19,15 +19,6 @@ from .driven import Driven, dropped, FLOOR, FRAME, SECOND, told
 from ..building import BOX, DISC, spawning
 
 
-def test_a_refused_request_in_the_past_drops_nothing(driven):
-    head = driven.simulation.step
-    driven.run(-1.0, 1.0)
-    driven.ask(Delete(name='nobody/0'))
-    assert driven.apply_requests().answers[0].code == 'unknown_body'
-    driven.simulation.seek(round(head / 240 * SECOND))
-    driven.assert_same(driven.apply_requests())
-
-
 @pytest.mark.parametrize('stamp', [-1, 10 * SECOND, 10**18])
 def test_what_is_not_in_the_history_is_refused(driven, stamp):
     before = driven.moment
@@ -127,7 +118,7 @@ def test_contacts_come_again_that_nobody_asked_for_the_first_time():
         assert frame.contacts.pairs.tolist() == [[0, -1]]
 
 
-def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(monkeypatch):
+def test_the_last_of_many_commands_to_a_paused_world_costs_no_more_than_the_first(monkeypatch):
     looks = [0]
 
     class Counted(Node):
@@ -146,13 +137,13 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(m
     monkeypatch.setattr('physsim_ros.simulation.past.tree.Node', Counted)
     driven = Driven(speed=0.0)
     driven.ask(spawning('a/0', BOX))
-    for _ in range(1000):
+    for _ in range(200):
         driven.ask(Command(names=('a/0',), wrenches=((1.0, 0.0, 0.0),)))
         looks.append(0)
         driven.apply_requests()
     assert max(looks) < 10
     driven.simulation.seek(0)
-    assert driven.simulation.past.cursor.serial == 1001
+    assert driven.simulation.past.cursor.serial == 201
 
 
 def test_few_bodies_take_no_more_memory_than_their_poses_would():
@@ -197,19 +188,6 @@ def test_a_request_that_is_refused_when_it_is_made_again_is_told(driven):
     driven.simulation.seek(0)
     answer, *_ = told(driven.run(8.0, 0.7), 'divergence')
     assert "is refused now: there is no body 'nobody/0'" in answer.message
-
-
-def test_saving_in_the_past_drops_nothing(driven):
-    driven.run(-1.0, 1.3)
-    step = driven.simulation.step
-    state = driven.simulation.save()
-    assert len(state.bodies) == 6
-    for frame in driven.run(1.0, 1.2):
-        driven.assert_same(frame)
-    elsewhere = Driven()
-    elsewhere.simulation.begin(state)
-    poses = elsewhere.simulation.world.snapshot().poses
-    np.testing.assert_array_equal(poses, driven.shown[step].snapshot.poses)
 
 
 @pytest.mark.parametrize('speeds', [(1.0,), (0.3,), (4.0,), (0.3, 1.0)])
@@ -258,25 +236,6 @@ def collide(driven: Driven) -> None:
         driven.ask(spawning(f'a/{number}', BOX, (0.3 * number, 1.0 + 1.2 * number, 0.2)))
 
 
-def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was():
-    driven = Driven()
-    collide(driven)
-    for _ in range(150):
-        driven.simulation.advance_frame()
-    checkpoint = driven.simulation.past.tree.keyframes[-1].step
-    driven.simulation.seek(round(checkpoint / 240 * SECOND))
-    driven.ask(spawning('b/0', BOX, (0.2, 6.0, 0.5)))
-    for _ in range(120):
-        frame = driven.simulation.advance_frame()
-        driven.shown[frame.snapshot.step] = frame
-    driven.simulation.seek(0)
-    for _ in range(200):
-        frame = driven.simulation.advance_frame()
-        if frame.snapshot.step in driven.shown:
-            driven.assert_same(frame)
-        assert told([frame], 'divergence') == []
-
-
 def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was():
     sim = Simulation(settings=FLOOR)
     # A seek comes from the frame before, for its contacts.
@@ -298,35 +257,6 @@ def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was():
     sim.redo()
 
     assert sim.world.digest() == before
-
-
-def test_a_seek_to_now_keeps_what_was_just_asked():
-    driven = Driven()
-    driven.record(0.5)
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.simulation.seek(round(driven.simulation.step / 240 * SECOND))
-    assert driven.names == ('b/0',)
-
-
-def test_reset_keeps_what_was_just_asked_for_undo():
-    driven = Driven()
-    driven.record(0.5)
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.simulation.reset()
-    driven.simulation.undo()
-    assert driven.names == ('b/0',)
-
-
-def test_reset_goes_to_what_was_loaded_since():
-    driven = Driven()
-    driven.simulation.reset()
-    driven.record(0.2)
-    other = dropped('b/0')
-    driven.simulation.load(other.simulation.save())
-    driven.record(0.2)
-    driven.simulation.seek(0)
-    driven.simulation.reset()
-    assert driven.names == ('b/0',)
 
 
 def test_what_changes_nothing_drops_nothing(driven):

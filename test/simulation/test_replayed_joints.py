@@ -4,46 +4,11 @@
 """Joints in replay: removed, broken, and loaded again."""
 
 from physsim_ros.files import load_world, save_world
-from physsim_ros.model.requests import Anchor, Command, Pin, Release, Unjoin, UnjoinAll
+from physsim_ros.model.requests import Anchor, Command, Pin
 from physsim_ros.simulation.world import World
-import pytest
 
 from .driven import dropped, FLOOR, SECOND, told
 from ..building import BOX, joining, spawning
-
-
-@pytest.mark.parametrize(
-    'request_',
-    [Unjoin(name='joint/0'), UnjoinAll(), Release(point=(0.0, 5.0))],
-    ids=['unjoin', 'unjoin all', 'release'],
-)
-def test_a_joint_that_is_taken_out_is_part_of_history(request_):
-    driven = dropped('b/0')
-    driven.ask(joining('pin', ((0.0, 5.0),), a='b/0', b='world'))
-    driven.record(1.0)
-    hung = driven.simulation.world.snapshot().poses
-    driven.ask(request_)
-    driven.record(0.5)
-    driven.simulation.seek(0)
-    for frame in driven.run(1.0, 1.4):
-        if frame.snapshot.step:
-            driven.assert_same(frame)
-    assert driven.simulation.world.snapshot().scene.joints == ()
-    driven.simulation.undo()
-    assert driven.simulation.world.snapshot().poses == pytest.approx(hung)
-    assert len(driven.simulation.world.snapshot().scene.joints) == 1
-
-
-def test_a_joint_taken_out_in_the_past_begins_a_branch():
-    driven = dropped('b/0')
-    driven.ask(Pin(point=(0.0, 5.0)))
-    driven.record(2.0)
-    driven.simulation.seek(SECOND)
-    driven.ask(UnjoinAll())
-    frames = [driven.apply_requests(), *driven.run(1.0, 2.0)]
-    assert len(told(frames, 'branch')) == 1
-    assert told(frames, 'divergence') == []
-    assert driven.simulation.world.snapshot().scene.joints == ()
 
 
 def test_a_joint_that_broke_is_told_of_once():

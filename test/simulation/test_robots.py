@@ -18,9 +18,7 @@ from .driven import (
     body_request,
     changing,
     put,
-    refusal_of_file,
     seen_from_above,
-    twins,
 )
 from ..building import joining, sleepers
 
@@ -179,40 +177,6 @@ def test_a_robot_that_creeps_or_turns_slowly_does_not_fall_asleep(velocity, axis
     assert world.snapshot().poses[0, axis] == pytest.approx(2.0 * velocity[axis], rel=0.01)
 
 
-def test_motion_under_way_is_saved_and_loaded_to_the_bit(tmp_path):
-    world = seen_from_above()
-    put(world, 'a/0', robot=SLIPPING)
-    put(world, 'b/0', x=0.25, mass=0.02)
-    world.apply(DriveRobot(name='a/0', velocity=(0.3, 0.0, 0.4)))
-    world.step(50)
-
-    one, other = twins(world, tmp_path)
-    for _ in range(5):
-        assert one.digest() == other.digest()
-        one.step(60)
-        other.step(60)
-    # The command ends when it would have.
-    assert not one.snapshot().robots['aim'].any()
-
-
-@pytest.mark.parametrize(
-    ('said', 'code'),
-    [
-        ('robot: {drive: {kind: omni}, namespace: a_0}', 'exists'),
-        ('driven: {}', 'bad_property'),
-        ('robot: car, driven: {aim: [1]}', 'malformed'),
-        ('robot: car, driven: {aim: [1, 2, .nan]}', 'malformed'),
-        ('robot: car, driven: {seconds: -1}', 'bad_property'),
-        ('robot: car, driven: {wheel: 1}', 'unknown_property'),
-        ('robot: car, anchored: true', 'bad_property'),
-    ],
-)
-def test_a_file_with_a_robot_that_cannot_be_is_refused(tmp_path, said, code):
-    first = '{name: a/0, circle: {radius: 0.1}, robot: {drive: {kind: omni}}}'
-    refusal = refusal_of_file(tmp_path, first, f'{{name: b/0, circle: {{radius: 1}}, {said}}}')
-    assert refusal.cause == code
-
-
 def test_a_body_that_is_no_robot_any_more_has_no_state_of_one():
     world = seen_from_above()
     put(world, 'a/0', robot={'drive': DRIVE})
@@ -232,7 +196,7 @@ def test_a_body_that_is_no_robot_any_more_has_no_state_of_one():
 def test_a_robot_that_falls_is_told(gravity, falls):
     world = World(settings=WorldSettings(gravity=gravity))
 
-    answer = world.apply(body_request('a/0', robot={'drive': DRIVE}))
+    answer = world.apply(body_request('a/0', robot={'drive': DRIVE})).answer
 
     assert answer.message.startswith('spawned a/0')
     assert ('gravity' in answer.message) is falls

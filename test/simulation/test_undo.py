@@ -29,23 +29,6 @@ from .driven import Driven, dropped, FRAME, SECOND, told
 from ..building import BOX, DISC, joining, spawning
 
 
-def test_undo_goes_back_to_the_moment_before(driven):
-    message = driven.simulation.undo()
-    assert driven.simulation.step == pytest.approx(3 * 240, abs=FRAME)
-    assert 'late/0' in message
-    assert driven.names == tuple(f'a/{number}' for number in range(5))
-    shown = driven.apply_requests().snapshot
-    np.testing.assert_array_equal(shown.poses, driven.shown[shown.step].snapshot.poses[:5])
-
-
-def test_redo_returns_to_where_undo_was_asked_for(driven):
-    before = driven.moment
-    driven.simulation.undo()
-    driven.run(1.0, 0.7)
-    driven.simulation.redo()
-    assert driven.moment == before
-
-
 def test_redo_shows_the_contacts_of_one_frame(driven):
     driven.simulation.reports_contacts = True
     before = driven.run(1.0, 1.0)[-1].contacts
@@ -56,30 +39,6 @@ def test_redo_shows_the_contacts_of_one_frame(driven):
     again = driven.apply_requests().contacts
     assert again.pairs.tolist() == before.pairs.tolist()
     np.testing.assert_allclose(again.impulses, before.impulses, rtol=1e-9, atol=1e-12)
-
-
-def test_what_belongs_together_is_undone_together(driven):
-    driven.ask(spawning('b/0', BOX, (5.0, 5.0, 0.0)))
-    driven.ask(spawning('b/1', BOX, (5.0, 8.0, 0.0)), joined=True)
-    driven.apply_requests()
-    assert 'and 1 more' in driven.simulation.undo()
-    assert not {'b/0', 'b/1'} & set(driven.names)
-
-
-def test_a_new_request_leaves_nothing_to_redo(driven):
-    driven.simulation.undo()
-    driven.ask(DeleteAll())
-    driven.apply_requests()
-    with pytest.raises(OutOfHistory):
-        driven.simulation.redo()
-
-
-def test_a_refused_request_leaves_what_there_is_to_redo(driven):
-    driven.simulation.undo()
-    driven.ask(Delete(name='nobody/0'))
-    driven.apply_requests()
-    driven.simulation.redo()
-    assert 'late/0' in driven.names
 
 
 @pytest.mark.parametrize('turns', [0, 1, -3])
@@ -100,44 +59,6 @@ def test_a_marker_that_is_published_back_leaves_what_there_is_to_redo(turns):
     assert simulation.status.redo == 'redo spawn b/0'
 
 
-def test_settings_are_undone_and_follow_time(driven):
-    driven.ask(Configure(changes={'gravity': (0.0, 0.0)}))
-    driven.record(1.0)
-    assert driven.simulation.settings.gravity == (0.0, 0.0)
-    driven.run(-1.0, 1.5)
-    assert driven.simulation.settings.gravity == (0.0, -9.81)
-    driven.run(1.0, 1.0)
-    assert driven.simulation.settings.gravity == (0.0, 0.0)
-    driven.simulation.undo()
-    assert driven.simulation.settings.gravity == (0.0, -9.81)
-
-
-def test_reset_is_undone_too(driven):
-    before = driven.moment
-    driven.simulation.reset()
-    assert (driven.simulation.step, driven.names) == (0, ())
-    driven.run(1.0, 0.5)
-    later = driven.simulation.step
-    driven.simulation.undo()
-    assert driven.moment == before
-    driven.simulation.redo()
-    assert later > 100
-    assert (driven.simulation.step, driven.names) == (later, ())
-
-
-def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven):
-    end, last = driven.simulation.step, driven.simulation.world.digest()
-    driven.simulation.seek(2 * SECOND)
-    asked = driven.simulation.world.digest()
-    driven.simulation.reset()
-    with pytest.raises(OutOfHistory):
-        driven.simulation.seek(SECOND // 60)
-    driven.simulation.undo()
-    assert driven.simulation.world.digest() == asked
-    driven.simulation.seek(round(end / 240 * SECOND))
-    assert driven.simulation.world.digest() == last
-
-
 def test_what_followed_a_reset_comes_back_with_it(driven):
     driven.simulation.reset()
     driven.record(4.0)
@@ -154,28 +75,6 @@ def test_what_followed_a_reset_comes_back_with_it(driven):
         driven.assert_same(frame)
     assert told(frames, 'divergence') == []
     assert driven.moment == before
-
-
-def test_resets_are_undone_and_redone_one_by_one(driven):
-    moments = [driven.simulation.step]
-    for seconds in (1.0, 2.0):
-        driven.simulation.reset()
-        driven.run(1.0, seconds)
-        moments.append(driven.simulation.step)
-    undo, redo = driven.simulation.undo, driven.simulation.redo
-    passed = []
-    for act in (undo, undo, redo, redo):
-        act()
-        passed.append(driven.simulation.step)
-    assert passed == [*moments[1::-1], *moments[1:]]
-
-
-def test_an_undone_load_is_not_what_reset_returns_to(driven):
-    other = dropped('b/0')
-    driven.simulation.load(other.simulation.save())
-    driven.simulation.undo()
-    driven.simulation.reset()
-    assert driven.names == ()
 
 
 @pytest.mark.parametrize('more', [True, False])
@@ -204,15 +103,6 @@ def test_what_was_loaded_at_the_beginning_cannot_be_undone():
     with pytest.raises(OutOfHistory):
         second.simulation.undo()
     assert second.names == ('a/0',)
-
-
-def test_a_world_that_was_loaded_while_time_ran_is_undone(driven):
-    names = driven.names
-    driven.simulation.load(Driven().simulation.save())
-    assert driven.names == ()
-    driven.run(1.0, 0.5)
-    driven.simulation.undo()
-    assert driven.names == names
 
 
 def test_older_steps_than_are_kept_are_dropped():

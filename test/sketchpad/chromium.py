@@ -13,7 +13,7 @@ import re
 import shutil
 import tempfile
 import time
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import pytest
 
@@ -29,15 +29,6 @@ bodies:
   - {name: shelf/0, box: {width: 2, height: 0.4}, at: [-4, 3], anchored: true, color: '#2040d0'}
 """
 ARGUMENTS = ['--no-sandbox', '--disable-gpu', '--disable-background-networking']
-# For WebGL without a graphics card.
-SOFTWARE_GL = [
-    '--no-sandbox',
-    '--use-gl=angle',
-    '--use-angle=swiftshader',
-    '--enable-unsafe-swiftshader',
-    '--ignore-gpu-blocklist',
-]
-VIEWPORT = {'width': 1200, 'height': 800}
 PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
     x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
 MILLISECONDS = 1000.0 * PATIENCE
@@ -112,12 +103,12 @@ PAUSE_AFTER = """seconds => {
 }"""
 
 
-def launched_chromium(playwright: Any, arguments: Sequence[str] = ARGUMENTS) -> Any:
+def launched_chromium(playwright: Any) -> Any:
     """Return a browser; where there is none, the test is skipped with that reason."""
     path = shutil.which('chromium') or shutil.which('chromium-browser')
     if path is None:
         pytest.skip('chromium is not installed')
-    return playwright.chromium.launch(executable_path=path, args=list(arguments))
+    return playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
 
 
 def started_world(
@@ -149,6 +140,7 @@ class Sheet:
 
     :param browser: that opens it
     :param address: with the token
+    :param size: width and height [px]
     :param unfolded: whether panels are shown in full, as somebody has chosen in this browser
     :param options: of its browser context
 
@@ -158,9 +150,16 @@ class Sheet:
     opened: ClassVar[list[Sheet]] = []
 
     def __init__(
-        self, browser: Any, address: str, *, unfolded: bool = True, **options: Any
+        self,
+        browser: Any,
+        address: str,
+        *,
+        size: tuple[int, int] = (1200, 800),
+        unfolded: bool = True,
+        **options: Any,
     ) -> None:
-        self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
+        viewport = dict(zip(('width', 'height'), size, strict=True))
+        self.context = browser.new_context(viewport=viewport, **options)
         self.context.set_default_timeout(MILLISECONDS)
         self.context.add_init_script(DELAYS + LISTENER + (UNFOLDED if unfolded else ''))
         self.page = self.context.new_page()
@@ -173,9 +172,9 @@ class Sheet:
         self.opened.append(self)
         self.page.goto(address)
 
-    def begin(self, bodies: int = 3) -> None:
+    def begin(self, bodies: int = 3) -> Self:
         """
-        Reset the world, pause it, and wait for that to be seen.
+        Reset the world, pause it, wait for that to be seen, and return the page.
 
         :param bodies: number of bodies at the beginning
         """
@@ -188,6 +187,7 @@ class Sheet:
         self.wait('before => heard.shown.indexOf("~/reset", before) >= 0', before)
         self.wait('physsim.time === 0 && physsim.speed === 0')
         self.wait('count => Object.keys(physsim.bodies).length === count', bodies)
+        return self
 
     def wait(self, predicate: str, argument: Any = None) -> None:
         """
@@ -227,6 +227,20 @@ class Sheet:
     def press(self, name: str) -> None:
         """Press a button."""
         self.page.get_by_role('button', name=name, exact=True).click()
+
+    def tap(self, x: float, y: float) -> None:
+        """Click a point of the world [m]."""
+        self.page.mouse.click(*self.place(x, y))
+
+    def enter(self, label: str, text: str, *, exact: bool = False) -> None:
+        """Type a text into a field, and the key Enter."""
+        field = self.page.get_by_label(label, exact=exact)
+        field.fill(text)
+        field.press('Enter')
+
+    def told(self, text: str, *, exact: bool = False) -> None:
+        """Wait for the status line to say something."""
+        self.page.get_by_role('status').get_by_text(text, exact=exact).wait_for()
 
     def tap_space(self) -> None:
         """Tap the space bar: on a busy machine a real key may be held for longer than a tap."""
@@ -289,6 +303,10 @@ class Sheet:
         """Close the page; it has had no errors."""
         self.context.close()
         assert self.errors == [], self.errors
+
+
+# Opens a page that the test has closed at its end; without an address, of the module's world.
+OpenSheet = Callable[..., Sheet]
 
 
 class Fingers:

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from .browser import Browser
-from .chromium import launched_chromium, Sheet, started_world, WORLD
+from .chromium import launched_chromium, OpenSheet, Sheet, started_world, WORLD
 from ..outside import Outside
 
 
@@ -54,9 +54,22 @@ def address(outside: Outside, request: pytest.FixtureRequest) -> str:
 
 
 @pytest.fixture
-def sheet(chromium: Any, address: str, request: pytest.FixtureRequest) -> Iterator[Sheet]:
+def open_sheet(chromium: Any, request: pytest.FixtureRequest) -> Iterator[OpenSheet]:
+    """Give a test a function that opens pages, by default of the world of its module."""
+    sheets: list[Sheet] = []
+
+    def opened(address: str = '', **options: Any) -> Sheet:
+        address = address or request.getfixturevalue('address')
+        sheets.append(Sheet(chromium, address, **options))
+        return sheets[-1]
+
+    yield opened
+    for sheet in sheets:
+        sheet.close()
+
+
+@pytest.fixture
+def sheet(open_sheet: OpenSheet, request: pytest.FixtureRequest) -> Sheet:
     """Give a test a page, and the world of its module from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(len(yaml.safe_load(getattr(request.module, 'WORLD', WORLD))['bodies']))
-    yield sheet
-    sheet.close()
+    world = yaml.safe_load(getattr(request.module, 'WORLD', WORLD))
+    return open_sheet().begin(len(world['bodies']))

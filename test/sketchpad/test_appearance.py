@@ -6,11 +6,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import pytest
 
-from .chromium import circle, Sheet, started_world
+from .chromium import circle, OpenSheet, started_world
 from ..outside import Outside
 
 BACKGROUND = """name => getComputedStyle(
@@ -88,57 +87,51 @@ PLACES = """() => {
 
 
 def test_a_label_that_is_larger_than_its_body_is_on_no_other_and_is_measured_once(
-    chromium: Any, address: str
+    open_sheet: OpenSheet,
 ) -> None:
-    sheet = Sheet(chromium, address)
+    sheet = open_sheet()
     drawn, measured = sheet.page.evaluate(LABELS)
     assert drawn == ['first', 'third'] * 2
     assert measured == 3
-    sheet.close()
 
 
-def test_the_mark_of_a_body_has_the_room_within_its_outline(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
+def test_the_mark_of_a_body_has_the_room_within_its_outline(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
     assert sheet.page.evaluate(ROOM) == pytest.approx(0.9 * math.hypot(0.01, 0.5))
-    sheet.close()
 
 
-def test_the_hinge_of_a_rod_is_framed_with_its_world(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
+def test_the_hinge_of_a_rod_is_framed_with_its_world(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
     left, low, right, high = sheet.page.evaluate(HUNG)
     assert (left, low, right) == (-1.0, 0.0, 1.0)
     # Triangle and ground are three times as high as half of a symbol, 0.12 m.
     assert high >= 5.0 + 2.9 * 0.12
-    sheet.close()
 
 
 def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
-    chromium: Any, address: str
+    open_sheet: OpenSheet,
 ) -> None:
-    sheet = Sheet(chromium, address, forced_colors='active')
+    sheet = open_sheet(forced_colors='active')
     sheet.press('Hand')
     hand, pen = (sheet.page.evaluate(BACKGROUND, name) for name in ('Hand', 'Pen'))
     assert hand != pen
-    sheet.close()
 
 
 def test_what_is_told_by_a_colour_keeps_it_in_the_colours_of_the_reader(
-    chromium: Any, address: str
+    open_sheet: OpenSheet,
 ) -> None:
-    sheet = Sheet(chromium, address, forced_colors='active')
+    sheet = open_sheet(forced_colors='active')
     for html in ('<ul class=histogram><li><span><i class=right></i></span></ul>', STICK):
         bar, paper = sheet.page.evaluate(COLOURS, html)
         assert bar != paper
-    sheet.close()
 
 
 @pytest.mark.parametrize('size', [(1366, 768), (390, 844), (844, 390), (683, 384), (600, 400)])
 def test_nothing_covers_the_walls_of_a_world_that_is_framed(
-    chromium: Any, address: str, size: tuple[int, int]
+    open_sheet: OpenSheet, size: tuple[int, int]
 ) -> None:
     width, height = size
-    sheet = Sheet(chromium, address, viewport={'width': width, 'height': height})
-    sheet.begin()
+    sheet = open_sheet(size=(width, height)).begin()
     sheet.press('Rectangle')
     hint = sheet.page.locator('#hint')
     hint.get_by_text('from corner to corner').wait_for()
@@ -156,12 +149,10 @@ def test_nothing_covers_the_walls_of_a_world_that_is_framed(
     assert below - above['y'] - above['height'] >= 0.6 * height
     reset = sheet.page.get_by_role('button', name='Reset').bounding_box()
     assert reset['x'] + reset['width'] <= bar['x'] + bar['width']
-    sheet.close()
 
 
-def test_a_stroke_that_begins_on_a_note_is_drawn(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+def test_a_stroke_that_begins_on_a_note_is_drawn(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet().begin()
     before = sheet.names()
     sheet.drag(*circle(1.0, 5.0, 0.8))
     sheet.wait_for_new(before)
@@ -173,26 +164,21 @@ def test_a_stroke_that_begins_on_a_note_is_drawn(chromium: Any, address: str) ->
     sheet.drag(*circle(x - 1.0, y, 1.0))
     sheet.wait_for_new(before)
     assert sheet.page.evaluate('getSelection().toString()') == ''
-    sheet.close()
 
 
-def test_the_grid_far_from_the_origin_has_no_line_beside_the_page(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address)
+def test_the_grid_far_from_the_origin_has_no_line_beside_the_page(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
     near, far = (sheet.page.evaluate(GRID_LINES, at) for at in (0.0, 10_000.0))
     assert len(far) == len(near) > 50
     assert all(0 <= x <= 1200.5 and 0 <= y <= 800.5 for x, y in far)
-    sheet.close()
 
 
 def test_on_a_small_page_a_panel_leaves_room_for_what_is_said_and_for_a_plot(
-    chromium: Any, address: str
+    open_sheet: OpenSheet,
 ) -> None:
-    sheet = Sheet(chromium, address, viewport={'width': 600, 'height': 400})
-    sheet.begin()
+    sheet = open_sheet(size=(600, 400)).begin()
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.wait_for()
     hint = sheet.page.locator('#hint').bounding_box()
@@ -204,7 +190,6 @@ def test_on_a_small_page_a_panel_leaves_room_for_what_is_said_and_for_a_plot(
     sheet.press('Large plot')
     plot = sheet.page.get_by_role('img', name='Large plot').bounding_box()
     assert min(plot['width'] / 2, plot['height']) > 80
-    sheet.close()
 
 
 # Words of a dialog that are broken in two where they have no soft hyphen.
@@ -226,7 +211,7 @@ BROKEN = """() => {
 
 @pytest.mark.parametrize('size', [(1280, 800), (768, 1024), (360, 740)])
 def test_the_hint_at_the_forces_of_many_bodies_is_a_few_lines(
-    chromium: Any, outside: Outside, size: tuple[int, int]
+    open_sheet: OpenSheet, outside: Outside, size: tuple[int, int]
 ) -> None:
     discs = ''.join(
         f'  - {{name: disc/{each}, circle: {{radius: 0.2}}, at: [{each - 6}, 3]}}\n'
@@ -235,7 +220,7 @@ def test_the_hint_at_the_forces_of_many_bodies_is_a_few_lines(
     _, address = started_world(
         outside, world=f'format: 1\nbounds: [-8, 0, 8, 9]\nbodies:\n{discs}'
     )
-    sheet = Sheet(chromium, address, viewport={'width': size[0], 'height': size[1]})
+    sheet = open_sheet(address, size=size)
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 13')
     sheet.press('Show forces')
     legend = sheet.page.locator('#legend')
@@ -245,16 +230,14 @@ def test_the_hint_at_the_forces_of_many_bodies_is_a_few_lines(
     assert text['height'] < 80, 'four lines'
     assert box['x'] >= 0
     assert box['x'] + box['width'] <= size[0]
-    sheet.close()
 
 
 @pytest.mark.parametrize('size', [(390, 844), (320, 640)])
 def test_on_a_telephone_words_and_choices_are_whole(
-    chromium: Any, outside: Outside, size: tuple[int, int]
+    open_sheet: OpenSheet, outside: Outside, size: tuple[int, int]
 ) -> None:
     _, address = started_world(outside)
-    viewport = {'width': size[0], 'height': size[1]}
-    sheet = Sheet(chromium, address, viewport=viewport, locale='de-DE')
+    sheet = open_sheet(address, size=size, locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
     sheet.press('Pause')
     sheet.press('Speichern')
@@ -271,7 +254,7 @@ def test_on_a_telephone_words_and_choices_are_whole(
     assert sheet.page.evaluate(BROKEN) == []
     sheet.page.keyboard.press('Escape')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.press('Mehr')
     sheet.press('Großes Diagramm')
     row = sheet.page.locator('#plot header > .row').bounding_box()
@@ -279,12 +262,10 @@ def test_on_a_telephone_words_and_choices_are_whole(
         box = sheet.page.get_by_label(label).bounding_box()
         assert row['x'] <= box['x']
         assert box['x'] + box['width'] <= row['x'] + row['width']
-    sheet.close()
 
 
-def test_numbers_beside_bodies_are_on_the_page(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+def test_numbers_beside_bodies_are_on_the_page(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet().begin()
     sheet.page.evaluate(PLACES)
     sheet.press('Show forces')
     sheet.wait('"9.81 N" in lowest')
@@ -299,4 +280,3 @@ def test_numbers_beside_bodies_are_on_the_page(chromium: Any, address: str) -> N
         )
         assert 1100 < end < 1200
     sheet.press('Undo')
-    sheet.close()

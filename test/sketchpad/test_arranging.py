@@ -24,7 +24,7 @@ def test_a_force_is_put_on_a_body_by_an_arrow_and_changed_in_its_panel(sheet: Sh
     sheet.press('Force')
     sheet.drag((-4.0, 4.0), (-2.0, 4.0))
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(-4.6, 4.0))
+    sheet.tap(-4.6, 4.0)
 
     newtons = sheet.page.get_by_label('Force [N] (1)')
     newtons.wait_for()

@@ -73,7 +73,7 @@ def test_a_teacher_freezes_a_pupil_and_sees_who_did_what(pages: tuple[Sheet, She
     frozen.wait_for()
     before = pupil.names()
     pupil.drag(*circle(3.0, 4.0, 0.8))
-    pupil.page.get_by_role('status').get_by_text('frozen').wait_for()
+    pupil.told('frozen')
     assert pupil.names() == before
     teacher.press('Let them draw again')
     frozen.wait_for(state='detached')

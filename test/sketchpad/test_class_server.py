@@ -458,12 +458,10 @@ def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
     anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
     for sheet in (anna, ben):
         sheet.begin(2)
-    anna.page.mouse.click(*anna.place(*anna.pose('heavy/0')[:2]))
+    anna.tap(*anna.pose('heavy/0')[:2])
     anna.page.get_by_text('Enter numbers').click()
-    field = anna.page.get_by_label('vx [m/s]')
-    field.fill('-2')
-    field.press('Enter')
-    anna.page.get_by_role('status').get_by_text('changed').wait_for()
+    anna.enter('vx [m/s]', '-2')
+    anna.told('changed')
     for sheet in (anna, ben):
         sheet.play_until(0.9)
 

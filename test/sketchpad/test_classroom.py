@@ -15,8 +15,9 @@ from types import ModuleType
 from typing import Any
 from urllib.parse import quote
 
-from physsim_ros.files import shipped_lessons
+from physsim_ros.files import DirectoryLock, finish_files, shipped_lessons
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import InUse
 from physsim_ros.model.lesson import LONGEST_TITLE
 from physsim_ros.ros import node_control, world_files
 from physsim_ros.simulation.world import Beginning, beginning_of
@@ -52,15 +53,7 @@ def test_a_teacher_freezes_the_pages_of_pupils_and_not_the_own(browser: Browser)
         assert page.last('welcome')['teacher'] is teaches
     assert boss.ask('freeze', frozen=True)['ok']
     pupil.until(lambda: any(each['frozen'] for each in pupil.of_type('class')))
-    for kind, fields in (
-        ('spawn', {'body': {'name': 'a/0', 'circle': {'radius': 1}}}),
-        ('stroke', {'points': [[0, 0, 0], [1, 1, 1]]}),
-        ('service', {'name': 'play'}),
-        ('seek', {'time': 0}),
-        ('open', {'name': 'demo'}),
-        ('grab', {'point': [0, 0]}),
-    ):
-        assert pupil.ask(kind, **fields)['code'] == 'frozen', kind
+    assert pupil.spawn('a/0')['code'] == 'frozen'
     for kind in ('drop', 'share'):
         assert pupil.ask(kind)['ok'], kind
     assert browser.open_world('format: 1')['code'] == 'frozen'
@@ -114,44 +107,6 @@ def test_thousands_of_names_may_be_locked_and_some_patterns(browser: Browser) ->
     assert pupil.spawn('a/1')['code'] == 'frozen'
 
 
-def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
-    pupil, boss = browser.open_page(), teacher(browser)
-    for name, x in (('a/0', 0.0), ('b/0', 4.0)):
-        pupil.spawn(name, x)
-    assert boss.ask('lock', names=['a/*'])['ok']
-    pupil.ask('click', tool='chain', point=[4, 5])
-    refused = (
-        ('click', {'tool': 'chain', 'point': [0, 5]}),
-        ('change', {'name': 'a/0', 'properties': {'mass': 2}}),
-        ('move_bodies', {'names': ['b/0', 'a/0'], 'by': [1, 0]}),
-        ('place', {'names': ['b/0', 'a/0'], 'poses': [[0, 0, 0], [1, 0, 0]]}),
-        ('delete', {'names': ['a/0']}),
-        ('grab', {'point': [0, 5]}),
-        ('click', {'tool': 'anchor', 'point': [0, 5]}),
-        ('click', {'tool': 'delete', 'point': [0, 5]}),
-        ('service', {'name': 'clear'}),
-        ('open', {'name': 'demo'}),
-    )
-    for kind, fields in refused:
-        id_ = pupil.send(kind, **fields)
-        pupil.until(lambda id_=id_: pupil.answers(id_))
-        # Nothing is told before it.
-        assert [each['code'] for each in pupil.answers(id_)] == ['frozen'], (kind, fields)
-    assert browser.open_world('format: 1')['code'] == 'frozen'
-    # A scribble over it.
-    zigzag = [[-0.6 + 0.1 * n, 5.5 if n % 2 else 4.5, 0.05 * n] for n in range(13)]
-    pupil.ask('stroke', points=zigzag)
-    assert 'a/0' in browser.physsim.names
-    for kind, fields in (
-        ('grab', {'point': [4, 5]}),
-        ('let_go', {}),
-        ('delete', {'names': ['b/0']}),
-    ):
-        assert pupil.ask(kind, **fields)['ok'], kind
-    assert boss.ask('lock', names=[])['ok']
-    assert pupil.ask('delete', names=['a/0'])['ok']
-
-
 MACHINES = """
 format: 1
 gravity: [0, 0]
@@ -168,62 +123,48 @@ joints:
 - {name: rope/0, kind: rope, a: l/0, b: l/1, points: [[5.5, 0], [6, 4], [6.5, 0]], over: [w/0]}
 - {name: gear/0, kind: gear, a: g/0, b: g/1, points: [[11, 0]], ratio: -1, carrier: c/0}
 """
-CHANGES: dict[str, tuple[str, str, dict[str, Any]]] = {
-    'its robot is moved': ('arm/0/upper/0', 'move_bodies', {'names': ['arm/0'], 'by': [1, 0]}),
-    'its robot is placed': ('arm/0/upper/0', 'place', {'names': ['arm/0'], 'poses': [[0, 1, 0]]}),
-    'its robot is deleted': ('arm/0/upper/0', 'delete', {'names': ['arm/0']}),
-    'its part is moved': ('arm/0', 'move_bodies', {'names': ['arm/0/upper/0'], 'by': [1, 0]}),
-    'its part is deleted': ('arm/0', 'delete', {'names': ['arm/0/upper/0']}),
-    'its part is clicked away': ('arm/0', 'click', {'tool': 'delete', 'point': [0.2, 0]}),
-    'its robot is changed': (
-        'arm/0/upper/0',
-        'change',
-        {'name': 'arm/0', 'properties': {'friction': 0.1}},
-    ),
-    'its motor is changed': (
-        'arm/0/upper/0',
-        'change_joint',
-        {'name': 'arm/0/shoulder/0', 'properties': {'effort': 1}},
-    ),
-    'its motor is commanded': (
-        'arm/0/upper/0',
-        'motor',
-        {'name': 'arm/0/shoulder/0', 'position': 0.5},
-    ),
-    'a rope over it is changed': (
-        'w/0',
-        'change_joint',
-        {'name': 'rope/0', 'properties': {'length': 9}},
-    ),
-    'a winch pulls over it': (
-        'w/0',
-        'change_joint',
-        {'name': 'rope/0', 'properties': {'rate': 1}},
-    ),
-    'a gear is changed that it carries': (
-        'c/0',
-        'change_joint',
-        {'name': 'gear/0', 'properties': {'ratio': 2}},
-    ),
-    'a rope over it is deleted': ('w/0', 'unjoin', {'name': 'rope/0'}),
-    'a gear is deleted that it carries': ('c/0', 'unjoin', {'name': 'gear/0'}),
+# Messages that change a machine, by a body of it.
+CHANGES: dict[str, list[tuple[str, dict[str, Any]]]] = {
+    'arm/0': [
+        ('move_bodies', {'names': ['arm/0/upper/0'], 'by': [1, 0]}),
+        ('delete', {'names': ['arm/0/upper/0']}),
+        ('click', {'tool': 'delete', 'point': [0.2, 0]}),
+    ],
+    'arm/0/upper/0': [
+        ('move_bodies', {'names': ['arm/0'], 'by': [1, 0]}),
+        ('place', {'names': ['arm/0'], 'poses': [[0, 1, 0]]}),
+        ('delete', {'names': ['arm/0']}),
+        ('change', {'name': 'arm/0', 'properties': {'friction': 0.1}}),
+        ('change_joint', {'name': 'arm/0/shoulder/0', 'properties': {'effort': 1}}),
+        ('motor', {'name': 'arm/0/shoulder/0', 'position': 0.5}),
+    ],
+    # A rope passes over it.
+    'w/0': [
+        ('change_joint', {'name': 'rope/0', 'properties': {'length': 9}}),
+        ('change_joint', {'name': 'rope/0', 'properties': {'rate': 1}}),
+        ('unjoin', {'name': 'rope/0'}),
+    ],
+    # It carries a gear.
+    'c/0': [
+        ('change_joint', {'name': 'gear/0', 'properties': {'ratio': 2}}),
+        ('unjoin', {'name': 'gear/0'}),
+    ],
 }
 
 
-@pytest.mark.parametrize('how', CHANGES)
+@pytest.mark.parametrize('locked', CHANGES)
 def test_a_part_of_a_machine_is_locked_against_what_changes_the_machine(
-    browser: Browser, tmp_path: Path, how: str
+    browser: Browser, tmp_path: Path, locked: str
 ) -> None:
     (tmp_path / 'machines.yaml').write_text(MACHINES)
-    browser.physsim.load(tmp_path / 'machines.yaml')
-    browser.physsim.step()
     pupil, boss = browser.open_page(), teacher(browser)
-    name, kind, fields = CHANGES[how]
-    assert name in browser.physsim.names
-    assert boss.ask('lock', names=[name])['ok']
-    assert pupil.ask(kind, **fields)['code'] == 'frozen'
-    assert boss.ask('lock', names=[])['ok']
-    assert pupil.ask(kind, **fields)['ok']
+    for kind, fields in CHANGES[locked]:
+        browser.physsim.load(tmp_path / 'machines.yaml')
+        browser.physsim.step()
+        assert boss.ask('lock', names=[locked])['ok']
+        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
+        assert boss.ask('lock', names=[])['ok']
+        assert pupil.ask(kind, **fields)['ok'], (kind, fields)
 
 
 def test_time_brings_no_locked_body_back_or_away_but_for_a_teacher(browser: Browser) -> None:
@@ -353,20 +294,6 @@ def test_a_lock_belongs_to_its_world(browser: Browser) -> None:
     assert browser.physsim.node.control.locked_bodies == ('drawn/*',)
 
 
-@pytest.mark.parametrize('role', [Role.DRAW, Role.VIEW])
-def test_what_is_for_teachers_is_refused_to_others(browser: Browser, role: Role) -> None:
-    page = browser.open_page(cookie=browser.cookie_of(role))
-    code = 'teacher_only' if role is Role.DRAW else 'view_only'
-    for kind, fields in (
-        ('freeze', {'frozen': True}),
-        ('lock', {'names': ['*']}),
-        ('leave', {}),
-        ('clear_of', {'person': 'Anna'}),
-    ):
-        assert page.ask(kind, **fields)['code'] == code
-    assert browser.fetch('/qr.svg').code == 403
-
-
 def test_people_have_names_and_answers_say_who_did_it(browser: Browser) -> None:
     anna, ben, viewer = browser.open_page(), teacher(browser), browser.open_page('/ws?view')
     assert anna.ask('person', name=' Anna ')['ok']
@@ -482,7 +409,8 @@ def test_the_address_of_pupils_is_a_qr_code_for_teachers(browser: Browser) -> No
     assert image.headers['Content-Type'] == 'image/svg+xml'
     size = segno.make(browser.url(Role.DRAW), micro=False).symbol_size(scale=8, border=4)[0]
     assert f'width="{size}"'.encode() in image.body
-    assert browser.fetch('/qr.svg').code == 403
+    for role in (Role.DRAW, Role.VIEW):
+        assert browser.fetch('/qr.svg', cookie=browser.cookie_of(role)).code == 403
 
 
 def test_driving_is_one_gesture_though_others_draw_meanwhile(browser: Browser) -> None:
@@ -573,11 +501,16 @@ def test_results_stay_and_an_answer_that_was_right_is_not_lost(
         return [person['answered']['lesson'] for person in told if person['answered']]
 
     again.until(lambda: last_lessons() == ['Lever'])
-    kept = Results(results_file(tmp_path))
+    kept = Results(results_file(tmp_path), DirectoryLock(tmp_path))
     assert kept.last_of('Anna')['lesson'] == 'Lever'
-    assert kept.note('Anna', 'Lever', '1', right=True)['tries'] == 2
+    with pytest.raises(InUse):
+        kept.note('Anna', 'Lever', '1', right=True, visitor='Page 1')
     assert teacher(browser).ask('forget_results')['ok']
     assert results() == []
+    browser.physsim.node.destroy_node()
+    finish_files()
+    # What is in the file counts when the lock is there.
+    assert kept.note('Anna', 'Lever', '1', right=True, visitor='Page 1')['tries'] == 1
 
 
 def test_neither_world_nor_pages_wait_for_a_slow_disk_and_no_answer_is_lost(
@@ -615,27 +548,54 @@ def test_neither_world_nor_pages_wait_for_a_slow_disk_and_no_answer_is_lost(
     assert kept == [(f'Pupil {number}', '2') for number in range(3)]
 
 
-def test_the_greatest_results_fit_into_their_file(tmp_path: Path) -> None:
-    kept, sign = Results(results_file(tmp_path)), '\N{GRINNING FACE}'
-    for number in range(MOST_RESULTS + 1):
+def test_the_greatest_results_fit_into_their_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lock, sign = DirectoryLock(tmp_path), '\N{GRINNING FACE}'
+    kept = Results(results_file(tmp_path), lock)
+
+    def note(number: int) -> None:
         person = f'{number}{sign * LONGEST_PERSON}'[:LONGEST_PERSON]
-        kept.note(person, sign * LONGEST_TITLE, sign * LONGEST_ANSWER, right=True)
-    assert list(Results(results_file(tmp_path))) == list(kept)
+        kept.note(person, sign * LONGEST_TITLE, sign * LONGEST_ANSWER, right=True, visitor=person)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(results, 'write_file', lambda *_, **__: None)
+        for number in range(MOST_RESULTS):
+            note(number)
+    note(MOST_RESULTS)
+    assert list(Results(results_file(tmp_path), lock)) == list(kept)
     assert len(list(kept)) == MOST_RESULTS
 
 
+def test_one_visitor_of_many_names_and_lessons_drives_out_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lock = DirectoryLock(tmp_path)
+    Results(results_file(tmp_path), lock).note('Zoe', 'L', '1', right=True, visitor='Page 1')
+    kept = Results(results_file(tmp_path), lock)
+    for name in ('Anna', 'Ben'):
+        kept.note(name, 'Lever', '1', right=True, visitor=name)
+    monkeypatch.setattr(results, 'write_file', lambda *_, **__: None)
+    for number in range(MOST_RESULTS + 1):
+        kept.note(f'n{number % 9}', f'{number}', '1', right=True, visitor='Page 1')
+    people = [each['person'] for each in kept]
+    assert len(people) == MOST_RESULTS
+    assert people[:3] == ['Zoe', 'Anna', 'Ben']
+    assert kept.last_of(f'n{MOST_RESULTS % 9}')['lesson'] == str(MOST_RESULTS)
+
+
 def test_an_answer_that_cannot_be_written_is_refused_and_not_counted(tmp_path: Path) -> None:
-    results = Results(results_file(tmp_path))
-    results.note('Anna', 'Lever', '1', right=False)
+    results = Results(results_file(tmp_path), DirectoryLock(tmp_path))
+    results.note('Anna', 'Lever', '1', right=False, visitor='Page 1')
     results_file(tmp_path).unlink()
     results_file(tmp_path).mkdir()
     with pytest.raises(OSError, match='directory'):
-        results.note('Anna', 'Lever', '2', right=True)
+        results.note('Anna', 'Lever', '2', right=True, visitor='Page 1')
     with pytest.raises(OSError, match='directory'):
         results.forget()
     assert [(each['answer'], each['tries']) for each in results] == [('1', 1)]
     results_file(tmp_path).rmdir()
-    assert results.note('Anna', 'Lever', '2', right=True)['tries'] == 2
+    assert results.note('Anna', 'Lever', '2', right=True, visitor='Page 1')['tries'] == 2
 
 
 def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path) -> None:
@@ -644,11 +604,11 @@ def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path)
     )
     spoilt = (f'[{one % tries}]' for tries in ('"x"', 'Infinity', '[]', 'true', '1, "x": NaN'))
     half = '[{"person": "\\ud800"}]'
+    lock = DirectoryLock(tmp_path)
     for text in ('', '{', '[1]', '{}', '[{}]', '\udcff', '[' * 100_000, half, *spoilt):
         results_file(tmp_path).write_text(text, errors='surrogateescape')
-        assert (
-            Results(results_file(tmp_path)).note('Anna', 'Lever', '1', right=False)['tries'] == 1
-        )
+        kept = Results(results_file(tmp_path), lock)
+        assert kept.note('Anna', 'Lever', '1', right=False, visitor='Page 1')['tries'] == 1
 
 
 def test_lessons_of_another_directory_reach_the_world(

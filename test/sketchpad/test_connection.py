@@ -5,13 +5,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import json
 import re
 from typing import Any
 
 import pytest
 
-from .chromium import circle, Sheet, started_world
+from .chromium import circle, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 # Notes what the line of answers says from now on.
@@ -23,19 +24,31 @@ STATUSES = """() => {
 }"""
 
 
+Message = str | bytes
+# Of a message by the number of its socket: the message that arrives, None if it is lost.
+Way = Callable[[int, Message], Message | None]
+
+
+def unchanged(_: int, message: Message) -> Message:
+    return message
+
+
 class Cable:
     """
-    What a page's sockets pass through.
+    The way of all messages between a page and its server.
 
     :param sheet: the page, before it is opened
+    :param out: the way of its own messages
+    :param back: the way of those to it
 
     :ivar sockets: that the page has opened, also those in vain
     """
 
-    def __init__(self, sheet: Sheet) -> None:
+    def __init__(self, sheet: Sheet, *, out: Way = unchanged, back: Way = unchanged) -> None:
         self.sockets: list[Any] = []
         self._is_cut = False
-        sheet.page.route_web_socket('**/ws*', self._pass_on)
+        self._out, self._back = out, back
+        sheet.page.route_web_socket('**/ws*', self._connect)
 
     def cut(self) -> None:
         """Close all sockets, and those that are opened from now on."""
@@ -47,16 +60,24 @@ class Cable:
         """Connect the sockets that are opened from now on."""
         self._is_cut = False
 
-    def _pass_on(self, socket: Any) -> None:
+    def _connect(self, socket: Any) -> None:
+        number = len(self.sockets)
         self.sockets.append(socket)
         if self._is_cut:
             socket.close()
-        else:
-            socket.connect_to_server()
+            return
+        server = socket.connect_to_server()
+        for begin, end, way in ((socket, server, self._out), (server, socket, self._back)):
+
+            def pass_on(message: Message, *, end: Any = end, way: Way = way) -> None:
+                if (arrived := way(number, message)) is not None:
+                    end.send(arrived)
+
+            begin.on_message(pass_on)
 
 
-def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, 'about:blank')
+def test_the_page_comes_back_when_its_socket_was_cut(open_sheet: OpenSheet, address: str) -> None:
+    sheet = open_sheet('about:blank')
     cable = Cable(sheet)
     sheet.page.goto(address)
     sheet.begin()
@@ -73,13 +94,13 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.page.reload()
     sheet.wait('heard.people')
     assert sheet.page.evaluate('heard.people') == people
-    sheet.close()
 
 
 def test_a_page_without_a_server_tells_what_was_done_alone_and_its_slider_comes_back(
-    chromium: Any, address: str
+    open_sheet: OpenSheet, address: str
 ) -> None:
-    other, sheet = Sheet(chromium, address), Sheet(chromium, 'about:blank')
+    open_sheet()
+    sheet = open_sheet('about:blank')
     cable = Cable(sheet)
     sheet.page.goto(address)
     sheet.begin()
@@ -103,30 +124,25 @@ def test_a_page_without_a_server_tells_what_was_done_alone_and_its_slider_comes_
     alert.wait_for(state='hidden')
     sheet.play_until(0.5)
     sheet.wait("document.querySelector('#slider').value > 0.5")
-    for each in (other, sheet):
-        each.close()
 
 
-def test_an_answer_is_told_once_though_its_body_never_comes(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, 'about:blank')
-    sockets: list[Any] = []
+def test_an_answer_is_told_once_though_its_body_never_comes(
+    open_sheet: OpenSheet, address: str
+) -> None:
+    sheet = open_sheet('about:blank')
     is_told = False
 
-    def pass_on(socket: Any) -> None:
-        def take(text: str | bytes) -> None:
-            if not (is_told and isinstance(text, str) and '"type":"answer"' in text):
-                socket.send(text)
+    def back(_: int, message: Message) -> Message | None:
+        is_lost = is_told and isinstance(message, str) and '"type":"answer"' in message
+        return None if is_lost else message
 
-        sockets.append(socket)
-        socket.connect_to_server().on_message(take)
-
-    sheet.page.route_web_socket('**/ws*', pass_on)
+    cable = Cable(sheet, back=back)
     sheet.page.goto(address)
     sheet.begin()
     answer = {'request': '0', 'ok': True, 'code': '', 'topic': '~/spawn', 'values': {}}
     told = {'message': 'deleted drawn/99', 'subject': 'drawn/99'}
-    sockets[0].send(json.dumps({'type': 'answer'} | answer | told))
-    sheet.page.get_by_role('status').get_by_text('Body deleted').wait_for()
+    cable.sockets[0].send(json.dumps({'type': 'answer'} | answer | told))
+    sheet.told('Body deleted')
     sheet.page.evaluate(STATUSES)
     # The next scene comes without an answer.
     is_told = True
@@ -135,14 +151,13 @@ def test_an_answer_is_told_once_though_its_body_never_comes(chromium: Any, addre
     sheet.drag((1.0, 6.0), (1.5, 6.0))
     sheet.wait_for_new(before)
     assert sheet.page.evaluate('statuses') == []
-    sheet.close()
 
 
 @pytest.mark.parametrize('lost', ['requests', 'answers'])
 def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_once(
-    chromium: Any, address: str, lost: str
+    open_sheet: OpenSheet, address: str, lost: str
 ) -> None:
-    sheet = Sheet(chromium, 'about:blank')
+    sheet = open_sheet('about:blank')
     # Three times as fast. An alert may be shown for less time than a busy machine takes to look.
     sheet.page.add_init_script(
         """const waits = setInterval;
@@ -151,23 +166,18 @@ def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_o
         const look = () => { alerts += document.querySelector('[role=alert]')?.textContent; };
         new MutationObserver(look).observe(document, {childList: true, subtree: true});"""
     )
-    is_dead, sockets, drawn = False, [], []
+    is_dead, drawn = False, []
 
-    def pass_on(socket: Any) -> None:
-        number, server = len(sockets), socket.connect_to_server()
-        sockets.append(socket)
+    def out(number: int, text: str) -> str | None:
+        if not is_dead or number:
+            return text
+        drawn.extend([text] if '"stroke"' in text else [])
+        return None if lost == 'requests' or 'ping' in text else text
 
-        def send_out(text: str) -> None:
-            if is_dead and number == 0:
-                drawn.extend([text] if '"stroke"' in text else [])
-                if lost == 'requests' or 'ping' in text:
-                    return
-            server.send(text)
+    def back(number: int, message: Message) -> Message | None:
+        return None if is_dead and number == 0 else message
 
-        socket.on_message(send_out)
-        server.on_message(lambda text: (is_dead and number == 0) or socket.send(text))
-
-    sheet.page.route_web_socket('**/ws*', pass_on)
+    cable = Cable(sheet, out=out, back=back)
     sheet.page.goto(address)
     sheet.begin()
     before = sheet.names()
@@ -175,7 +185,7 @@ def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_o
         is_dead = True
     sheet.wait_for_new(before)
     assert drawn
-    assert len(sockets) == 2
+    assert len(cable.sockets) == 2
     assert 'does not answer' in sheet.page.evaluate('alerts')
     assert 'refused' not in sheet.page.evaluate('alerts')
     assert sheet.page.get_by_role('alert').is_hidden()
@@ -183,13 +193,12 @@ def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_o
     sheet.press('Play')
     sheet.wait('physsim.speed === 1')
     assert len(sheet.names()) == len(before) + 1
-    sheet.close()
 
 
 def test_a_dead_socket_is_told_within_three_seconds_and_then_what_may_be_lost(
-    chromium: Any, address: str
+    open_sheet: OpenSheet, address: str
 ) -> None:
-    sheet = Sheet(chromium, 'about:blank')
+    sheet = open_sheet('about:blank')
     # The looks whether something has come, each half a second.
     sheet.page.add_init_script(
         """const waits = setInterval;
@@ -197,15 +206,12 @@ def test_a_dead_socket_is_told_within_three_seconds_and_then_what_may_be_lost(
         window.setInterval = (call, pause) =>
             pause === 500 ? looks.push(call) : waits(call, pause);"""
     )
-    is_dead, sockets = False, []
+    is_dead = False
 
-    def pass_on(socket: Any) -> None:
-        number, server = len(sockets), socket.connect_to_server()
-        sockets.append(socket)
-        socket.on_message(lambda text: (is_dead and number == 0) or server.send(text))
-        server.on_message(lambda text: (is_dead and number == 0) or socket.send(text))
+    def way(number: int, message: Message) -> Message | None:
+        return None if is_dead and number == 0 else message
 
-    sheet.page.route_web_socket('**/ws*', pass_on)
+    Cable(sheet, out=way, back=way)
     sheet.page.goto(address)
     sheet.begin()
     is_dead = True
@@ -219,7 +225,6 @@ def test_a_dead_socket_is_told_within_three_seconds_and_then_what_may_be_lost(
     note = sheet.page.locator('#dock .note')
     note.get_by_text('Of what you did meanwhile, 1 may be lost').wait_for()
     sheet.wait('Object.keys(physsim.bodies).length === 4')
-    sheet.close()
 
 
 def test_a_server_that_closes_each_socket_is_asked_ever_less_often(
@@ -247,27 +252,20 @@ def test_a_server_that_closes_each_socket_is_asked_ever_less_often(
 
 
 def test_the_page_is_loaded_again_where_another_version_of_the_server_comes_back(
-    chromium: Any, address: str
+    open_sheet: OpenSheet, address: str
 ) -> None:
-    sheet = Sheet(chromium, 'about:blank')
-    sockets: list[Any] = []
+    sheet = open_sheet('about:blank')
 
-    def pass_on(socket: Any) -> None:
-        sockets.append(socket)
-        server = socket.connect_to_server()
-        if len(sockets) > 1:
-            version = '"version":2', '"version":3'
-            server.on_message(
-                lambda text: socket.send(text.replace(*version) if isinstance(text, str) else text)
-            )
+    def back(number: int, message: Message) -> Message:
+        is_other = number > 0 and isinstance(message, str)
+        return message.replace('"version":2', '"version":3') if is_other else message
 
-    sheet.page.route_web_socket('**/ws*', pass_on)
+    cable = Cable(sheet, back=back)
     sheet.page.goto(address)
     sheet.begin()
     with sheet.page.expect_navigation():
-        sockets[0].close()
+        cable.sockets[0].close()
     sheet.wait('Object.keys(physsim.bodies).length === 3')
-    sheet.close()
 
 
 def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
@@ -314,40 +312,33 @@ def test_a_wrong_token_opens_nothing_and_says_so(chromium: Any, address: str) ->
     context.close()
 
 
-def test_a_page_that_only_shows_has_no_tools(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, f'{address}&view')
+def test_a_page_that_only_shows_has_no_tools(open_sheet: OpenSheet, address: str) -> None:
+    sheet = open_sheet(f'{address}&view')
     sheet.wait('Object.keys(physsim.bodies).length > 0')
     assert sheet.page.get_by_role('button').count() == 0
-    sheet.close()
 
 
 def test_the_world_is_framed_alike_whatever_message_comes_last(
-    chromium: Any, address: str
+    open_sheet: OpenSheet, address: str
 ) -> None:
     # With two people the bars of a phone have a button more, and need another line.
-    other = Sheet(chromium, address)
+    open_sheet()
     places = []
     for late in ('"type":"worlds"', '"type":"class"'):
-        sheet = Sheet(chromium, 'about:blank', viewport={'width': 390, 'height': 844})
-        sockets: list[Any] = []
-        held: list[str] = []
+        sheet = open_sheet('about:blank', size=(390, 844))
+        held: list[Message] = []
 
-        def pass_on(socket: Any, *, late=late, sockets=sockets, held=held) -> None:
-            def take(text: str | bytes) -> None:
-                is_late = isinstance(text, str) and late in text
-                held.append(text) if is_late else socket.send(text)
+        def back(_: int, message: Message, late=late, held=held) -> Message | None:
+            is_late = isinstance(message, str) and late in message
+            return held.append(message) if is_late else message
 
-            sockets.append(socket)
-            socket.connect_to_server().on_message(take)
-
-        sheet.page.route_web_socket('**/ws*', pass_on)
+        cable = Cable(sheet, back=back)
         sheet.page.goto(address)
         sheet.wait('Object.keys(physsim.bodies).length > 0')
         sheet.until(lambda held=held: held, late)
-        sockets[0].send(held[0])
+        cable.sockets[0].send(held[0])
         sheet.page.get_by_role('button', name='People').wait_for()
         sheet.wait('true')
         places.append(sheet.place(0.0, 0.0))
         sheet.close()
     assert places[0] == places[1]
-    other.close()

@@ -5,11 +5,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
-from .chromium import Sheet
+from .chromium import OpenSheet, Sheet
 
 # Of `INTERFACE.md`, *The page*.
 BUTTONS = """
@@ -67,13 +65,10 @@ def poor(sheet: Sheet) -> dict[str, float]:
 
 
 @pytest.fixture(params=['desk', 'phone'])
-def sheet(chromium: Any, address: str, request: pytest.FixtureRequest) -> Any:
+def sheet(open_sheet: OpenSheet, request: pytest.FixtureRequest) -> Sheet:
     """Give a test a page of either size."""
-    phone = {'viewport': {'width': 390, 'height': 844}, 'has_touch': True}
-    sheet = Sheet(chromium, address, **(phone if request.param == 'phone' else {}))
-    sheet.begin()
-    yield sheet
-    sheet.close()
+    phone = {'size': (390, 844), 'has_touch': True}
+    return open_sheet(**(phone if request.param == 'phone' else {})).begin()
 
 
 def test_every_name_of_the_contract_is_there_once_and_large_enough_for_a_finger(
@@ -109,17 +104,16 @@ def test_window_physsim_is_that_of_the_contract(sheet: Sheet) -> None:
 
 
 @pytest.mark.parametrize('scheme', ['light', 'dark'])
-def test_all_that_is_to_be_read_has_contrast(chromium: Any, address: str, scheme: str) -> None:
-    sheet = Sheet(chromium, address, color_scheme=scheme, reduced_motion='reduce')
-    sheet.begin()
+def test_all_that_is_to_be_read_has_contrast(open_sheet: OpenSheet, scheme: str) -> None:
+    sheet = open_sheet(color_scheme=scheme, reduced_motion='reduce').begin()
     assert sheet.page.evaluate('document.documentElement.dataset.theme') == scheme
     assert poor(sheet) == {}
     sheet.press('Anchor')
-    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
+    sheet.tap(-2.0, 6.0)
     sheet.page.locator('.note.refusal').wait_for()
     assert poor(sheet) == {}
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     assert poor(sheet) == {}
     for name in ('Worlds', 'Save', 'Help'):
@@ -128,21 +122,18 @@ def test_all_that_is_to_be_read_has_contrast(chromium: Any, address: str, scheme
         sheet.page.locator('dialog[open]').wait_for()
         assert poor(sheet) == {}
         sheet.page.keyboard.press('Escape')
-    sheet.close()
 
 
-def test_nothing_moves_by_itself_for_those_who_wish_so(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, reduced_motion='reduce')
-    sheet.begin()
+def test_nothing_moves_by_itself_for_those_who_wish_so(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(reduced_motion='reduce').begin()
     sheet.press('Circle')
     sheet.drag((0.0, 6.0), (0.4, 6.0))
     # The hint points at the hand now.
     sheet.page.locator('button.next').wait_for()
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     assert sheet.page.evaluate('document.getAnimations().length') == 0
-    sheet.close()
 
 
 def test_a_screen_reader_finds_the_bodies_with_their_places(sheet: Sheet) -> None:
@@ -158,11 +149,8 @@ def test_a_screen_reader_finds_the_bodies_with_their_places(sheet: Sheet) -> Non
     sheet.until(lambda: items.count() == len(texts), 'a list of three')
 
 
-def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet().begin()
     tip = sheet.page.get_by_role('tooltip')
     button = sheet.page.get_by_role('button', name='Rectangle', exact=True)
     button.hover()
@@ -173,11 +161,10 @@ def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
     sheet.press('Circle')
     assert tip.count() == 0
     assert 'corner to corner' in button.get_attribute('title')
-    sheet.close()
 
 
-def test_hints_lead_from_a_first_body_to_a_changed_past(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
+def test_hints_lead_from_a_first_body_to_a_changed_past(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
     hint = sheet.page.locator('#hint')
     hint.get_by_text('Draw').wait_for()
     sheet.begin()
@@ -201,10 +188,9 @@ def test_hints_lead_from_a_first_body_to_a_changed_past(chromium: Any, address: 
     hint.get_by_text('the past').wait_for()
     sheet.press('Pause')
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('box/0')[:2]))
+    sheet.tap(*sheet.pose('box/0')[:2])
     hint.get_by_text('what happened before').wait_for()
     # A step that was done is not taught again.
     sheet.page.reload()
     sheet.wait('Object.keys(physsim.bodies).length > 0')
     assert 'Draw a circle' not in hint.inner_text()
-    sheet.close()

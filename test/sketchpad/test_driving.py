@@ -5,13 +5,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import re
-from typing import Any
 
 import pytest
 
-from .chromium import PIXEL, Sheet
+from .chromium import OpenSheet, PIXEL, Sheet
 
 WORLD = """
 format: 1
@@ -29,17 +27,14 @@ bodies:
 
 
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet) -> Sheet:
     """Give a test a page whose robot is selected, from the beginning of the world."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(3)
-    sheet.page.mouse.click(*sheet.place(0.0, 0.0))
+    sheet = open_sheet().begin(3)
+    sheet.tap(0.0, 0.0)
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_role('heading', name='differential · /tb3_0').wait_for()
     sheet.press('Play')
-    yield sheet
-    assert not sheet.errors
-    sheet.close()
+    return sheet
 
 
 def tool(sheet: Sheet) -> str:
@@ -75,7 +70,7 @@ def test_keys_drive_the_robot_that_is_selected(sheet: Sheet) -> None:
 def test_a_robot_stops_when_another_body_is_selected(sheet: Sheet) -> None:
     sheet.page.keyboard.down('w')
     sheet.wait('physsim.bodies["tb3/0"][0] > 0.1')
-    sheet.page.mouse.click(*sheet.place(-1.0, 1.0))
+    sheet.tap(-1.0, 1.0)
     sheet.until(lambda: at_rest(sheet), 'rest')
     # Far from the wall that would stop it, too.
     assert sheet.pose('tb3/0')[0] < 1.5
@@ -112,7 +107,7 @@ def test_the_stick_drives_it_and_lets_it_stop(sheet: Sheet) -> None:
 
 
 def test_the_panel_of_an_actor_says_what_it_follows(sheet: Sheet) -> None:
-    sheet.page.mouse.click(*sheet.place(1.0, 1.5))
+    sheet.tap(1.0, 1.5)
     sheet.page.get_by_text(
         'Follows a path, to and fro · 2 points · 0.5 m/s · starts when crate/0 is within 1 m'
     ).wait_for()

@@ -13,7 +13,7 @@ from .chromium import Sheet
 def test_bodies_are_copied_cut_pasted_and_all_selected_by_keys(sheet: Sheet) -> None:
     keyboard, before = sheet.page.keyboard, sheet.names()
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     keyboard.press('Control+c')
     sheet.page.mouse.move(*sheet.place(-2.0, 6.0))
     keyboard.press('Control+v')
@@ -49,14 +49,14 @@ def test_a_text_that_is_selected_is_copied_as_a_text(sheet: Sheet) -> None:
     sheet.page.evaluate(
         'document.addEventListener("copy", () => { window.copied = String(getSelection()); })'
     )
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('bob/0')[:2]))
+    sheet.tap(*sheet.pose('bob/0')[:2])
     sheet.page.locator('#lesson .question').click(click_count=3)
     sheet.page.keyboard.press('Control+c')
     assert sheet.page.evaluate('window.copied').startswith('How long does a pendulum of 2.5 m')
     # On the canvas, bodies are copied, though the text is still selected.
     sheet.page.locator('#world').focus()
     sheet.page.keyboard.press('Control+c')
-    sheet.page.get_by_role('status').get_by_text('Copied', exact=True).wait_for()
+    sheet.told('Copied', exact=True)
     sheet.press('Undo')
     sheet.wait('"ball/0" in physsim.bodies')
 

@@ -5,16 +5,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.files import shipped_lessons, worlds_in
 from physsim_ros.model.transform import local_to_world, ORIGIN
 import pytest
 
-from .chromium import Sheet
+from .chromium import OpenSheet, Sheet
 from ..worlds.film import Film, simulation, state_of
 
 # Time in which what each lesson asks for has been seen [s], and the body that is tapped.
@@ -101,13 +100,11 @@ def test_every_lesson_has_its_experiment() -> None:
 
 
 @pytest.fixture(params=[(1280, 800), (390, 844), (320, 640)], ids=lambda size: str(size[0]))
-def sheet(chromium: Any, address: str, request: pytest.FixtureRequest) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, request: pytest.FixtureRequest) -> Sheet:
     """Give a test a page of a size."""
-    width, height = request.param
-    sheet = Sheet(chromium, address, unfolded=False, viewport={'width': width, 'height': height})
+    sheet = open_sheet(unfolded=False, size=request.param)
     sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def begin(sheet: Sheet, name: str) -> None:
@@ -155,7 +152,7 @@ def test_the_experiment_is_the_page(sheet: Sheet) -> None:
         assert sheet.page.get_by_text('To measure:').is_hidden()
         assert sheet.page.get_by_role('textbox', name='Your answer').is_visible()
         found[name].append(shares(sheet, name))
-        sheet.page.mouse.click(*sheet.place(*sheet.pose(body)[:2]))
+        sheet.tap(*sheet.pose(body)[:2])
         sheet.page.get_by_role('complementary', name='Body').wait_for()
         # Numbers alone.
         assert sheet.page.get_by_role('slider', name='Friction', exact=True).is_hidden()

@@ -141,7 +141,7 @@ def test_files_and_directories_are_for_this_user_alone(browser: Browser) -> None
     assert {stat.S_IMODE(mode) for mode in made.values() if stat.S_ISREG(mode)} == {0o600}
     assert {stat.S_IMODE(mode) for mode in made.values() if stat.S_ISDIR(mode)} == {0o700}
     assert stat.S_IMODE(worlds.stat().st_mode) == 0o700
-    assert len(made) == 6
+    assert len(made) == 7
 
 
 def test_a_page_is_served_though_its_address_cannot_be_printed(

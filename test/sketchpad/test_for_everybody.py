@@ -6,9 +6,8 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 
-from .chromium import Sheet
+from .chromium import OpenSheet, Sheet
 
 # The page's clock runs ten times faster than before.
 SLOWED = """() => {
@@ -38,8 +37,8 @@ def keys(sheet: Sheet, *pressed: str) -> list[str]:
     return names
 
 
-def test_tab_comes_to_play_in_five_steps(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
+def test_tab_comes_to_play_in_five_steps(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
     sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
     assert len(tab_to(sheet, 'Play')) <= 5
     assert keys(sheet, 'ArrowRight', 'ArrowLeft', 'End', 'Home') == [
@@ -50,7 +49,6 @@ def test_tab_comes_to_play_in_five_steps(chromium: Any, address: str) -> None:
     ]
     # Back and forth, Tab comes to the button that was reached last.
     assert keys(sheet, 'Tab', 'Shift+Tab')[-1] == 'Fast rewind'
-    sheet.close()
 
 
 def test_arrow_keys_move_in_the_columns_of_tools(sheet: Sheet) -> None:
@@ -91,7 +89,7 @@ def test_a_button_that_is_pressed_by_a_key_keeps_the_focus(sheet: Sheet) -> None
 def test_keys_belong_to_the_control_that_has_the_focus(sheet: Sheet) -> None:
     pen = sheet.page.get_by_role('button', name='Pen', exact=True)
     sheet.press('Pen')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     ways = sheet.page.get_by_label('Lets others pass')
     ways.focus()
     sheet.page.keyboard.press('ArrowDown')
@@ -172,7 +170,7 @@ def test_a_screen_reader_is_told_what_the_selected_body_does(sheet: Sheet) -> No
     sheet.press('Hand')
     sheet.drag((0.0, 0.5), (0.0, 4.0))
     sheet.wait("physsim.bodies['ball/0'][1] > 3")
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('ball/0')[:2]))
+    sheet.tap(*sheet.pose('ball/0')[:2])
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     sheet.press('Play')
     log.get_by_text('ball/0 touches a wall at').wait_for()
@@ -190,17 +188,15 @@ def test_a_screen_reader_is_told_of_all_bodies_where_somebody_asks(sheet: Sheet)
     sheet.press('Pause')
 
 
-def test_buttons_of_the_legend_are_as_large_as_a_finger(chromium: Any, address: str) -> None:
-    for width, height in ((1200, 800), (390, 844), (844, 390)):
-        size = {'width': width, 'height': height}
-        sheet = Sheet(chromium, address, viewport=size, has_touch=True, is_mobile=True)
+def test_buttons_of_the_legend_are_as_large_as_a_finger(open_sheet: OpenSheet) -> None:
+    for size in ((1200, 800), (390, 844), (844, 390)):
+        sheet = open_sheet(size=size, has_touch=True, is_mobile=True)
         sheet.press('Show forces')
         buttons = sheet.page.locator('#legend button:visible')
         buttons.first.wait_for()
         boxes = [each.bounding_box() for each in buttons.all()]
         assert boxes
         assert all(min(box['width'], box['height']) >= 44 for box in boxes)
-        sheet.close()
 
 
 def test_the_reason_of_a_slow_world_is_told_once(sheet: Sheet) -> None:

@@ -6,12 +6,11 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from physsim_ros.files import shipped_lessons
 import pytest
 
-from .chromium import NOTE_TEXTS, Sheet, started_world
+from .chromium import NOTE_TEXTS, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 G = 9.81
@@ -175,7 +174,7 @@ def test_on_a_body_that_is_tapped_forces_have_their_names_and_others_have_none(
 ) -> None:
     sheet.play_until(1.0)
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(3.0, 4.0))
+    sheet.tap(3.0, 4.0)
     sheet.wait('physsim.forces.every(({name}) => name === "bob/0")')
     assert set(numbers_on(sheet, 'bob/0')) == {'weight', 'joint', 'sum'}
 
@@ -195,7 +194,7 @@ def test_what_was_moved_in_a_paused_world_has_no_contacts_any_more_and_others_ke
 
 def test_the_ring_of_a_fast_body_stays_on_the_page(sheet: Sheet) -> None:
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 7.0))
+    sheet.tap(0.0, 7.0)
     sheet.wait('Number.isFinite(physsim.scales.speed)')
     length = 18.0 * sheet.page.evaluate('physsim.scales.speed')
     assert 40 < length < 300
@@ -205,13 +204,13 @@ def test_the_ring_of_a_fast_body_stays_on_the_page(sheet: Sheet) -> None:
     sheet.page.mouse.down()
     sheet.page.mouse.move(x, y - length / 2 - 22, steps=5)
     sheet.page.mouse.up()
-    sheet.page.get_by_role('status').get_by_text('changed').wait_for()
+    sheet.told('changed')
     sheet.press('Step')
     sheet.wait('physsim.bodies["ball/0"][1] > 7.1')
 
 
 def test_a_round_arrow_has_the_torque_on_a_ball_that_rolls_and_its_angular_momentum(
-    chromium: Any, outside: Outside
+    open_sheet: OpenSheet, outside: Outside
 ) -> None:
     world = """
 format: 1
@@ -221,12 +220,11 @@ bodies:
   - {name: ball/0, circle: {radius: 0.5}, at: [-3.6, 3.985], friction: 1, elasticity: 0, mass: 2}
 """
     program, address = started_world(outside, world=world)
-    sheet = Sheet(chromium, address)
-    sheet.begin(2)
+    sheet = open_sheet(address).begin(2)
     sheet.page.evaluate(NOTE_TEXTS)
     for name in ('Show forces', 'Show velocities', 'Momentum', 'Hand'):
         sheet.press(name)
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('ball/0')[:2]))
+    sheet.tap(*sheet.pose('ball/0')[:2])
     time = sheet.play_until(0.6)
     # Rolling, a third of the force down the slope turns it; I = m r² / 2.
     torque = 2.0 * G * math.sin(math.atan(0.4)) / 3.0 * 0.5
@@ -236,16 +234,16 @@ bodies:
     told = sheet.page.evaluate('window.texts.filter((text) => text.endsWith("N m s"))')
     # It lies in the air for less than a frame.
     assert float(told[0].split()[0]) == pytest.approx(torque * time, rel=0.05)
-    sheet.close()
     program.interrupt()
 
 
-def test_each_strand_of_a_rope_bears_its_share_of_a_load(chromium: Any, outside: Outside) -> None:
+def test_each_strand_of_a_rope_bears_its_share_of_a_load(
+    open_sheet: OpenSheet, outside: Outside
+) -> None:
     program, address = started_world(
         outside, world=(shipped_lessons() / 'pulley.yaml').read_text()
     )
-    sheet = Sheet(chromium, address)
-    sheet.begin(3)
+    sheet = open_sheet(address).begin(3)
     sheet.press('Show forces')
     sheet.play_until(1.0)
     sheet.until(lambda: 'sum' in numbers_on(sheet, 'load/0'), 'the forces on the load')
@@ -254,5 +252,4 @@ def test_each_strand_of_a_rope_bears_its_share_of_a_load(chromium: Any, outside:
     assert [e['size'] for e in strands] == ['98.1 N'] * 4
     assert all(e['force'] == pytest.approx((0.0, 10.0 * G), abs=0.05) for e in strands)
     assert numbers_on(sheet, 'load/0')['sum'] == '0 N'
-    sheet.close()
     program.interrupt()

@@ -10,17 +10,7 @@ import math
 
 import pytest
 
-from .chromium import PIXEL, Sheet
-
-# The texts that are written on the canvas from now on.
-SPY = """() => {
-    window.texts = [];
-    const write = CanvasRenderingContext2D.prototype.fillText;
-    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
-        window.texts.push(text);
-        write.call(this, text, ...at);
-    };
-}"""
+from .chromium import NOTE_TEXTS, PIXEL, Sheet
 
 # Whether a speed of 1 m/s or more was written.
 SPEED = r'window.texts.some((text) => / [1-9]\.\d+ m\/s/.test(text))'
@@ -30,10 +20,10 @@ SPEED = r'window.texts.some((text) => / [1-9]\.\d+ m\/s/.test(text))'
 def sheet(sheet: Sheet) -> Sheet:
     """Give a test a page on which a box is selected."""
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.tap(4.0, 0.5)
     sheet.page.get_by_role('heading', name='box/0').wait_for()
     sheet.wait('physsim.handles !== null')
-    sheet.page.evaluate(SPY)
+    sheet.page.evaluate(NOTE_TEXTS)
     return sheet
 
 
@@ -64,13 +54,6 @@ def drag_handle(sheet: Sheet, handle: str, turn: float, share: float, *keys: str
         sheet.page.keyboard.up(key)
 
 
-def number(sheet: Sheet, label: str, text: str) -> None:
-    """Type a number of the body."""
-    field = sheet.page.get_by_label(label, exact=True)
-    field.fill(text)
-    field.press('Enter')
-
-
 def test_handles_are_not_printed(sheet: Sheet) -> None:
     def is_blue() -> bool:
         red, _, blue, _ = sheet.page.evaluate(PIXEL, sheet.page.evaluate('physsim.handles.turn'))
@@ -94,7 +77,7 @@ def test_labels_and_notes_are_written_on_the_world(sheet: Sheet) -> None:
     # The key of the tool, then a text, as pasted.
     keyboard.press('Escape')
     keyboard.press('9')
-    sheet.page.mouse.click(*sheet.place(0.0, 7.0))
+    sheet.tap(0.0, 7.0)
     keyboard.insert_text('who\twins?')
     keyboard.press('Enter')
     written(sheet, 'who wins?')
@@ -103,20 +86,20 @@ def test_labels_and_notes_are_written_on_the_world(sheet: Sheet) -> None:
     assert sheet.pose(note) == pytest.approx([0.0, 7.0, 0.0], abs=0.02)
     # It has the size of its text: a point beside the middle is on it, and edits it.
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.3, 7.0))
+    sheet.tap(0.3, 7.0)
     sheet.page.get_by_role('heading', name='Note').wait_for()
     label.fill('a much longer question')
     label.press('Enter')
     written(sheet, 'a much longer question')
     keyboard.press('Escape')
-    sheet.page.mouse.click(*sheet.place(1.2, 7.0))
+    sheet.tap(1.2, 7.0)
     sheet.page.get_by_role('heading', name='Note').wait_for()
     sheet.press('Undo')
     sheet.press('Undo')
     sheet.wait('name => !(name in physsim.bodies)', note)
     # Escape while one types leaves text and world as they were.
     keyboard.press('9')
-    sheet.page.mouse.click(*sheet.place(0.0, 7.0))
+    sheet.tap(0.0, 7.0)
     keyboard.type('no')
     keyboard.press('Escape')
     sheet.press('Play')
@@ -155,12 +138,12 @@ def test_the_square_handle_scales_a_body(sheet: Sheet) -> None:
 def test_a_body_is_where_numbers_say(sheet: Sheet) -> None:
     sheet.page.get_by_text('Enter numbers').click()
     for label, text in (('x [m]', '2'), ('y [m]', '3.5'), ('Angle [°]', '30')):
-        number(sheet, label, text)
+        sheet.enter(label, text, exact=True)
     sheet.wait('Math.abs(physsim.bodies["box/0"][2] - Math.PI / 6) < 1e-6')
     assert sheet.pose('box/0')[:2] == pytest.approx([2.0, 3.5], abs=1e-6)
-    number(sheet, 'Mass [kg]', '5')
-    number(sheet, 'vx [m/s]', '3')
-    number(sheet, 'vy [m/s]', '-4')
+    sheet.enter('Mass [kg]', '5', exact=True)
+    sheet.enter('vx [m/s]', '3', exact=True)
+    sheet.enter('vy [m/s]', '-4', exact=True)
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_text('5 kg · at 2.00, 3.50 m · 30° · 5.00 m/s').wait_for()
     panel.get_by_text('Momentum 25.00 N s (15.00, \N{MINUS SIGN}20.00)').wait_for()

@@ -6,11 +6,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import pytest
 
-from .chromium import Sheet
+from .chromium import OpenSheet, Sheet
 
 ANGLE, LENGTH = 'Angle of the slope [°]', 'Length of the slope [m]'
 # Greatest distance of a foot from where it was [m]: poses come as float32.
@@ -24,7 +23,7 @@ def drawn(sheet: Sheet, *points: tuple[float, float]) -> str:
     if len(points) > 1:
         sheet.drag(*points)
     else:
-        sheet.page.mouse.click(*sheet.place(*points[0]))
+        sheet.tap(*points[0])
     return sheet.wait_for_new(before)
 
 
@@ -33,11 +32,6 @@ def shown(sheet: Sheet) -> tuple[float, float]:
     sheet.page.get_by_label(ANGLE).wait_for()
     angle, length = (sheet.page.get_by_label(each).input_value() for each in (ANGLE, LENGTH))
     return float(angle), float(length)
-
-
-def typed(sheet: Sheet, label: str, text: str) -> None:
-    sheet.page.get_by_label(label).fill(text)
-    sheet.page.keyboard.press('Enter')
 
 
 def test_a_plane_is_drawn_along_its_slope_and_has_whole_degrees(sheet: Sheet) -> None:
@@ -68,14 +62,14 @@ def test_angle_and_length_are_typed_and_undone_one_by_one(sheet: Sheet) -> None:
     name = drawn(sheet, (-3.0, 5.0))
     foot = sheet.pose(name)
     empty = sheet.color_at(-1.0, 6.7)
-    typed(sheet, ANGLE, '52,5')
+    sheet.enter(ANGLE, '52,5')
     sheet.until(lambda: sheet.color_at(-1.0, 6.7) != empty, 'a steeper plane')
-    typed(sheet, LENGTH, '2.5')
+    sheet.enter(LENGTH, '2.5')
     sheet.page.keyboard.press('Escape')
     sheet.until(lambda: sheet.color_at(-1.0, 6.7) == empty, 'a shorter plane')
     assert sheet.pose(name) == pytest.approx(foot, abs=NEAR)
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(-2.0, 5.3))
+    sheet.tap(-2.0, 5.3)
     assert shown(sheet) == (52.5, 2.5)
     sheet.press('Undo')
     sheet.until(lambda: shown(sheet) == (52.5, 4), 'the length of before')
@@ -86,14 +80,14 @@ def test_angle_and_length_are_typed_and_undone_one_by_one(sheet: Sheet) -> None:
 def test_a_plane_that_is_none_is_refused(sheet: Sheet) -> None:
     drawn(sheet, (-3.0, 5.0))
     for label, text in ((ANGLE, '90'), (ANGLE, '-5'), (LENGTH, '0')):
-        typed(sheet, label, text)
-        sheet.page.get_by_role('status').get_by_text('between 0° and 90°').wait_for()
+        sheet.enter(label, text)
+        sheet.told('between 0° and 90°')
         sheet.until(lambda: shown(sheet) == (30, 4), 'the plane of before')
 
 
 def test_a_box_has_no_slope(sheet: Sheet) -> None:
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('box/0')[:2]))
+    sheet.tap(*sheet.pose('box/0')[:2])
     sheet.page.get_by_role('heading', name='box/0').wait_for()
     assert not sheet.page.get_by_label(ANGLE).is_visible()
 
@@ -109,8 +103,8 @@ def test_a_plane_that_is_drawn_near_a_floor_stands_on_it(sheet: Sheet) -> None:
     assert y == pytest.approx(5.0, abs=near)
 
 
-def test_two_pages_draw_planes_at_once(sheet: Sheet, chromium: Any, address: str) -> None:
-    other = Sheet(chromium, address)
+def test_two_pages_draw_planes_at_once(sheet: Sheet, open_sheet: OpenSheet) -> None:
+    other = open_sheet()
     for each in (sheet, other):
         each.wait('heard.people?.length === 2')
         each.press('Inclined plane')
@@ -122,4 +116,3 @@ def test_two_pages_draw_planes_at_once(sheet: Sheet, chromium: Any, address: str
         each.page.mouse.up()
     for each in (sheet, other):
         each.wait('Object.keys(physsim.bodies).length === 5')
-    other.close()

@@ -38,25 +38,23 @@ def sheet(sheet: Sheet) -> Sheet:
 
 def tapped(sheet: Sheet, x: float, y: float, kind: str) -> Locator:
     """Tap a joint, and return its panel."""
-    sheet.page.mouse.click(*sheet.place(x, y))
+    sheet.tap(x, y)
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_role('heading', name=kind).wait_for()
     return panel
 
 
-def set_number(sheet: Sheet, panel: Locator, label: str, value: str) -> None:
+def set_number(sheet: Sheet, label: str, value: str) -> None:
     """Type a number into the panel, and wait until it is done."""
-    field = panel.get_by_label(label)
-    field.fill(value)
-    field.press('Enter')
-    sheet.page.get_by_role('status').get_by_text('changed').wait_for()
+    sheet.enter(label, value)
+    sheet.told('changed')
 
 
 def test_a_spring_has_the_constant_that_is_typed(sheet: Sheet) -> None:
     panel = tapped(sheet, -5.0, 6.5, 'Spring')
     assert panel.get_by_label('Spring constant [N/m], typed').input_value() == '100'
     assert panel.get_by_label('Rest length [m], typed').input_value() == '3'
-    set_number(sheet, panel, 'Spring constant [N/m], typed', '20')
+    set_number(sheet, 'Spring constant [N/m], typed', '20')
     # Without another tap.
     assert panel.get_by_label('Rest length [m], typed').input_value() == '3'
     sheet.press('Play')
@@ -71,7 +69,7 @@ def test_an_axle_becomes_a_ratchet(sheet: Sheet) -> None:
     panel = tapped(sheet, 2.2, 5.0, 'Axle')
     # Its weight would turn the beam clockwise.
     panel.get_by_label('Turns', exact=True).last.select_option('counter-clockwise')
-    sheet.page.get_by_role('status').get_by_text('changed').wait_for()
+    sheet.told('changed')
     sheet.play_until(1.0)
     assert sheet.pose('beam/0')[2] == pytest.approx(0.0, abs=1e-4)
 
@@ -80,19 +78,19 @@ def test_an_axle_has_limits_from_the_pose_in_which_it_was_made(sheet: Sheet) -> 
     # The beam has turned before its limits are set.
     sheet.play_until(0.25)
     assert -0.6 < sheet.pose('beam/0')[2] < -0.1
-    panel = tapped(sheet, 2.2, 5.0, 'Axle')
-    set_number(sheet, panel, 'Least [rad]', '-0.6')
+    tapped(sheet, 2.2, 5.0, 'Axle')
+    set_number(sheet, 'Least [rad]', '-0.6')
     sheet.press('Play')
     sheet.wait('physsim.time > 4')
     sheet.wait('Math.abs(physsim.bodies["beam/0"][2] + 0.6) < 0.01')
     # Without a number there is no limit any more.
-    set_number(sheet, panel, 'Least [rad]', '')
+    set_number(sheet, 'Least [rad]', '')
     sheet.wait('physsim.bodies["beam/0"][2] < -1.2')
 
 
 def test_a_joint_breaks_at_the_force_that_is_typed(sheet: Sheet) -> None:
     panel = tapped(sheet, -5.0, 6.5, 'Spring')
-    set_number(sheet, panel, 'Breaks at [N]', '12')
+    set_number(sheet, 'Breaks at [N]', '12')
     sheet.press('Play')
     # It falls to less than the spring would let it: k x is 12 N at 12 cm.
     sheet.wait('physsim.bodies["ball/0"][1] < 2')
@@ -101,7 +99,7 @@ def test_a_joint_breaks_at_the_force_that_is_typed(sheet: Sheet) -> None:
 
 def test_a_joint_is_deleted_and_a_second_tap_means_the_body_below(sheet: Sheet) -> None:
     tapped(sheet, 2.2, 5.0, 'Axle')
-    sheet.page.mouse.click(*sheet.place(2.2, 5.0))
+    sheet.tap(2.2, 5.0)
     sheet.page.get_by_role('heading', name='beam/0').wait_for()
     tapped(sheet, 2.2, 5.0, 'Axle')
     sheet.press('Delete joint')
@@ -114,14 +112,14 @@ def test_a_gear_is_made_by_its_tool_and_reached_from_its_wheels(sheet: Sheet) ->
     for tool, place in (('Circle', (-2.0, 2.0)), ('Circle', (0.0, 2.0))):
         sheet.press(tool)
         for x, y in (place, (place[0] + 1.0 + place[0] / 4.0, place[1])):
-            sheet.page.mouse.click(*sheet.place(x, y))
+            sheet.tap(x, y)
     sheet.wait('Object.keys(physsim.bodies).length === 4')
     sheet.press('Gears')
     for x in (-2.0, 0.0):
-        sheet.page.mouse.click(*sheet.place(x + 0.2, 2.0))
-    sheet.page.get_by_role('status').get_by_text('Gear added').wait_for()
+        sheet.tap(x + 0.2, 2.0)
+    sheet.told('Gear added')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.2, 2.0))
+    sheet.tap(0.2, 2.0)
     sheet.press('Gear')
     # Of radii of 0.5 m and 1 m.
     ratio = sheet.page.get_by_label('Ratio, typed')

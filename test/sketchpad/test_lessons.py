@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 OWN = """
@@ -36,17 +36,15 @@ WRITTEN = """() => {
 
 
 @pytest.fixture
-def sheet(chromium: Any, outside: Outside, tmp_path: Path) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, outside: Outside, tmp_path: Path) -> Iterator[Sheet]:
     """Give a test a page of a world with a lesson of the user, and one that is none."""
     lessons = tmp_path / 'lessons'
     lessons.mkdir()
     (lessons / 'mine.yaml').write_text(OWN)
     (lessons / 'bad.yaml').write_text(OWN.replace('figure: 3', 'figure: three'))
     program, address = started_world(outside, world_dir=tmp_path)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     yield sheet
-    sheet.close()
     program.interrupt()
 
 
@@ -75,7 +73,7 @@ def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> No
     open_lesson(sheet, '1. Free fall')
     card = sheet.page.locator('#lesson')
     card.get_by_text('Which one lands first').wait_for()
-    sheet.page.get_by_role('status').get_by_text('Opened Free fall').wait_for()
+    sheet.told('Opened Free fall')
     # It waits for its pupil.
     sheet.wait('"heavy/0" in physsim.bodies && physsim.speed === 0 && physsim.time === 0')
     answer = card.get_by_text('whatever the mass')
@@ -95,7 +93,7 @@ def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> No
     sheet.press('Pause')
     sheet.wait('physsim.speed === 0')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('heavy/0')[:2]))
+    sheet.tap(*sheet.pose('heavy/0')[:2])
     sheet.wait('physsim.records["heavy/0"] && physsim.records["heavy/0"][0] > 20')
 
 
@@ -112,7 +110,7 @@ def test_trails_and_plots_end_with_their_world(sheet: Sheet) -> None:
     open_lesson(sheet, '1. Free fall')
     sheet.wait('"heavy/0" in physsim.bodies && physsim.time === 0')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('heavy/0')[:2]))
+    sheet.tap(*sheet.pose('heavy/0')[:2])
     sheet.page.get_by_label('Trail').check()
     sheet.press('Large plot')
     sheet.wait('"heavy/0" in physsim.records')
@@ -175,7 +173,7 @@ def test_a_link_leads_to_a_moment_of_a_lesson(sheet: Sheet) -> None:
     assert sheet.pose('heavy/0') == there
     # Its plot begins with the lesson, though the world before was older.
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*there[:2]))
+    sheet.tap(*there[:2])
     sheet.wait('physsim.records["heavy/0"]?.[0] > 10')
 
 
@@ -211,7 +209,7 @@ def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) 
     sheet.wait('[...window.written].some((text) => /^off by [1-9]/.test(text))')
     sheet.press('Reset')
     sheet.wait('physsim.time === 0')
-    sheet.page.mouse.click(*sheet.place(x, y))
+    sheet.tap(x, y)
     sheet.page.evaluate('window.written.clear()')
     sheet.wait('![...window.written].some((text) => /off by|predicted/.test(text))')
 
@@ -222,7 +220,7 @@ def test_the_prediction_of_a_body_goes_with_it_and_comes_back(sheet: Sheet) -> N
     sheet.drag((0.0, 0.5), (2.0, 3.0))
     sheet.wait('written.has("predicted")')
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.wait('!("ball/0" in physsim.bodies)')
     sheet.page.evaluate('written.clear()')
     sheet.page.mouse.move(*sheet.place(1.0, 5.0))

@@ -5,13 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 import pytest
 
-from .chromium import Sheet, started_world
-from ..outside import Outside
+from .chromium import OpenSheet, Sheet
 
 WORLD = """
 format: 1
@@ -29,21 +25,12 @@ ROW = """([x, y, width]) => [...document.querySelector('canvas').getContext('2d'
     x * devicePixelRatio, y * devicePixelRatio, width * devicePixelRatio, 1).data]"""
 
 
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world with machines."""
-    return started_world(outside, world=WORLD)[1]
-
-
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet) -> Sheet:
     """Give a test a page with the hand, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(BODIES)
+    sheet = open_sheet().begin(BODIES)
     sheet.press('Hand')
-    yield sheet
-    assert not sheet.errors
-    sheet.close()
+    return sheet
 
 
 def heading(sheet: Sheet, name: str) -> None:
@@ -55,9 +42,9 @@ def heading(sheet: Sheet, name: str) -> None:
 def test_a_part_has_the_name_of_its_link_and_a_robot_without_a_drive_no_stick(
     sheet: Sheet,
 ) -> None:
-    sheet.page.mouse.click(*sheet.place(-1.8, 2.0))
+    sheet.tap(-1.8, 2.0)
     heading(sheet, 'Upper arm/0/upper/0')
-    sheet.page.mouse.click(*sheet.place(2.0, 4.0))
+    sheet.tap(2.0, 4.0)
     heading(sheet, 'gripper/0')
     heading(sheet, 'Robot · /gripper_0')
     assert sheet.page.get_by_role('img', name='Stick: drag to drive').count() == 0
@@ -65,11 +52,11 @@ def test_a_part_has_the_name_of_its_link_and_a_robot_without_a_drive_no_stick(
 
 def test_a_copy_of_a_part_is_a_whole_robot(sheet: Sheet) -> None:
     before = sheet.names()
-    sheet.page.mouse.click(*sheet.place(-1.8, 2.0))
+    sheet.tap(-1.8, 2.0)
     heading(sheet, 'Upper arm/0/upper/0')
     sheet.press('Copy beside')
     sheet.wait('count => Object.keys(physsim.bodies).length === count', BODIES + 3)
-    sheet.page.get_by_role('status').get_by_text('Copied a robot').wait_for()
+    sheet.told('Copied a robot')
     assert {name.partition('/')[0] for name in sheet.names() - before} == {'drawn'}
     sheet.press('Undo')
     sheet.wait('count => Object.keys(physsim.bodies).length === count', BODIES)

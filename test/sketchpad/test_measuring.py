@@ -5,14 +5,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import math
 import re
-from typing import Any
 
+from playwright.sync_api import Locator
 import pytest
 
-from .chromium import NOTE_TEXTS, Sheet
+from .chromium import NOTE_TEXTS, OpenSheet, Sheet
 
 G = 9.81
 # A ball that is thrown, one that falls, a cart that passes two gates without friction.
@@ -61,27 +60,23 @@ WIDTH_MISSING = """(select) => {
 
 
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet) -> Sheet:
     """Give a test a page with the hand, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address, permissions=['clipboard-read', 'clipboard-write'])
-    sheet.begin(6)
+    sheet = open_sheet(permissions=['clipboard-read', 'clipboard-write']).begin(6)
     sheet.press('Hand')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def chosen(sheet: Sheet, x: float, y: float) -> None:
     """Choose the body at a place [m]."""
-    sheet.page.mouse.click(*sheet.place(x, y))
+    sheet.tap(x, y)
     sheet.page.get_by_role('button', name='Delete body').wait_for()
 
 
 def typed(sheet: Sheet, label: str, text: str) -> None:
     """Enter a number of the body that is chosen, in its panel for the first time."""
     sheet.page.get_by_text('Enter numbers').click()
-    field = sheet.page.get_by_label(label)
-    field.fill(text)
-    field.press('Enter')
+    sheet.enter(label, text)
 
 
 def pointed(sheet: Sheet, share: float, down: float = 0.5) -> list[float]:
@@ -92,6 +87,68 @@ def pointed(sheet: Sheet, share: float, down: float = 0.5) -> list[float]:
     sheet.until(lambda: '·' in reading.inner_text(), 'a reading')
     text = reading.inner_text().replace('\N{MINUS SIGN}', '-')
     return [float(each) for each in re.findall(r' (-?[\d.]+)', text)]
+
+
+# The unit of each quantity, and its value, of a sample.
+QUANTITIES = """async ([sample, body, gravity]) => {
+    const {QUANTITIES} = await import('/page/measures/quantities.js');
+    return Object.fromEntries(Object.entries(QUANTITIES).map(([key, {label, of}]) =>
+        [key, [label.match(/\\[(.*)\\]/)[1], of(sample, body, gravity)]]));
+}"""
+# Exponents of mass, length and time.
+DIMENSIONS = {
+    's': (0, 0, 1),
+    'm': (0, 1, 0),
+    'rad': (0, 0, 0),
+    'm/s': (0, 1, -1),
+    'rad/s': (0, 0, -1),
+    'm/s²': (0, 1, -2),
+    'N': (1, 1, -2),
+    'N s': (1, 1, -1),
+    'N m': (1, 2, -2),
+    'J': (1, 2, -2),
+    'N m s': (1, 2, -1),
+}
+
+
+def quantities(sheet: Sheet, mass: float, length: float, time: float) -> dict[str, Any]:
+    """Return unit and value of all quantities of a sample, by other units of measurement."""
+    speed, acceleration = length / time, length / time**2
+    kinds = ('weight', 'normal', 'friction', 'joint', 'applied', 'sum')
+    sample = {
+        'time': 1.7 * time,
+        'yaw': 0.4,
+        'x': 2.1 * length,
+        'y': 0.8 * length,
+        'vx': -1.3 * speed,
+        'vy': 0.6 * speed,
+        'ax': 0.9 * acceleration,
+        'ay': -3.1 * acceleration,
+        'spin': 0.7 / time,
+        'spinning': -0.2 / time**2,
+        'forces': {kind: (3 + number) * mass * acceleration for number, kind in enumerate(kinds)},
+    }
+    body = {'mass': 2.3 * mass, 'moment': 0.9 * mass * length**2}
+    gravity = [1.1 * acceleration, -9.8 * acceleration]
+    return dict(sheet.page.evaluate(QUANTITIES, [sample, body, gravity]))
+
+
+def test_quantities_have_the_dimension_of_their_unit_and_make_up_each_other(sheet: Sheet) -> None:
+    scales = 2.0, 3.0, 5.0
+    found, other = quantities(sheet, 1.0, 1.0, 1.0), quantities(sheet, *scales)
+    value = {key: each for key, (_, each) in found.items()}
+    for key, (unit, each) in other.items():
+        scale = math.prod(map(math.pow, scales, DIMENSIONS[unit]))
+        assert each == pytest.approx(scale * value[key]), key
+    assert value['energy'] == pytest.approx(value['motion'] + value['height'])
+    assert value['motion'] == pytest.approx((2.3 * (1.3**2 + 0.6**2) + 0.9 * 0.7**2) / 2)
+    assert value['height'] == pytest.approx(2.3 * (9.8 * 0.8 - 1.1 * 2.1))
+    for size, x, y in (
+        ('speed', 'vx', 'vy'),
+        ('momentum', 'px', 'py'),
+        ('acceleration', 'ax', 'ay'),
+    ):
+        assert value[size] == pytest.approx(math.hypot(value[x], value[y]))
 
 
 def test_a_large_plot_tells_what_is_under_the_pointer(sheet: Sheet) -> None:
@@ -117,7 +174,7 @@ def test_a_plot_has_axes_of_choice_and_several_bodies(sheet: Sheet) -> None:
     sheet.page.get_by_label('Add a body').select_option('ball/1')
     sheet.wait('physsim.records["ball/1"] && physsim.records["ball/1"][0] > 20')
     sheet.press('Copy table')
-    sheet.page.get_by_role('status').get_by_text('Table copied').wait_for()
+    sheet.told('Table copied')
     head, *rows = sheet.page.evaluate('navigator.clipboard.readText()').splitlines()
     assert head.split(',')[:4] == ['Time [s]', 'x [m]', 'Height [m]', 'vx [m/s]']
     assert {row.split(',')[-1] for row in rows} == {'ball/0', 'ball/1'}
@@ -231,13 +288,13 @@ def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
     sheet.wait('window.texts.includes("Δx 4 m, Δy 3.2 m")')
     sheet.press('Protractor')
     sheet.drag((0.0, 4.0), (4.0, 4.0))
-    sheet.page.mouse.click(*sheet.place(4.0, 8.0))
+    sheet.tap(4.0, 8.0)
     sheet.wait('window.texts.includes("45°")')
     sheet.page.keyboard.up('Shift')
     # The ruler stays beside another tool, until it is tapped away.
     assert sheet.page.evaluate('window.texts.includes("5.12 m, 38.7°")')
     sheet.press('Ruler')
-    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
+    sheet.tap(-2.0, 6.0)
     sheet.page.evaluate('window.texts = []')
     sheet.press('Frame the world')
     sheet.wait('window.texts.includes("45°")')
@@ -263,12 +320,17 @@ def test_a_meter_stays_beside_its_body_until_the_world_is_another(sheet: Sheet) 
     sheet.wait('"cart/0" in physsim.bodies')
 
 
-def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:
+def stopwatch(sheet: Sheet) -> tuple[Locator, Locator]:
+    """Have gates start and stop the clock; return the panel and what the clock shows."""
     sheet.press('Measure')
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_label('Starts when touched').select_option('gate/0')
     panel.get_by_label('Stops when touched').select_option('gate/1')
-    clock = panel.get_by_label('Stopwatch', exact=True)
+    return panel, panel.get_by_label('Stopwatch', exact=True)
+
+
+def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:
+    panel, clock = stopwatch(sheet)
     sheet.play_until(3.0)
     sheet.until(lambda: clock.inner_text() == '1.4000 s', '2.1 m at 1.5 m/s')
     panel.get_by_text('started at').wait_for()
@@ -299,11 +361,7 @@ def test_a_gate_tells_what_touched_it_as_lists_do(sheet: Sheet) -> None:
 
 def test_gates_that_are_chosen_after_the_run_tell_the_same_time(sheet: Sheet) -> None:
     sheet.play_until(3.0)
-    sheet.press('Measure')
-    panel = sheet.page.get_by_role('complementary', name='Body')
-    panel.get_by_label('Starts when touched').select_option('gate/0')
-    panel.get_by_label('Stops when touched').select_option('gate/1')
-    clock = panel.get_by_label('Stopwatch', exact=True)
+    _, clock = stopwatch(sheet)
     sheet.until(lambda: clock.inner_text() == '1.4000 s', '2.1 m at 1.5 m/s')
 
 

@@ -48,13 +48,11 @@ def sheet(sheet: Sheet) -> Sheet:
 
 def type_number(sheet: Sheet, label: str, text: str) -> None:
     """Type a number into the panel."""
-    field = sheet.page.get_by_label(f'{label}, typed', exact=True)
-    field.fill(text)
-    field.press('Enter')
+    sheet.enter(f'{label}, typed', text, exact=True)
 
 
 def test_a_body_becomes_water_and_a_block_floats_in_it(sheet: Sheet) -> None:
-    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    sheet.tap(2.0, 1.0)
     sheet.page.get_by_label('Water: bodies float in it').check()
     type_number(sheet, 'Density of the medium [kg/m²]', '4')
     type_number(sheet, 'Viscosity [N s/m²]', '10')
@@ -64,7 +62,7 @@ def test_a_body_becomes_water_and_a_block_floats_in_it(sheet: Sheet) -> None:
 
 
 def test_two_numbers_that_are_typed_in_a_row_are_both_kept(sheet: Sheet) -> None:
-    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    sheet.tap(2.0, 1.0)
     sheet.page.get_by_label('Water: bodies float in it').check()
     sheet.page.get_by_label('Viscosity [N s/m²], typed', exact=True).wait_for()
     # Before the world can answer.
@@ -74,7 +72,7 @@ def test_two_numbers_that_are_typed_in_a_row_are_both_kept(sheet: Sheet) -> None
 
 
 def test_a_pool_without_water_is_the_body_that_it_was(sheet: Sheet) -> None:
-    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    sheet.tap(2.0, 1.0)
     water = sheet.page.get_by_label('Water: bodies float in it')
     water.check()
     density = sheet.page.get_by_label('Density of the medium [kg/m²], typed', exact=True)
@@ -87,7 +85,7 @@ def test_a_pool_without_water_is_the_body_that_it_was(sheet: Sheet) -> None:
 
 
 def test_what_floated_in_an_emptied_pool_falls_to_its_floor(sheet: Sheet) -> None:
-    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    sheet.tap(2.0, 1.0)
     water = sheet.page.get_by_label('Water: bodies float in it')
     water.check()
     sheet.play_until(1.0)
@@ -126,12 +124,12 @@ def test_water_is_drawn_in_one_gesture_and_what_is_in_it_is_tapped(sheet: Sheet)
     panel = sheet.page.get_by_role('complementary', name='Body')
     sheet.press('Hand')
     # The water was drawn last, and lies below all bodies nevertheless.
-    sheet.page.mouse.click(*sheet.place(-8.0, 0.3))
+    sheet.tap(-8.0, 0.3)
     panel.get_by_role('heading', name='ball/0').wait_for()
-    sheet.page.mouse.click(*sheet.place(-6.5, 1.0))
+    sheet.tap(-6.5, 1.0)
     panel.get_by_role('heading', name='Water water/1').wait_for()
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(-8.0, 0.3))
+    sheet.tap(-8.0, 0.3)
     sheet.wait('!("ball/0" in physsim.bodies)')
     assert name in sheet.names()
 
@@ -139,5 +137,5 @@ def test_water_is_drawn_in_one_gesture_and_what_is_in_it_is_tapped(sheet: Sheet)
 def test_a_tap_is_a_pool_of_the_usual_size(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.press('Water')
-    sheet.page.mouse.click(*sheet.place(6.0, 5.0))
+    sheet.tap(6.0, 5.0)
     assert sheet.pose(sheet.wait_for_new(before)) == pytest.approx([6.0, 5.0, 0.0], abs=0.05)

@@ -8,11 +8,10 @@ from __future__ import annotations
 import math
 from pathlib import Path
 import re
-from typing import Any
 
 import pytest
 
-from .chromium import circle, POINTER, Sheet, started_world
+from .chromium import circle, OpenSheet, POINTER, Sheet, started_world
 from ..outside import Outside
 
 
@@ -70,7 +69,7 @@ def test_a_rectangle_is_a_dragged_side_and_a_click_across(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.press('Rectangle')
     sheet.drag((1.0, 4.0), (3.0, 4.0))
-    sheet.page.mouse.click(*sheet.place(2.5, 5.0))
+    sheet.tap(2.5, 5.0)
     x, y, _ = sheet.pose(sheet.wait_for_new(before))
     assert math.dist((x, y), (2.0, 4.5)) < 0.03
     # By one drag it stands upright, from corner to corner; with Alt a copy of it is dragged.
@@ -96,7 +95,7 @@ def test_a_drag_from_beside_a_body_leaves_no_click_behind(sheet: Sheet) -> None:
     sheet.page.evaluate(POINTER, ['mouse', 1, 1, path])
     sheet.page.locator('.note.refusal').wait_for()
     sheet.drag((4.0, 0.5), (4.0, 2.5))
-    sheet.page.get_by_role('status').get_by_text('new velocity').wait_for()
+    sheet.told('new velocity')
     sheet.play_until(0.1)
     assert sheet.pose('box/0')[1] > 0.6
 
@@ -106,7 +105,7 @@ def test_a_polygon_is_closed_at_its_first_corner_though_the_view_was_moved(sheet
     sheet.press('Polygon')
     corners = (-2.0, 4.0), (-1.0, 4.0), (-1.5, 5.0)
     for corner in corners:
-        sheet.page.mouse.click(*sheet.place(*corner))
+        sheet.tap(*corner)
     for _ in range(3):
         sheet.page.keyboard.press('-')
     x, y = sheet.place(*corners[0])
@@ -229,7 +228,7 @@ def test_a_polygon_is_closed_by_the_enter_key(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.press('Polygon')
     for point in ((1.0, 5.0), (2.0, 5.0), (2.0, 6.0)):
-        sheet.page.mouse.click(*sheet.place(*point))
+        sheet.tap(*point)
     sheet.page.keyboard.press('Enter')
     x, y, _ = sheet.pose(sheet.wait_for_new(before))
     assert math.dist((x, y), (5 / 3, 16 / 3)) < 0.1
@@ -247,9 +246,9 @@ def test_undo_takes_back_what_was_drawn_and_redo_draws_it_again(sheet: Sheet) ->
 
 
 def test_two_pages_see_one_world_and_each_has_its_own_tool(
-    sheet: Sheet, chromium: Any, address: str
+    sheet: Sheet, open_sheet: OpenSheet
 ) -> None:
-    other = Sheet(chromium, address)
+    other = open_sheet()
     other.wait('Object.keys(physsim.bodies).length === 3')
     before = sheet.names()
     sheet.press('Circle')
@@ -258,12 +257,11 @@ def test_two_pages_see_one_world_and_each_has_its_own_tool(
     other.wait('name => name in physsim.bodies', name)
     pen = other.page.get_by_role('button', name='Pen', exact=True)
     assert pen.get_attribute('aria-pressed') == 'true'
-    other.close()
 
 
 def test_a_body_is_tapped_and_changed_in_its_panel(sheet: Sheet) -> None:
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_label('Bounciness', exact=True).fill('0.9')
     panel.get_by_label('Anchored').check()
@@ -343,16 +341,15 @@ def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     assert 0 < y - box['y'] - box['height'] < 40
     # A refusal without a place is shown in the status line alone.
     sheet.press('Redo')
-    sheet.page.get_by_role('status').get_by_text('nothing to redo').wait_for()
+    sheet.told('nothing to redo')
     assert note.count() == 0
 
 
 def test_a_stroke_that_is_read_and_then_refused_shows_that_at_its_place(
-    chromium: Any, outside: Outside
+    open_sheet: OpenSheet, outside: Outside
 ) -> None:
     _, address = started_world(outside, max_bodies=3)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     sheet.drag(*circle(-2.0, 6.0, 0.8))
     note = sheet.page.locator('.note.refusal')
     note.wait_for()
@@ -362,7 +359,6 @@ def test_a_stroke_that_is_read_and_then_refused_shows_that_at_its_place(
     # What was not built has no reading.
     assert sheet.page.locator('.note').count() == 1
     assert len(sheet.names()) == 3
-    sheet.close()
 
 
 def test_keys_work_after_anything_was_clicked(sheet: Sheet) -> None:
@@ -379,7 +375,7 @@ def test_keys_work_after_anything_was_clicked(sheet: Sheet) -> None:
         check_space()
     # The same by the panel of a body, and by the slider of time.
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.page.get_by_label('Anchored').check()
     check_space()
     sheet.page.get_by_role('slider', name='Time').click()
@@ -412,9 +408,8 @@ def test_only_tab_shows_that_the_canvas_has_the_keyboard(sheet: Sheet) -> None:
     assert sheet.page.evaluate(outline) != 'none'
 
 
-def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+def test_no_hint_says_that_a_world_stands_still_which_plays(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet().begin()
     hint = sheet.page.locator('#hint')
     hint.get_by_text('it comes to life').wait_for()
     sheet.press('Play')
@@ -425,15 +420,14 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     hint.get_by_text('take the hand').wait_for()
     sheet.close()
     # Somebody else new, whose world stands still, is told how to play.
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet().begin()
     before = sheet.names()
     sheet.drag(*circle(1.0, 5.0, 0.8))
     sheet.wait_for_new(before)
     hint = sheet.page.locator('#hint')
     hint.get_by_text('Time is paused').wait_for()
     # By whomever it is played.
-    other = Sheet(chromium, address)
+    other = open_sheet()
     other.press('Play')
     hint.get_by_text('take the hand').wait_for()
     # At the beginning there is nothing to rewind.
@@ -443,8 +437,6 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     sheet.wait('document.querySelector("#hint").className === "faded"')
     sheet.press('Play')
     hint.get_by_text('rewind').wait_for()
-    other.close()
-    sheet.close()
 
 
 @pytest.mark.parametrize('ends', [((5.0, 6.0), (1.0, 6.3)), ((1.0, 6.3), (5.0, 6.0))])
@@ -488,7 +480,7 @@ def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
 def test_a_field_that_is_refused_shows_again_what_is(sheet: Sheet, text: str, of: str) -> None:
     if of == 'a body':
         sheet.press('Hand')
-        sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+        sheet.tap(0.0, 0.5)
     else:
         sheet.press('Material')
     panel = sheet.page.get_by_role('complementary', name='Body')
@@ -501,7 +493,7 @@ def test_a_field_that_is_refused_shows_again_what_is(sheet: Sheet, text: str, of
     field.fill(text)
     field.press('Enter')
     if text == '-1':
-        sheet.page.get_by_role('status').get_by_text('-1 does not lie between 0 and').wait_for()
+        sheet.told('-1 does not lie between 0 and')
         # It can be corrected until the field is left.
         assert field.input_value() == '-1'
     field.evaluate('element => element.blur()')
@@ -522,7 +514,7 @@ def test_numbers_are_read_as_they_are_written(sheet: Sheet) -> None:
 
 def test_a_body_is_made_of_a_material_by_one_button(sheet: Sheet) -> None:
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     panel = sheet.page.get_by_role('complementary', name='Body')
     for name, mass, friction in (('Steel', '6.17 kg', '0.6'), ('Ice', '0.723 kg', '0.03')):
         sheet.press(name)
@@ -547,7 +539,7 @@ def test_what_is_drawn_next_is_made_of_a_material_on_another_planet(sheet: Sheet
     sheet.drag((0.0, 5.0), (0.5, 5.0))
     name = sheet.wait_for_new(before)
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 5.0))
+    sheet.tap(0.0, 5.0)
     panel.get_by_role('heading', name='Circle').wait_for()
     assert panel.get_by_label('Density [kg/m²], typed').input_value() == '1.1'
     fallen = 3.71 * sheet.play_until(0.5) ** 2 / 2
@@ -557,10 +549,8 @@ def test_what_is_drawn_next_is_made_of_a_material_on_another_planet(sheet: Sheet
 def test_air_takes_a_share_of_the_speed_each_second(sheet: Sheet) -> None:
     sheet.press('Material')
     sheet.press('None')
-    drag = sheet.page.get_by_label('Air drag [of the speed, each second], typed')
-    drag.fill('0.5')
-    drag.press('Enter')
-    sheet.page.get_by_role('status').get_by_text('Air drag set').wait_for()
+    sheet.enter('Air drag [of the speed, each second], typed', '0.5')
+    sheet.told('Air drag set')
     sheet.page.keyboard.press('Escape')
     sheet.press('Velocity')
     sheet.drag((0.0, 0.5), (0.0, 2.5))
@@ -571,7 +561,7 @@ def test_air_takes_a_share_of_the_speed_each_second(sheet: Sheet) -> None:
 
 def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.tap(4.0, 0.5)
     sheet.wait('Object.keys(physsim.bodies).length === 2')
     sheet.press('Save')
     sheet.page.get_by_label('Name of the world').fill('two-bodies')
@@ -588,7 +578,7 @@ def test_a_world_is_saved_and_opened_from_the_gallery(sheet: Sheet) -> None:
     sheet.wait('Object.keys(physsim.bodies).length === 3')
 
 
-def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, chromium: Any, address: str) -> None:
+def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, open_sheet: OpenSheet) -> None:
     sheet.press('Save')
     sheet.wait('document.activeElement.getAttribute("aria-label") === "Name of the world"')
     sheet.press('Copy link')
@@ -598,14 +588,13 @@ def test_a_link_holds_the_world_and_offers_it(sheet: Sheet, chromium: Any, addre
     assert sheet.page.evaluate('String(getSelection())') == link
     sheet.page.keyboard.press('Escape')
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.tap(4.0, 0.5)
     sheet.wait('!("box/0" in physsim.bodies)')
-    other = Sheet(chromium, address)
+    other = open_sheet()
     other.page.goto('about:blank')
     other.page.goto(link)
     other.press('Open it')
     sheet.wait('"box/0" in physsim.bodies')
-    other.close()
 
 
 def test_a_picture_and_a_table_of_what_was_plotted_are_downloaded(sheet: Sheet) -> None:
@@ -615,7 +604,7 @@ def test_a_picture_and_a_table_of_what_was_plotted_are_downloaded(sheet: Sheet) 
     assert Path(picture.value.path()).read_bytes().startswith(b'\x89PNG')
     sheet.page.keyboard.press('Escape')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.press('Play')
     sheet.wait('physsim.time > 0.3')
     with sheet.page.expect_download() as table:
@@ -648,7 +637,7 @@ def test_all_of_it_goes_by_keys_alone(sheet: Sheet) -> None:
 
 def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Sheet) -> None:
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    sheet.tap(0.0, 0.5)
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     sheet.wait('Number.isFinite(physsim.scales.speed)')
     scale = sheet.page.evaluate('physsim.scales.speed')
@@ -658,7 +647,7 @@ def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Shee
     sheet.page.mouse.down()
     sheet.page.mouse.move(x, y - gap - 4.0 * scale, steps=5)
     sheet.page.mouse.up()
-    sheet.page.get_by_role('status').get_by_text('ball/0').wait_for()
+    sheet.told('ball/0')
     # 4 m/s upwards rise by v^2 / 2 g in v / g.
     sheet.play_until(4.0 / 9.81)
     sheet.seek(4.0 / 9.81)

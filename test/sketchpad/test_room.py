@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from physsim_ros.files import shipped_lessons
 import pytest
 
-from .chromium import circle, Sheet, started_world
+from .chromium import circle, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 # A desk, a telephone both ways, a tablet, the desk at 200 % zoom, and a school laptop [px].
@@ -36,15 +35,11 @@ def program(outside: Outside) -> Any:
 
 
 @pytest.fixture(params=SIZES, ids=lambda size: f'{size[0]}x{size[1]}')
-def sheet(chromium: Any, program: Any, request: pytest.FixtureRequest) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, program: Any, request: pytest.FixtureRequest) -> Sheet:
     """Give a test a page of a size, and the lesson from its beginning, paused."""
-    width, height = request.param
-    size = {'width': width, 'height': height}
-    sheet = Sheet(chromium, program[1], unfolded=False, viewport=size)
-    sheet.begin(2)
+    sheet = open_sheet(program[1], unfolded=False, size=request.param).begin(2)
     sheet.page.locator('#lesson').wait_for()
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def covered(sheet: Sheet) -> list[str]:
@@ -72,7 +67,7 @@ def check(sheet: Sheet) -> None:
 def select(sheet: Sheet) -> None:
     """Select the block of ice."""
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('ice/0')[:2]))
+    sheet.tap(*sheet.pose('ice/0')[:2])
     sheet.page.get_by_role('heading', name='Ice').wait_for()
 
 
@@ -153,10 +148,9 @@ def test_nothing_lies_on_a_world_that_is_only_watched(sheet: Sheet) -> None:
 
 
 def test_a_panel_opens_on_numbers_alone_until_somebody_unfolds_it(
-    chromium: Any, program: Any
+    open_sheet: OpenSheet, program: Any
 ) -> None:
-    sheet = Sheet(chromium, program[1], unfolded=False, viewport={'width': 1280, 'height': 800})
-    sheet.begin(2)
+    sheet = open_sheet(program[1], unfolded=False, size=(1280, 800)).begin(2)
     select(sheet)
     friction = sheet.page.get_by_role('slider', name='Friction', exact=True)
     numbers = sheet.page.get_by_text('2 kg · ')
@@ -178,13 +172,13 @@ def test_a_panel_opens_on_numbers_alone_until_somebody_unfolds_it(
     sheet.wait('heard.people && "ice/0" in physsim.bodies')
     select(sheet)
     friction.wait_for()
-    sheet.close()
 
 
 @pytest.mark.parametrize('size', [(1280, 800), (1280, 720), (1366, 768), (1366, 650)])
-def test_all_tools_are_in_sight(chromium: Any, program: Any, size: tuple[int, int]) -> None:
-    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
-    sheet.begin(2)
+def test_all_tools_are_in_sight(
+    open_sheet: OpenSheet, program: Any, size: tuple[int, int]
+) -> None:
+    sheet = open_sheet(program[1], size=size).begin(2)
     tools = sheet.page.locator('#tools')
     # A lesson has a few, in one column.
     boxes = [each.bounding_box() for each in tools.get_by_role('button').all()]
@@ -198,7 +192,6 @@ def test_all_tools_are_in_sight(chromium: Any, program: Any, size: tuple[int, in
         sheet.page.keyboard.press('Escape')
         assert tools.evaluate('(each) => each.scrollHeight === each.clientHeight')
         check(sheet)
-    sheet.close()
 
 
 def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
@@ -216,10 +209,9 @@ def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
 
 @pytest.mark.parametrize('size', SIZES[:1])
 def test_the_view_does_not_move_in_the_midst_of_a_gesture(
-    chromium: Any, program: Any, size: tuple[int, int]
+    open_sheet: OpenSheet, program: Any, size: tuple[int, int]
 ) -> None:
-    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
-    sheet.begin(2)
+    sheet = open_sheet(program[1], size=size).begin(2)
     check(sheet)
     sheet.press('All tools')
     sheet.press('Pen')
@@ -233,25 +225,24 @@ def test_the_view_does_not_move_in_the_midst_of_a_gesture(
     # A polygon is clicked corner by corner.
     sheet.press('Polygon')
     between = sheet.place(0.0, 0.0)
-    sheet.page.mouse.click(*sheet.place(3.0, 5.0))
+    sheet.tap(3.0, 5.0)
     sheet.page.evaluate(FOLD)
     sheet.page.evaluate('new Promise(requestAnimationFrame)')
     assert sheet.place(0.0, 0.0) == between
     for corner in ((4.0, 5.0), (4.0, 6.0)):
-        sheet.page.mouse.click(*sheet.place(*corner))
+        sheet.tap(*corner)
     assert sheet.place(0.0, 0.0) == between
     sheet.page.keyboard.press('Enter')
     sheet.until(lambda: sheet.place(0.0, 0.0) != between, 'a world in the room')
     check(sheet)
-    sheet.close()
 
 
 @pytest.mark.parametrize('size', SIZES[:1])
 def test_what_is_drawn_beyond_the_first_view_stays_in_sight(
-    chromium: Any, outside: Outside, size: tuple[int, int]
+    open_sheet: OpenSheet, outside: Outside, size: tuple[int, int]
 ) -> None:
     _, address = started_world(outside, world='format: 1')
-    sheet = Sheet(chromium, address, viewport={'width': size[0], 'height': size[1]})
+    sheet = open_sheet(address, size=size)
     sheet.wait('heard.people && physsim.time >= 0')
     sheet.press('Pause')
     bar = sheet.page.locator('#bar')
@@ -266,15 +257,13 @@ def test_what_is_drawn_beyond_the_first_view_stays_in_sight(
         sheet.page.locator(panel).get_by_role('button', name='Close').click()
     sheet.until(lambda: sheet.place(*foot) != before, 'a world in the larger room')
     assert sheet.place(*foot)[1] < bar.bounding_box()['y']
-    sheet.close()
 
 
 @pytest.mark.parametrize('size', SIZES[1:3])
 def test_a_telephone_shows_the_lesson_or_the_panel(
-    chromium: Any, program: Any, size: tuple[int, int]
+    open_sheet: OpenSheet, program: Any, size: tuple[int, int]
 ) -> None:
-    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
-    sheet.begin(2)
+    sheet = open_sheet(program[1], size=size).begin(2)
     measure = sheet.page.get_by_text('To measure:')
     sheet.page.evaluate(UNFOLD)
     measure.wait_for()
@@ -284,12 +273,13 @@ def test_a_telephone_shows_the_lesson_or_the_panel(
     measure.wait_for()
     sheet.page.get_by_role('heading', name='Ice').wait_for(state='hidden')
     check(sheet)
-    sheet.close()
 
 
-def test_the_view_stays_where_something_closes_by_itself(chromium: Any, outside: Outside) -> None:
+def test_the_view_stays_where_something_closes_by_itself(
+    open_sheet: OpenSheet, outside: Outside
+) -> None:
     _, address = started_world(outside, world='format: 1\nbounds: [-8, 0, 8, 5]\nbodies: []')
-    sheet = Sheet(chromium, address)
+    sheet = open_sheet(address)
     card = sheet.page.locator('#card')
     card.wait_for()
     before = sheet.place(8.0, 0.0)
@@ -306,8 +296,8 @@ def test_the_view_stays_where_something_closes_by_itself(chromium: Any, outside:
     assert sheet.place(8.0, 0.0) == before
     sheet.page.keyboard.press('Escape')
     # One that would makes the world smaller; where its body is deleted, the view stays.
-    sheet.page.mouse.click(*sheet.place(6.5, 4.5))
-    sheet.page.mouse.click(*sheet.place(6.8, 4.5))
+    sheet.tap(6.5, 4.5)
+    sheet.tap(6.8, 4.5)
     sheet.wait('Object.keys(physsim.bodies).length === 2')
     sheet.page.keyboard.press('N')
     panel.wait_for()
@@ -321,12 +311,13 @@ def test_the_view_stays_where_something_closes_by_itself(chromium: Any, outside:
     sheet.press('Material')
     sheet.press('Close')
     sheet.wait('smaller => physsim.toPage(8, 0)[0] > smaller', smaller[0])
-    sheet.close()
 
 
-def test_a_stroke_may_begin_on_the_card_of_strokes(chromium: Any, outside: Outside) -> None:
+def test_a_stroke_may_begin_on_the_card_of_strokes(
+    open_sheet: OpenSheet, outside: Outside
+) -> None:
     _, address = started_world(outside, world='format: 1\nbodies: []')
-    sheet = Sheet(chromium, address, viewport={'width': 800, 'height': 600})
+    sheet = open_sheet(address, size=(800, 600))
     sheet.wait('heard.people && physsim.time >= 0')
     sheet.press('Pen')
     card = sheet.page.locator('#card')
@@ -338,4 +329,3 @@ def test_a_stroke_may_begin_on_the_card_of_strokes(chromium: Any, outside: Outsi
     sheet.drag(*circle(x, y, 1.0))
     sheet.wait('Object.keys(physsim.bodies).length === 1')
     card.wait_for(state='hidden')
-    sheet.close()

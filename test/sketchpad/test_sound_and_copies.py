@@ -6,11 +6,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 WORLD = """
@@ -27,13 +26,11 @@ joints:
 
 
 @pytest.fixture
-def sheet(chromium: Any, outside: Outside) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, outside: Outside) -> Iterator[Sheet]:
     """Give a test a page of a world with a ball in the air, paused."""
     program, address = started_world(outside, world=WORLD)
-    sheet = Sheet(chromium, address)
-    sheet.begin(2)
+    sheet = open_sheet(address).begin(2)
     yield sheet
-    sheet.close()
     program.interrupt()
 
 
@@ -62,16 +59,16 @@ def test_bodies_of_the_lasso_are_copied_beside_with_their_joint(sheet: Sheet) ->
     assert ball[1] == 4.0
     assert box[0] - ball[0] == pytest.approx(2.0)
     assert ball[0] > 0.0
-    sheet.page.get_by_role('status').get_by_text('Copied 2 bodies').wait_for()
+    sheet.told('Copied 2 bodies')
     sheet.press('Undo')
     sheet.wait('Object.keys(physsim.bodies).length === 2')
 
 
 def test_a_body_is_copied_beside_with_its_joint_to_the_background(sheet: Sheet) -> None:
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(-1.0, 0.4))
+    sheet.tap(-1.0, 0.4)
     sheet.press('Copy beside')
     sheet.wait('"drawn/0" in physsim.bodies')
     # By its width and half a metre.
     assert sheet.pose('drawn/0')[:2] == pytest.approx([0.5, 0.5])
-    sheet.page.get_by_role('status').get_by_text('Copied one body').wait_for()
+    sheet.told('Copied one body')

@@ -24,14 +24,13 @@ from physsim_ros.files import (
 )
 from physsim_ros.model import errors
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import check_limit, WorldSettings
 from physsim_ros.model.shapes import Disc
-from physsim_ros.simulation.world.capacity import check_limit
 from physsim_ros.sketchpad.messages.fields import person
 from physsim_ros.sketchpad.server.page_handlers import PAGE
 import pytest
 
-from .chromium import Sheet, WORLD
+from .chromium import OpenSheet, Sheet, WORLD
 from .scripts import texts_of
 from .test_locks import ATTEMPTS
 from .test_locks import WORLD as LOCKED
@@ -90,23 +89,6 @@ def shipped_texts() -> set[str]:
         heading = name.replace('_', ' ')
         texts |= {heading[0].upper() + heading[1:], title_of(path)}
     return texts
-
-
-def test_a_text_is_found_where_a_script_has_one() -> None:
-    script = """
-        // a comment 'with quotes'
-        const word = t('Open {name}'), rule = /it's/;
-        call(`Opened ${name ? `the ${t('world')}` : 'it\\'s'} now`);
-    """
-    found = [(text.text, text.translated) for text in texts_of(script) if text.text]
-    assert found == [
-        ('Open {name}', True),
-        ('Opened ', False),
-        ('the ', False),
-        ('world', True),
-        ("it's", False),
-        (' now', False),
-    ]
 
 
 @pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: path.stem)
@@ -173,17 +155,16 @@ NAMED = re.compile(
 
 
 @pytest.fixture
-def marked(chromium: Any, address: str) -> Iterator[Sheet]:
+def marked(open_sheet: OpenSheet, address: str) -> Sheet:
     """Give a test a page in a language in which each text is its own translation, marked."""
-    sheet = Sheet(chromium, 'about:blank', locale='de-DE')
+    sheet = open_sheet('about:blank', locale='de-DE')
     texts = {text: MARKED.format(text) for text in page_texts() | shipped_texts()}
     table = json.dumps({'texts': texts, 'refusals': {}})
     sheet.context.add_init_script(CANVAS)
     sheet.page.route('**/languages/de.json', lambda route: route.fulfill(body=table))
     sheet.page.goto(address)
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def press(sheet: Sheet, name: str) -> None:
@@ -212,7 +193,7 @@ def test_all_that_the_page_shows_comes_from_its_table(marked: Sheet) -> None:
     press(marked, 'Show velocities')
     press(marked, 'Show forces')
     press(marked, 'Hand')
-    marked.page.mouse.click(*marked.place(*marked.pose('ball/0')[:2]))
+    marked.tap(*marked.pose('ball/0')[:2])
     marked.page.get_by_text(MARKED.format('Label')).wait_for()
     press(marked, 'Large plot')
     assert unmarked(marked) == set()
@@ -251,7 +232,7 @@ def test_all_that_the_page_tells_comes_from_its_table(marked: Sheet) -> None:
         press(marked, tool)
         before = marked.page.evaluate('window.told.size')
         for point in points:
-            marked.page.mouse.click(*marked.place(*point))
+            marked.tap(*point)
         marked.wait('before => window.told.size > before + 1', before)
     press(marked, 'Undo')
     press(marked, 'Lasso')
@@ -392,20 +373,19 @@ def test_what_is_wrong_with_a_number_that_was_typed_comes_from_the_table(marked:
 
 
 def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
-    chromium: Any, address: str
+    open_sheet: OpenSheet,
 ) -> None:
-    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet = open_sheet(locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
     assert sheet.page.locator('html').get_attribute('lang') == 'de'
     sheet.press('Pause')
     sheet.press('Befestigen')
-    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
-    sheet.page.get_by_role('status').get_by_text('Hier ist kein Körper', exact=True).wait_for()
+    sheet.tap(-2.0, 6.0)
+    sheet.told('Hier ist kein Körper', exact=True)
     sheet.press('Hilfe')
     sheet.page.get_by_label('Sprache').select_option('English')
     sheet.page.get_by_role('button', name='Anchor', exact=True).wait_for()
     assert sheet.page.locator('html').get_attribute('lang') == 'en'
-    sheet.close()
 
 
 # As the page replaces parts of sentences of the server, one after the other.
@@ -417,7 +397,7 @@ SAID = """async (messages) => {
 CROWDED = WorldSettings(max_bodies=1, max_shapes=1, max_joints=1)
 
 
-def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, address: str) -> None:
+def test_details_of_what_a_person_can_do_wrong_are_in_german(open_sheet: OpenSheet) -> None:
     refused: dict[str, Callable[[], object]] = {
         'höchstens 1 Körper': lambda: check_limit('max_bodies', 2, CROWDED),
         'höchstens 1 Teile von Körpern': lambda: check_limit('max_shapes', 2, CROWDED),
@@ -433,9 +413,8 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, addr
         with pytest.raises(errors.Refusal) as caught:
             refuse()
         messages.append(str(caught.value))
-    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet = open_sheet(locale='de-DE')
     assert sheet.page.evaluate(SAID, messages) == [*refused]
-    sheet.close()
 
 
 # The body of a wrong world file, and what a German page says of it.
@@ -479,9 +458,9 @@ OF_FILES = """async (files) => {
 
 
 def test_what_is_wrong_with_a_world_file_is_told_in_german(
-    chromium: Any, address: str, tmp_path: Path
+    open_sheet: OpenSheet, tmp_path: Path
 ) -> None:
-    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet = open_sheet(locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
     files, wrong = zip(*WRONG_FILES, strict=True)
     assert sheet.page.evaluate(OF_FILES, files) == list(wrong)
@@ -490,23 +469,20 @@ def test_what_is_wrong_with_a_world_file_is_told_in_german(
     sheet.press('Welten')
     sheet.page.get_by_label('Datei öffnen').set_input_files(path)
     told = "Diese Weltdatei ist fehlerhaft: Körper 'a/0': radius: -1 liegt nicht zwischen 0,001"
-    sheet.page.get_by_role('status').get_by_text(told).wait_for()
+    sheet.told(told)
     # A browser notes each refused request.
     sheet.errors.clear()
-    sheet.close()
 
 
-def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address, locale='de-DE')
+def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
     sheet.press('Welten')
     sheet.page.get_by_role('button', name='Kugelstoß\xadpendel').wait_for()
     sheet.page.locator('.lessons').get_by_role('button', name='5. Reibung').click()
     card = sheet.page.locator('#lesson')
     card.get_by_text('Die Reibungszahl ist 0,4.').wait_for()
-    sheet.page.get_by_role('status').get_by_text('Reibung geöffnet').wait_for()
+    sheet.told('Reibung geöffnet')
     sheet.page.get_by_role('textbox', name='Deine Antwort').fill('3,2')
     sheet.press('Prüfen')
     card.get_by_text('Richtig!').wait_for()
@@ -514,21 +490,18 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
     sheet.page.get_by_label('Uhr').get_by_text('0,00 s').wait_for()
     sheet.wait('"block/0" in physsim.bodies')
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(*sheet.pose('block/0')[:2]))
+    sheet.tap(*sheet.pose('block/0')[:2])
     panel = sheet.page.get_by_role('complementary')
     panel.get_by_role('heading', name='Block', exact=True).wait_for()
     sheet.page.get_by_text('Zahlen eingeben').click()
     for typed, shown in (('0,75', 'bei (0 | 0,75) m'), ('1.5', 'bei (0 | 1,50) m')):
-        sheet.page.get_by_label('y [m]', exact=True).fill(typed)
-        sheet.page.keyboard.press('Enter')
+        sheet.enter('y [m]', typed, exact=True)
         sheet.page.locator('.numbers').get_by_text(shown).wait_for()
     assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
-    sheet.page.get_by_label('Stoßzahl, als Zahl').fill('1,5')
-    sheet.page.keyboard.press('Enter')
+    sheet.enter('Stoßzahl, als Zahl', '1,5')
     refused = 'nicht möglich: 1,5 liegt nicht zwischen 0 und 1'
-    sheet.page.get_by_role('status').get_by_text(refused).wait_for()
-    sheet.page.get_by_label('Reibung, als Zahl').fill('viel')
-    sheet.page.keyboard.press('Enter')
+    sheet.told(refused)
+    sheet.enter('Reibung, als Zahl', 'viel')
     assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
     # As spreadsheets in German read it.
     sheet.press('Abspielen')
@@ -544,7 +517,6 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
     other.goto(sheet.page.url)
     sheet.press('Personen')
     sheet.page.locator('.people').get_by_text(re.compile(r'Seite \d+ \(du\)')).wait_for()
-    sheet.close()
 
 
 def test_no_key_of_a_tool_has_another_meaning() -> None:

@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from .chromium import circle, Fingers, POINTER, Sheet, started_world, Stylus
+from .chromium import circle, Fingers, OpenSheet, POINTER, Sheet, started_world, Stylus
 from ..outside import Outside
 
 
-def test_a_second_finger_turns_the_body_that_is_placed(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+def test_a_second_finger_turns_the_body_that_is_placed(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True).begin()
     sheet.press('Hand')
     x, y = sheet.place(4.0, 0.5)
     fingers = Fingers(sheet)
@@ -34,15 +33,11 @@ def test_a_second_finger_turns_the_body_that_is_placed(chromium: Any, address: s
     fingers.lift()
     sheet.press('Undo')
     sheet.wait('physsim.bodies["box/0"].join() === "4,0.5,0"')
-    sheet.close()
 
 
-def before_a_circle(
-    chromium: Any, address: str
-) -> tuple[Sheet, set[str], list[tuple[float, float]]]:
+def before_a_circle(open_sheet: OpenSheet) -> tuple[Sheet, set[str], list[tuple[float, float]]]:
     """Return a sheet, the names of its bodies, and the places of a circle that is to be drawn."""
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+    sheet = open_sheet(has_touch=True).begin()
     return sheet, sheet.names(), [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
 
 
@@ -107,10 +102,9 @@ MEANWHILE: dict[str, Callable[[Sheet], object]] = {
 
 @pytest.mark.parametrize('pointer', ['mouse', 'pen'])
 def test_a_stroke_is_drawn_to_its_end_whatever_happens_meanwhile(
-    chromium: Any, address: str, pointer: str
+    open_sheet: OpenSheet, pointer: str
 ) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+    sheet = open_sheet(has_touch=True).begin()
     mouse, stylus, stroke = sheet.page.mouse, Stylus(sheet), circle(1.0, 5.0, 0.8)
 
     def move(points: Sequence[tuple[float, float]]) -> None:
@@ -143,7 +137,6 @@ def test_a_stroke_is_drawn_to_its_end_whatever_happens_meanwhile(
         assert sheet.pose(drawn)[:2] == pytest.approx((1.0, 5.0), abs=0.05), name
         sheet.press('Undo')
         sheet.wait('name => !(name in physsim.bodies)', drawn)
-    sheet.close()
 
 
 @pytest.mark.parametrize('end', ['cancel', 'lost'])
@@ -160,11 +153,8 @@ def test_the_stroke_of_a_stylus_whose_end_is_not_told_ends_where_it_was(
     sheet.close()
 
 
-def test_a_hand_lets_go_though_its_second_finger_was_cancelled(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+def test_a_hand_lets_go_though_its_second_finger_was_cancelled(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True).begin()
     sheet.press('Hand')
     fingers = Fingers(sheet)
     fingers.put(sheet.place(4.0, 0.5))
@@ -175,12 +165,10 @@ def test_a_hand_lets_go_though_its_second_finger_was_cancelled(
     # A hand that holds it would keep it there.
     sheet.press('Play')
     sheet.wait('physsim.bodies["box/0"][1] < 1')
-    sheet.close()
 
 
-def test_a_long_stroke_is_thinned_out(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+def test_a_long_stroke_is_thinned_out(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet().begin()
     before = sheet.names()
     (x, y), count = sheet.place(1.0, 6.0), 9000
     turns = np.linspace(0.0, math.tau, count)
@@ -188,13 +176,11 @@ def test_a_long_stroke_is_thinned_out(chromium: Any, address: str) -> None:
     places = [['down', x + 70, y], *places, ['up', x + 70, y]]
     sheet.page.evaluate(POINTER, ['mouse', 1, 99, places])
     sheet.wait_for_new(before)
-    sheet.page.get_by_role('status').get_by_text('Circle added').wait_for()
-    sheet.close()
+    sheet.told('Circle added')
 
 
-def test_the_eraser_of_a_stylus_erases_and_its_button_selects(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+def test_the_eraser_of_a_stylus_erases_and_its_button_selects(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True).begin()
     corner = sheet.place(0.0, 0.0)
     # Right through a body, and past the others.
     (x, y), (end_x, _) = sheet.place(-5.0, 3.0), sheet.place(-3.0, 3.0)
@@ -211,16 +197,15 @@ def test_the_eraser_of_a_stylus_erases_and_its_button_selects(chromium: Any, add
     assert sheet.names() == {'ball/0', 'box/0', 'shelf/0'}
     sheet.press('Close')
     assert sheet.place(0.0, 0.0) == corner
-    sheet.close()
 
 
 def test_a_body_beyond_the_bounds_and_a_world_of_many_kilometres_are_framed(
-    chromium: Any, outside: Outside
+    open_sheet: OpenSheet, outside: Outside
 ) -> None:
     world = 'format: 1\nbounds: [-4000, 0, 4000, 3000]\nbodies:\n'
     bodies = '- {name: far/0, circle: {radius: 9}, at: [9000, -2000], anchored: true}'
     _, address = started_world(outside, world=world + bodies)
-    sheet = Sheet(chromium, address)
+    sheet = open_sheet(address)
     sheet.wait('Object.keys(physsim.bodies).length === 1')
     for point in ((-4000.0, 0.0), (4000.0, 3000.0)):
         x, y = sheet.place(*point)
@@ -230,16 +215,14 @@ def test_a_body_beyond_the_bounds_and_a_world_of_many_kilometres_are_framed(
     sheet.press('Frame the world')
     assert 0 < sheet.place(9000.0, -2000.0)[0] < 1200
     assert sheet.place(-4000.0, 0.0)[0] > 0
-    sheet.close()
 
 
-def test_a_finger_beside_a_body_means_that_body(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+def test_a_finger_beside_a_body_means_that_body(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True).begin()
     x, y = sheet.place(0.0, 1.0)
     sheet.press('Anchor')
     sheet.page.touchscreen.tap(x, y - 8)
-    sheet.page.get_by_role('status').get_by_text('ball/0 anchored').wait_for()
+    sheet.told('ball/0 anchored')
     sheet.press('Undo')
     # An anchored body is carried, and moves when it is let go.
     sheet.wait('heard.shown.includes("~/undo")')
@@ -249,24 +232,20 @@ def test_a_finger_beside_a_body_means_that_body(chromium: Any, address: str) -> 
     fingers.move((x, y - 100))
     sheet.wait('physsim.bodies["ball/0"][1] > 1')
     fingers.lift()
-    sheet.close()
 
 
-def test_the_first_tap_of_a_circle_leaves_a_mark(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+def test_the_first_tap_of_a_circle_leaves_a_mark(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True).begin()
     sheet.press('Circle')
     x, y = sheet.place(1.0, 6.0)
     sheet.page.touchscreen.tap(x, y)
     mark = sheet.page.evaluate('([x, y]) => physsim.toWorld(x, y)', [x + 4, y])
     sheet.until(lambda: sheet.color_at(*mark) == [11, 98, 196], 'a mark')
     sheet.page.keyboard.press('Escape')
-    sheet.close()
 
 
-def test_a_finger_that_stays_on_a_button_asks_what_it_does(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+def test_a_finger_that_stays_on_a_button_asks_what_it_does(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True).begin()
     box = sheet.page.get_by_role('button', name='Hand', exact=True).bounding_box()
     fingers = Fingers(sheet)
     fingers.put((box['x'] + 20, box['y'] + 20))
@@ -282,12 +261,10 @@ def test_a_finger_that_stays_on_a_button_asks_what_it_does(chromium: Any, addres
         return bool(sheet.page.get_by_role('button', name='Hand', pressed=True).count())
 
     sheet.until(is_pressed, 'a tap')
-    sheet.close()
 
 
-def test_a_tap_that_opens_the_panel_works_nothing_in_it(chromium: Any, address: str) -> None:
-    sheet = Sheet(chromium, address, has_touch=True, viewport={'width': 844, 'height': 390})
-    sheet.begin()
+def test_a_tap_that_opens_the_panel_works_nothing_in_it(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True, size=(844, 390)).begin()
     sheet.press('Hand')
     panel = sheet.page.get_by_role('complementary', name='Body')
     sheet.page.touchscreen.tap(*sheet.place(4.0, 0.5))
@@ -298,14 +275,10 @@ def test_a_tap_that_opens_the_panel_works_nothing_in_it(chromium: Any, address: 
     sheet.press('More')
     friction = panel.get_by_role('slider', name='Friction')
     assert friction.input_value() == '0.5'
-    sheet.close()
 
 
-def test_a_stylus_draws_and_from_then_on_a_finger_moves_the_view(
-    chromium: Any, address: str
-) -> None:
-    sheet = Sheet(chromium, address, has_touch=True)
-    sheet.begin()
+def test_a_stylus_draws_and_from_then_on_a_finger_moves_the_view(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True).begin()
     before = sheet.names()
     Stylus(sheet).draw([sheet.place(*point) for point in circle(1.0, 5.0, 0.8)])
     sheet.wait_for_new(before)
@@ -315,4 +288,3 @@ def test_a_stylus_draws_and_from_then_on_a_finger_moves_the_view(
     fingers.move((540, 330))
     fingers.lift()
     assert sheet.place(0.0, 0.0) == pytest.approx((x + 40, y + 30), abs=1.0)
-    sheet.close()

@@ -21,31 +21,26 @@ SPAWN = """bodies => new Promise((resolve) => {
 })"""
 
 
-def said(sheet: Sheet, text: str) -> None:
-    """Wait for the status line to say something."""
-    sheet.page.get_by_role('status').get_by_text(text, exact=True).wait_for()
-
-
 def test_what_nobody_has_named_is_called_what_it_is(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.drag(*circle(1.0, 5.0, 0.8))
     name = sheet.wait_for_new(before)
-    said(sheet, 'Circle added')
+    sheet.told('Circle added', exact=True)
     sheet.press('Anchor')
-    sheet.page.mouse.click(*sheet.place(1.0, 5.0))
-    said(sheet, 'Circle anchored')
+    sheet.tap(1.0, 5.0)
+    sheet.told('Circle anchored', exact=True)
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(1.0, 5.0))
+    sheet.tap(1.0, 5.0)
     title = sheet.page.get_by_role('complementary', name='Body').get_by_role('heading').first
     assert title.inner_text().split() == ['Circle', name]
     sheet.page.keyboard.press('Delete')
-    said(sheet, 'Circle deleted')
+    sheet.told('Circle deleted', exact=True)
     sheet.press('Undo')
     sheet.press('Undo')
     sheet.press('Undo')
-    said(sheet, 'Undone: add the circle')
+    sheet.told('Undone: add the circle', exact=True)
     sheet.press('Redo')
-    said(sheet, 'Redone: add the circle')
+    sheet.told('Redone: add the circle', exact=True)
 
 
 def test_a_knife_tells_that_it_passed_a_joint_too(sheet: Sheet) -> None:
@@ -57,41 +52,41 @@ def test_a_knife_tells_that_it_passed_a_joint_too(sheet: Sheet) -> None:
         sheet.press(tool)
         sheet.drag(*points)
         sheet.page.evaluate('new Promise(requestAnimationFrame)')
-    said(sheet, 'Cut into 2 pieces, and joints cut through')
+    sheet.told('Cut into 2 pieces, and joints cut through', exact=True)
 
 
 def test_a_chain_is_told_as_one_thing_not_as_its_last_axle(sheet: Sheet) -> None:
     sheet.press('Chain')
     sheet.drag((-4.0, 3.0), (-4.0, 6.0))
-    said(sheet, 'Chain of 9 links added')
+    sheet.told('Chain of 9 links added', exact=True)
     sheet.press('Circle')
     sheet.drag((2.0, 5.0), (2.7, 5.0))
-    said(sheet, 'Circle added')
+    sheet.told('Circle added', exact=True)
     sheet.press('Undo')
     sheet.press('Undo')
-    said(sheet, 'Undone: add chain')
+    sheet.told('Undone: add chain', exact=True)
 
 
 def test_what_somebody_has_named_is_called_by_its_name(sheet: Sheet) -> None:
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
-    said(sheet, 'box/0 deleted')
+    sheet.tap(4.0, 0.5)
+    sheet.told('box/0 deleted', exact=True)
 
 
 def test_worlds_have_their_names(sheet: Sheet) -> None:
     sheet.press('Save')
     sheet.page.get_by_role('textbox', name='Name of the world').fill('mine')
     sheet.press('Save world')
-    said(sheet, 'Saved as mine')
+    sheet.told('Saved as mine', exact=True)
     sheet.press('Worlds')
     sheet.page.get_by_role('button', name='mine', exact=True).click()
-    said(sheet, 'Opened mine')
+    sheet.told('Opened mine', exact=True)
 
 
 def test_a_refusal_says_here_for_its_place(sheet: Sheet) -> None:
     sheet.press('Anchor')
-    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
-    said(sheet, 'There is no body here')
+    sheet.tap(-2.0, 6.0)
+    sheet.told('There is no body here', exact=True)
 
 
 @pytest.mark.parametrize(
@@ -107,12 +102,12 @@ def test_names_are_shown_as_text_and_long_ones_short(sheet: Sheet, name: str, ti
     sheet.page.evaluate(SPAWN, [[name, 0.0]])
     sheet.wait('name => name in physsim.bodies', name)
     sheet.press('Hand')
-    sheet.page.mouse.click(*sheet.place(0.0, 6.0))
+    sheet.tap(0.0, 6.0)
     panel = sheet.page.get_by_role('complementary', name='Body')
     assert panel.get_by_role('heading').first.inner_text().strip() == title
     # Playwright clicks only what nothing covers.
     panel.get_by_label('Anchored').click()
-    said(sheet, f'{title} changed')
+    sheet.told(f'{title} changed', exact=True)
     with sheet.page.expect_download():
         sheet.press('Table (CSV)')
     undo = sheet.page.get_by_role('button', name='Undo', exact=True)

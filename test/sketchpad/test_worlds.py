@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import circle, Sheet, started_world
+from .chromium import circle, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 PICTURE = """async () => {
@@ -24,13 +24,11 @@ PICTURE = """async () => {
 
 
 @pytest.fixture
-def sheet(chromium: Any, outside: Outside) -> Iterator[Sheet]:
+def sheet(open_sheet: OpenSheet, outside: Outside) -> Iterator[Sheet]:
     """Give a test a page of a world without worlds of its own, from its beginning, paused."""
     program, address = started_world(outside)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     yield sheet
-    sheet.close()
     program.interrupt()
 
 
@@ -44,13 +42,8 @@ def save(sheet: Sheet, name: str) -> None:
 def delete_box(sheet: Sheet) -> None:
     """Delete the box."""
     sheet.press('Delete')
-    sheet.page.mouse.click(*sheet.place(4.0, 0.5))
+    sheet.tap(4.0, 0.5)
     sheet.wait('!("box/0" in physsim.bodies)')
-
-
-def said(sheet: Sheet, text: str) -> None:
-    """Wait for the status line to say something."""
-    sheet.page.get_by_role('status').get_by_text(text, exact=True).wait_for()
 
 
 def undone(sheet: Sheet, text: str) -> None:
@@ -63,21 +56,21 @@ def open_own(sheet: Sheet, name: str) -> None:
     """Open a world of one's own."""
     sheet.press('Worlds')
     sheet.page.get_by_role('button', name=name, exact=True).click()
-    said(sheet, f'Opened {name}')
+    sheet.told(f'Opened {name}', exact=True)
 
 
 def test_saving_asks_once_before_it_writes_over_a_world_and_can_be_undone(sheet: Sheet) -> None:
     save(sheet, 'mine')
-    said(sheet, 'Saved as mine')
+    sheet.told('Saved as mine', exact=True)
     delete_box(sheet)
     save(sheet, 'mine')
     sheet.press('Save as mine 2')
-    said(sheet, 'Saved as mine 2')
+    sheet.told('Saved as mine 2', exact=True)
     save(sheet, 'mine')
     sheet.press('Replace mine')
-    said(sheet, 'Saved as mine')
+    sheet.told('Saved as mine', exact=True)
     undone(sheet, 'mine is replaced')
-    said(sheet, 'World mine is back')
+    sheet.told('World mine is back', exact=True)
     open_own(sheet, 'mine')
     sheet.wait('"box/0" in physsim.bodies')
     open_own(sheet, 'mine 2')
@@ -88,7 +81,7 @@ def test_nobody_takes_the_name_of_a_shipped_world(sheet: Sheet) -> None:
     save(sheet, 'incline')
     assert sheet.page.get_by_role('button', name='Replace incline').count() == 0
     sheet.press('Save as incline 2')
-    said(sheet, 'Saved as incline 2')
+    sheet.told('Saved as incline 2', exact=True)
     sheet.press('Worlds')
     sheet.page.get_by_role('button', name='Incline Friction').click()
     sheet.wait('"slope/0" in physsim.bodies')
@@ -98,7 +91,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     sheet: Sheet,
 ) -> None:
     save(sheet, 'mine')
-    said(sheet, 'Saved as mine')
+    sheet.told('Saved as mine', exact=True)
     sheet.press('Worlds')
     sheet.page.locator('.own img[src^="/picture/mine"]').wait_for()
     assert sheet.page.evaluate(PICTURE) == [480, 200]
@@ -120,7 +113,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     sheet.press('Worlds')
     sheet.page.locator('.own', has_text='yours').get_by_role('button', name='Delete').click()
     undone(sheet, 'yours is deleted')
-    said(sheet, 'World yours is back')
+    sheet.told('World yours is back', exact=True)
     open_own(sheet, 'yours')
 
 
@@ -229,21 +222,20 @@ def test_the_card_of_strokes_is_in_the_help_and_beside_an_empty_canvas(sheet: Sh
 def test_an_empty_world_has_earth_and_walls_of_its_own(sheet: Sheet) -> None:
     sheet.press('Material')
     sheet.press('Moon')
-    sheet.page.get_by_role('status').get_by_text('Gravity set').wait_for()
+    sheet.told('Gravity set')
     sheet.page.keyboard.press('Escape')
     sheet.press('Worlds')
     sheet.press('Empty room')
-    sheet.page.get_by_role('status').get_by_text('An empty world').wait_for()
+    sheet.told('An empty world')
     sheet.press('Material')
     gravity = sheet.page.get_by_label('Gravity [m/s²], typed')
     sheet.until(lambda: gravity.input_value() == '9.81', 'the gravity of the Earth')
 
 
-def test_a_machine_that_is_too_slow_says_how_slow(chromium: Any, outside: Outside) -> None:
+def test_a_machine_that_is_too_slow_says_how_slow(open_sheet: OpenSheet, outside: Outside) -> None:
     # 10,000 frames a second, each of one step, are more than any machine makes.
     program, address = started_world(outside, physics_rate=10000.0, publish_rate=10000.0)
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+    sheet = open_sheet(address).begin()
     speed = sheet.page.locator('#speed')
     assert speed.inner_text() == '1×'
     sheet.press('Hand')
@@ -251,5 +243,4 @@ def test_a_machine_that_is_too_slow_says_how_slow(chromium: Any, outside: Outsid
     with sheet.dragging((0.0, 0.5), (1.0, 3.0)):
         told = re.compile(r'Speed (0\.\d+)×, slower than 1×')
         sheet.until(lambda: told.fullmatch(speed.get_attribute('aria-label')), 'the pace')
-    sheet.close()
     program.interrupt()

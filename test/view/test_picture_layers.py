@@ -45,6 +45,12 @@ def test_the_grid_has_a_line_at_every_whole_metre_and_says_which(recording):
         # Labels hang below their points: those at the left are raised by half their height.
         assert label in {f'{x:g} m', f'{math.floor(y):g} m'}
         assert x < -10.0 or y < 0.0, 'a label covers the world'
+    across = {
+        float(label[:-2]) for (_, y, _), label in zip(places, labels, strict=True) if y < 0.0
+    }
+    up = {float(label[:-2]) for (x, _, _), label in zip(places, labels, strict=True) if x < -10.0}
+    assert across == {-10.0, -5.0, 0.0, 5.0, 10.0}
+    assert up == {0.0, 5.0, 10.0}
 
 
 def contacts(*impulses, pair=(0, -1)):
@@ -144,7 +150,7 @@ def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
     box, half = scene(body()), Preview(lines=(((0, 0), (3, 4)),), points=((3, 4),), label='wall')
     # Nothing moves: a preview alone is something new to see.
     for preview in (NO_PREVIEW, half, half, NO_PREVIEW):
-        recording.draw(frame(box, [(0, 0, 0)], moved=False, preview=preview))
+        recording.draw(frame(box, [(0, 0, 0)], stepped=False, preview=preview))
 
     (shown, cleared) = recording.rows('world/preview/lines', 'LineStrips3D:strips')
     assert (shown.frame, cleared.frame) == (1, 2)

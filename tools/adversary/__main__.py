@@ -26,7 +26,7 @@ import psutil
 import rclpy
 
 from . import scenes
-from .driver import Driver, start_driver
+from .driver import Driver
 from .monitor import Monitor
 
 # Disturbances in a round, and how long a world is left alone after them [s].
@@ -55,8 +55,9 @@ def main(minutes: float, seed: int) -> int:
         )
         world.wait_for('ready')
         os.environ.update(outside.environment)
-        driver = start_driver(seed)
+        rclpy.init()
         closing.callback(rclpy.shutdown)
+        driver = Driver(seed)
         closing.callback(driver.close)
         monitor = Monitor(world.process.pid, BUDGET)
         faults = []

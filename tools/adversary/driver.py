@@ -20,7 +20,6 @@ from physsim_ros.sketchpad.messages import ACTIONS
 from physsim_ros.testing import messages
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters
-import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -256,9 +255,3 @@ def _marker(request: Spawn) -> Marker:
     scale, points = (diameter, diameter, diameter), request.shape.centers
     kind = Marker.SPHERE_LIST
     return messages.marker(kind, request.name, at=request.pose, scale=scale, points=points)
-
-
-def start_driver(seed: int) -> Driver:
-    """Return a driver in the environment of the world."""
-    rclpy.init()
-    return Driver(seed)

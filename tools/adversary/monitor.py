@@ -27,11 +27,6 @@ RATE = 60.0
 class Sample(NamedTuple):
     """The state of the process in a world at rest."""
 
-    @property
-    def own(self) -> float:
-        """Return the memory without that of the past [MB]."""
-        return self.megabytes - self.past
-
     minutes: float
     megabytes: float
     past: float
@@ -39,6 +34,11 @@ class Sample(NamedTuple):
     descriptors: int
     children: int
     late_frames: int
+
+    @property
+    def own(self) -> float:
+        """Return the memory without that of the past [MB]."""
+        return self.megabytes - self.past
 
 
 class Monitor:

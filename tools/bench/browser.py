@@ -31,8 +31,8 @@ from playwright.sync_api import sync_playwright
 
 # Bodies, and pixels of the screen to one of the page.
 CASES = ((100, 1), (1000, 1), (1000, 2), (3000, 1), (3000, 2))
-VIEWPORT = {'width': 1280, 'height': 720}
-ASPECT = VIEWPORT['width'] / VIEWPORT['height']
+SIZE = 1280, 720
+ASPECT = SIZE[0] / SIZE[1]
 # From one body to the next, and the height of the free strip above them [m].
 APART, FREE = 0.8, 4.0
 # Frames of the page are counted for so long [ms].
@@ -130,7 +130,7 @@ def measure(bodies: int, ratio: int) -> None:
         program.wait_for('ready')
         playwright = closing.enter_context(sync_playwright())
         browser = launched_chromium(playwright)
-        sheet = Sheet(browser, found[0], viewport=VIEWPORT, device_scale_factor=ratio)
+        sheet = Sheet(browser, found[0], size=SIZE, device_scale_factor=ratio)
         sheet.wait('count => Object.keys(physsim.bodies).length > count', bodies)
         frames = sheet.page.evaluate(FRAMES, COUNTED)
         strokes, hands = stroke_times(sheet), hand_times(sheet)
@@ -146,7 +146,7 @@ def measure(bodies: int, ratio: int) -> None:
 
 def table() -> None:
     """Print a row for each count of bodies and density of pixels."""
-    width, height = VIEWPORT.values()
+    width, height = SIZE
     print(f'\nThe page in Chromium, {width} x {height}, no graphics card, a world at 60 Hz')
     print('bodies  ratio  frames/s  stroke to body [ms]  greatest  hand to body [ms]  greatest')
     for bodies, ratio in CASES:

@@ -10,9 +10,7 @@ over whole times between checkpoints.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from test.building import spawn
-import time
 
 from physsim_ros.model.requests import Restore
 from physsim_ros.model.shapes import Box, Disc
@@ -20,7 +18,7 @@ from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 
-from .bodies import Bare
+from .bodies import Bare, cpu_time
 
 COUNTS = (0, 10, 100)
 # Duration of a frame of the simulation [ms].
@@ -43,20 +41,14 @@ def on_floor(count: int, speed: float) -> World:
     return world
 
 
-def cpu(act: Callable[[], object]) -> float:
-    """Return the CPU time of a call, of all threads of this process [ms]."""
-    began = time.process_time()
-    act()
-    return (time.process_time() - began) * 1e3
-
-
 def measure(sim: PhysSim, count: int, speed: float) -> None:
     """Print a row."""
     world = on_floor(count, speed)
     sim.node.simulation.perform(Restore(state=world.save()))
     bare = Bare(world)
     sim.step(TURN)
-    times = [(cpu(lambda: sim.step(TURN)), cpu(lambda: bare.step(4 * TURN))) for _ in range(TURNS)]
+    acts = (lambda: sim.step(TURN), lambda: bare.step(4 * TURN))
+    times = [[cpu_time(act) for act in acts] for _ in range(TURNS)]
     ours, base = (sum(each) / (TURN * TURNS) for each in zip(*times, strict=True))
     state = 'rolling' if speed else 'at rest'
     print(f'{count:6}  {state} {base:10.3f} {ours:13.3f} {FRAME / ours:15.0f}', flush=True)

@@ -4,8 +4,8 @@
 """
 Robots and walls in ir-sim; run by a Python that has ir-sim, and not this project.
 
-Reads {robots, walls, speed, turn, step, seconds} as JSON from standard input, and prints how many
-times faster than real time it is by CPU time, as the best of two.
+Reads {robots, walls, beams, speed, turn, step, seconds} as JSON from standard input, and prints
+how many times faster than real time it is by CPU time, as the best of two.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from physsim_ros.model.requests import Restore
 from physsim_ros.simulation.world import World
 from physsim_ros.testing.domain import own_domain
 
-from .bodies import Bare, falling, sparse
+from .bodies import Bare, cpu_time, falling, sparse
 from .frames import TOPICS
 from .node_process import cpu_seconds, executable, listening, Remote
 
@@ -51,9 +51,7 @@ def measure(name: str, world: World) -> None:
     copy = World()
     copy.apply(Restore(state=state))
     bare = Bare(copy)
-    started = time.process_time()
-    bare.step(steps)
-    base = time.process_time() - started
+    base = 1e-3 * cpu_time(lambda: bare.step(steps))
     frames = steps / 4
     print(
         f'{len(state.bodies):6}  {name:8} {1e3 * base / frames:10.2f} {1e3 * node / frames:10.2f}'

@@ -31,6 +31,7 @@ from rclpy.parameter import Parameter
 from .bodies import fill, SETTLE
 
 ROOT = Path(__file__).parents[2]
+BODIES = 1000
 # Zero pages show how equal the two worlds are.
 COUNTS = (0, 1, 20)
 # Number of compared frames, and of frames before them that do not count.
@@ -148,14 +149,14 @@ def measure_strokes(bodies: int) -> None:
     )
 
 
-def table(bodies: int = 1000) -> None:
+def table() -> None:
     """Print what pages cost, and how soon they see what they draw."""
     with own_domain() as domain:
         rclpy.init(domain_id=domain)
         print('\nPages of the sketchpad, a settled pile at 60 Hz, recorded by nobody')
         print('bodies  pages  frame [ms]  more [%]   +-  CPU [ms]  more [%]   +-')
-        measure(bodies)
+        measure(BODIES)
         print('bodies  stroke to body [ms]  greatest  bytes/frame  bytes/body')
-        for count in (100, bodies):
+        for count in (100, BODIES):
             measure_strokes(count)
         rclpy.shutdown()

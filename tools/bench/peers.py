@@ -20,6 +20,7 @@ from physsim_ros.simulation.simulation import Simulation
 import pymunk
 
 from .bodies import Bare
+from .engine import simulation_of
 from .scenes import Scene
 
 # Frames a second of all engines, at which errors are measured.
@@ -117,7 +118,7 @@ class PymunkRun(_Peer):
     """
 
     def __init__(self, scene: Scene, rate: Rate) -> None:
-        world = _begun(scene).world
+        world = simulation_of(scene).world
         super().__init__(world.snapshot(), rate)
         bare = Bare(world)
         self._space, self._bodies = bare.space, bare.bodies
@@ -148,7 +149,7 @@ class Box2DRun(_Peer):
         # A peer, which is measured where it is installed.
         import pyb2d3  # noqa: PLC0415
 
-        world = _begun(scene).world
+        world = simulation_of(scene).world
         super().__init__(world.snapshot(), rate)
         self._b2 = pyb2d3
         settings = world.settings
@@ -244,13 +245,6 @@ class Box2DRun(_Peer):
             spin = body.angular_velocity
             states.append((place.x, place.y, body.angle, velocity.x, velocity.y, spin))
         return states
-
-
-def _begun(scene: Scene) -> Simulation:
-    """Return a simulation in which a scene begins."""
-    simulation = Simulation()
-    scene(simulation)
-    return simulation
 
 
 # Each engine with its rates, the cheapest first.

@@ -97,11 +97,11 @@ def chain(sim: Simulation) -> None:
     row(sim, 'link', 50, Box(width=0.2, height=0.05), mass=0.1)
 
 
-def bridge(sim: Simulation) -> None:
-    """Add a bridge of planks with a box on it."""
+def bridge(sim: Simulation, mass: float = 10.0) -> None:
+    """Add a bridge of planks of 1 kg with a box of some mass on it."""
     row(sim, 'plank', 10, Box(width=1.0, height=0.2), mass=1.0)
     join(sim, 'axle/10', 'axle', [(10.0, 0.0)], a='plank/9', b='world')
-    spawn(sim, 'box/0', Box(width=0.8, height=0.8), (5.0, 0.5, 0.0), mass=10.0)
+    spawn(sim, 'box/0', Box(width=0.8, height=0.8), (5.0, 0.5, 0.0), mass=mass)
 
 
 def car(sim: Simulation) -> None:

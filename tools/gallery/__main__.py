@@ -62,6 +62,12 @@ COMMANDS = {
 TITLE = 36
 # Frames in a batch of the recorder.
 BATCH = 60
+# Pictures of pages, which a browser draws.
+PAGES: dict[str, Callable[[], None]] = {
+    'page': lambda: draw_page(DOCS / 'page.webp', DOCS / 'time.png'),
+    'class': lambda: draw_class(DOCS / 'class.webp', DOCS / 'class.png'),
+    'crash': lambda: draw_crash(DOCS / 'crash.webp'),
+}
 
 
 def record(recording: Recording, frames: list[Frame]) -> int:
@@ -131,15 +137,10 @@ def main(chosen: list[str]) -> None:
         'drawing': draw_drawing,
         'window': draw_window,
     }
-    if not chosen or 'page' in chosen:
-        draw_page(DOCS / 'page.webp', DOCS / 'time.png')
-        print('page', flush=True)
-    if not chosen or 'class' in chosen:
-        draw_class(DOCS / 'class.webp', DOCS / 'class.png')
-        print('class', flush=True)
-    if not chosen or 'crash' in chosen:
-        draw_crash(DOCS / 'crash.webp')
-        print('crash', flush=True)
+    for name, draw in PAGES.items():
+        if not chosen or name in chosen:
+            draw()
+            print(name, flush=True)
     names = [name for name in (*SCENES, *pictures) if not chosen or Path(name).name in chosen]
     if not names:
         return

@@ -29,9 +29,9 @@ PUPILS = {'Anna': 2.5, 'Ben': 1.2, 'Cleo': 0.0, 'Dev': 3.1, 'Emma': 0.7, 'Finn':
 ANSWERS = {'Dev': '1.6', 'Anna': '3.17'}
 HAND, RUNNING = 'Cleo', 'Emma'
 # Size of the page, whose cards are in two rows of three [px].
-SIZE = {'width': 900, 'height': 660}
+SIZE = 900, 660
 # Size of the page of a pupil [px].
-PAGE = {'width': 800, 'height': 600}
+PAGE = 800, 600
 # Rate of the animation [Hz]: a page that watches gets four frames a second.
 RATE = 4
 # Pictures of worlds that play, and of one that is to be looked at.
@@ -66,7 +66,7 @@ def drawings() -> dict[str, list[Stroke]]:
 
 def come(browser: object, address: str, name: str) -> Sheet:
     """Return the page of a pupil of a name, who has come to a world."""
-    sheet = Sheet(browser, address, viewport=PAGE)
+    sheet = Sheet(browser, address, size=PAGE)
     sheet.page.get_by_role('textbox', name='Your name').fill(name)
     sheet.press('Go to my world')
     sheet.page.locator('#world').wait_for(state='attached')
@@ -151,7 +151,7 @@ def draw_class(path: Path, last: Path) -> None:
         pupils, teacher = (match[0] for match in found if match)
         browser = launched_chromium(closing.enter_context(sync_playwright()))
         # While a teacher watches, pupils can raise a hand.
-        film = Film(Sheet(browser, teacher, viewport=SIZE))
+        film = Film(Sheet(browser, teacher, size=SIZE))
         sheets = {}
         for name in PUPILS:
             film.sheet.page.wait_for_timeout(SHOWN)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-`make mutate`: a dozen mutations chosen at random, each with the fast tests of its folder.
+`make mutate`: forty mutations chosen at random, half of the core; a test has to notice each.
 
 `SEED=7 make mutate` chooses others and `COUNT=3` fewer. `make mutate ARGS=engine/core/floor` tries
 those of files whose path below `physsim_ros/` begins so, as after a change of them. The exit code
@@ -11,9 +11,11 @@ is the number of mutations that no test noticed.
 
 from __future__ import annotations
 
+import itertools
 import os
 from pathlib import Path
 from random import Random
+import re
 import subprocess
 import sys
 from tempfile import TemporaryDirectory
@@ -23,17 +25,19 @@ from .mutations import Mutation, mutations_of
 
 PACKAGE = Path('physsim_ros')
 CORE = PACKAGE / 'engine/core'
+# Folders of tests that are about parts of the package of another name.
+FURTHER = {'engine': ('laws', 'relations', 'sensing'), 'model': ('laws', 'simulation')}
 # Many times what the fast tests of a folder take [s].
 LONGEST = 1800
 
 
 def candidates(words: list[str]) -> list[Mutation]:
     """Return the mutations of all files, or of those whose path begins with one of the words."""
-    paths = (path.relative_to(ROOT) for path in sorted((ROOT / PACKAGE).rglob('*.[cp]*')))
+    paths = (path.relative_to(ROOT) for path in sorted((ROOT / PACKAGE).rglob('*')))
     chosen = [
         path
         for path in paths
-        if path.suffix in {'.c', '.py'} and path.name != '_declarations.py'
+        if path.suffix in {'.c', '.js', '.py'} and path.name != '_declarations.py'
         if not words or any(str(path.relative_to(PACKAGE)).startswith(word) for word in words)
     ]
     return [
@@ -41,13 +45,34 @@ def candidates(words: list[str]) -> list[Mutation]:
     ]
 
 
+def choice(every: list[Mutation], count: int, seed: int) -> list[Mutation]:
+    """Return mutations chosen at random, half of the core, as far as there are any."""
+    core = [each for each in every if each.path.suffix == '.c']
+    other = [each for each in every if each.path.suffix != '.c']
+    half = min(max(count // 2, count - len(other)), len(core))
+    random = Random(seed)
+    return random.sample(core, half) + random.sample(other, min(count - half, len(other)))
+
+
 def tests_of(path: Path) -> list[str]:
-    """Return the folders whose fast tests have to notice a mutation of a file."""
-    if path.parts[1] == 'engine':
-        return ['test/engine', 'test/laws', 'test/relations']
-    folder = f'test/{path.parts[1]}'
+    """Return the files whose tests have to notice a mutation of a file, the likeliest first."""
+    folder = path.parts[1]
+    folders = [folder] if (ROOT / 'test' / folder).is_dir() else ['.']
+    folders += FURTHER.get(folder, ())
+    # The stems of words, so that `measures` is like `measuring`.
+    words = [word[:6] for part in path.with_suffix('').parts[2:] for word in part.split('_')]
+
+    def unlikeness(test: Path) -> tuple[int, int, Path]:
+        named = sum(word in test.stem for word in words)
+        text = test.read_text(encoding='utf-8')
+        return -named, -sum(len(re.findall(rf'\b{word}', text)) for word in words), test
+
     # Limits are promised by documents, whatever folder they are of.
-    return [folder, 'test/test_limits.py'] if (ROOT / folder).is_dir() else ['test']
+    found = {
+        ROOT / 'test/test_limits.py',
+        *itertools.chain(*((ROOT / 'test' / each).rglob('test_*.py') for each in folders)),
+    }
+    return [str(each.relative_to(ROOT)) for each in sorted(found, key=unlikeness)]
 
 
 def is_noticed(tree: Path, path: Path) -> bool:
@@ -58,7 +83,9 @@ def is_noticed(tree: Path, path: Path) -> bool:
         except (AssertionError, subprocess.TimeoutExpired):
             return True
     command = [sys.executable, '-m', 'pytest', '--exitfirst', '--quiet', '--numprocesses=auto']
-    command += ['--maxprocesses=8', '--max-worker-restart=0', '-m', 'not slow', *tests_of(path)]
+    command += ['--maxprocesses=8', '--max-worker-restart=0', *tests_of(path)]
+    # The page runs in a browser only, whose tests are all slow.
+    command += [] if path.suffix == '.js' else ['-m', 'not slow']
     try:
         done = subprocess.run(
             command,
@@ -76,12 +103,12 @@ def is_noticed(tree: Path, path: Path) -> bool:
 def main(words: list[str]) -> int:
     """Try mutations, and return how many survive."""
     every = candidates(words)
-    count = min(int(os.environ.get('COUNT') or 12), len(every))
+    chosen = choice(every, int(os.environ.get('COUNT') or 40), int(os.environ.get('SEED') or 0))
     survivors = 0
     with TemporaryDirectory(prefix='mutate_') as place:
         tree = copy_source(Path(place) / 'source')
         compile_core(tree)
-        for mutation in Random(int(os.environ.get('SEED') or 0)).sample(every, count):
+        for mutation in chosen:
             text = (ROOT / mutation.path).read_bytes()
             (tree / mutation.path).write_bytes(mutation.applied(text))
             noticed = is_noticed(tree, mutation.path)
@@ -90,7 +117,7 @@ def main(words: list[str]) -> int:
             (tree / mutation.path).write_bytes(text)
             if mutation.path.suffix == '.c':
                 compile_core(tree)
-    print(f'mutate: {survivors} of {count} survive, of {len(every)} that there can be')
+    print(f'mutate: {survivors} of {len(chosen)} survive, of {len(every)} that there can be')
     return survivors
 
 

@@ -1,7 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The mutations that there can be of a file: constants times 40, and conditions turned round."""
+"""
+The mutations that there can be of a file: constants times 40, and operators turned round.
+
+Bounds are not shifted (`<` to `<=`): in floating point, that is the same program.
+"""
 
 from __future__ import annotations
 
@@ -14,15 +18,18 @@ import re
 FACTOR = 40
 _TURNED = {'<': '>=', '>=': '<', '>': '<=', '<=': '>', '==': '!=', '!=': '=='}
 _TURNED |= {'&&': '||', '||': '&&', 'and': 'or', 'or': 'and', 'is': 'is not', 'is not': 'is'}
-_TURNED |= {'in': 'not in', 'not in': 'in'}
+_TURNED |= {'in': 'not in', 'not in': 'in', '===': '!==', '!==': '==='}
+_TURNED |= {'+': '-', '-': '+', '*': '/', '/': '*', '|': '&', '&': '|', '+=': '-=', '-=': '+='}
 # A constant of a file, or of an enum that has no other.
-_CONSTANTS = re.compile(r'^(static const double .*;|enum \{ \w+ = .* \};)', re.MULTILINE)
+_CONSTANTS = re.compile(
+    r'^((?:static const double|(?:export )?const [A-Z_]+) .*;|enum \{ \w+ = .* \};)', re.MULTILINE
+)
 _NUMBER = re.compile(r'(?<== )\d[\d.e+-]*')
 # Without loops: one that never ends is no answer. Without assertions, which are tests themselves.
-_CONDITIONS = re.compile(
-    r'^(?!.*\b(?:for|while|assert) ?\().*(?:\bif \(|\breturn\b| \? |= ).*$', re.MULTILINE
+_STATEMENTS = re.compile(
+    r'^(?!.*\b(?:for|while|assert) ?\()(?! *(?://|\*|/\*|import)).*$', re.MULTILINE
 )
-_OPERATOR = re.compile(r'(?<= )(<=|>=|<|>|==|!=|&&|\|\|)(?= )')
+_OPERATOR = re.compile(r'(?<= )(<=|>=|<|>|===?|!==?|&&?|\|\|?|[-+]=|[-+*/])(?= )')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,12 +54,12 @@ class Mutation:
 
 
 def mutations_of(path: Path, text: str) -> list[Mutation]:
-    """Return the mutations of a file in C or Python."""
-    found = _in_c(text) if path.suffix == '.c' else _in_python(text)
+    """Return the mutations of a file in C, JavaScript or Python."""
+    found = _in_python(text) if path.suffix == '.py' else _by_lines(text)
     return [Mutation(path=path, begin=begin, end=end, after=after) for begin, end, after in found]
 
 
-def _in_c(text: str) -> Iterator[tuple[int, int, str]]:
+def _by_lines(text: str) -> Iterator[tuple[int, int, str]]:
     def at(line: re.Match[str], part: re.Match[str], after: str) -> tuple[int, int, str]:
         begin = len(text[: line.start() + part.start()].encode())
         return begin, begin + len(part[0].encode()), after
@@ -60,7 +67,7 @@ def _in_c(text: str) -> Iterator[tuple[int, int, str]]:
     for line in _CONSTANTS.finditer(text):
         for part in _NUMBER.finditer(line[0].partition('//')[0]):
             yield at(line, part, f'{part[0]} * {FACTOR}')
-    for line in _CONDITIONS.finditer(text):
+    for line in _STATEMENTS.finditer(text):
         for part in _OPERATOR.finditer(line[0].partition('//')[0]):
             yield at(line, part, _TURNED[part[0]])
 
@@ -83,6 +90,7 @@ def _in_python(text: str) -> Iterator[tuple[int, int, str]]:
             yield first, first + len(word), _TURNED[word]
 
     module = ast.parse(text)
+    types = {id(part) for each in _annotations(module) for part in ast.walk(each)}
     for node in module.body:
         value = node.value if isinstance(node, (ast.Assign, ast.AnnAssign)) else None
         # 0 times 40 is 0.
@@ -94,3 +102,13 @@ def _in_python(text: str) -> Iterator[tuple[int, int, str]]:
             yield from between(part.left, part.comparators[0])
         elif isinstance(part, ast.BoolOp):
             yield from between(*part.values[:2])
+        elif isinstance(part, ast.BinOp) and id(part) not in types:
+            yield from between(part.left, part.right)
+
+
+def _annotations(module: ast.Module) -> Iterator[ast.expr]:
+    """Yield the types of a module, which are not evaluated."""
+    for part in ast.walk(module):
+        for name in ('annotation', 'returns'):
+            if each := getattr(part, name, None):
+                yield each

@@ -15,7 +15,7 @@ from sensor_msgs.msg import LaserScan
 
 from .driver import yaw_of
 from ..built_interfaces import import_built
-from ...client import Client, KEPT
+from ...client import Client, KEPT, stamp_of
 
 Start = Callable[[str], tuple[PhysSim, Client]]
 
@@ -42,10 +42,6 @@ def heard(client: Client, topic: str, *qos: Any) -> list[Any]:
     client.spin_until(lambda: client.node.count_publishers(topic))
     client.physsim.settle()
     return transforms
-
-
-def stamp_of(message: Any) -> int:
-    return int(message.header.stamp.sec * 10**9 + message.header.stamp.nanosec)
 
 
 @pytest.mark.parametrize(

@@ -25,9 +25,9 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 
 from .driver import yaw_of
-from .test_frames import heard, stamp_of
+from .test_frames import heard
 from ..built_interfaces import import_built
-from ...client import Client, KEPT, set_parameter
+from ...client import Client, KEPT, set_parameter, stamp_of
 
 # rmw_qos_profile_sensor_data, rclcpp::SystemDefaultsQoS, and rclcpp::ClockQoS.
 SENSOR_DATA = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -111,7 +111,7 @@ def test_nothing_is_from_the_future_or_older_than_nodes_tolerate(burger: PhysSim
     for _ in range(60):
         burger.step()
         now = client.node.get_clock().now().nanoseconds
-        assert now == clocks[-1].clock.sec * 10**9 + clocks[-1].clock.nanosec
+        assert now == stamp_of(clocks[-1])
         # nav2_util/src/robot_utils.cpp, getCurrentPose, with the tolerance of a costmap.
         assert now - TOLERANCE < buffer.newest <= now
         # nav2_collision_monitor/src/source.cpp: a source that is older than its timeout counts as
@@ -184,13 +184,13 @@ def test_time_goes_on_stands_still_in_the_past_and_jumps_once_by_a_reset(burger:
     burger.run(1.0)
     burger.seek(3.0)
     burger.run(1.0)
-    times = [each.clock.sec * 10**9 + each.clock.nanosec for each in clocks]
+    times = [stamp_of(each) for each in clocks]
     assert times == sorted(times)
     count, moved, looked = len(clocks), len(buffer.moving), len(scans)
     # tf2_ros/src/buffer.cpp, onTimeJump: the buffers of C++ are cleared by a jump back.
     client.call('~/reset')
     burger.run(2.0)
-    times = [each.clock.sec * 10**9 + each.clock.nanosec for each in clocks[count:]]
+    times = [stamp_of(each) for each in clocks[count:]]
     assert times == sorted(times)
     assert times[0] < 100_000_000
     # Nothing of the time before comes after the jump.

@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TwistStamped
 from physsim_ros.model.requests import Spawn
@@ -15,26 +13,11 @@ from physsim_ros.ros.robots import Fleet
 from physsim_ros.simulation.entries import Origin, TakeBack
 from physsim_ros.testing import PhysSim
 import pytest
-from rclpy.time import Time as SimulationTime
 from sensor_msgs.msg import LaserScan
 
 from .driver import Driver, driver_of
 from ..journey import SECOND
-from ...client import Client, set_parameter
-
-
-def heard(physsim: PhysSim, client: Client, topic: str) -> list[Any]:
-    """Return the list of scans that the client hears from now on."""
-    scans: list[Any] = []
-    client.node.create_subscription(LaserScan, topic, scans.append, 10)
-    client.spin_until(lambda: client.node.count_publishers(topic))
-    physsim.settle()
-    return scans
-
-
-def stamp_of(message: Any) -> int:
-    """Return the time of a message [ns]."""
-    return SimulationTime.from_msg(message.header.stamp).nanoseconds
+from ...client import Client, set_parameter, stamp_of
 
 
 def test_a_scan_after_a_rewind_waits_for_an_answer_of_its_own(flat: PhysSim) -> None:
@@ -69,10 +52,10 @@ def test_of_several_lasers_the_first_one_that_is_heard_is_answered(
     flat.robot({'from': 'turtlebot3_burger', 'sensors': lasers})
     flat.add(Driver(flat.context, kind=TwistStamped, looks=False))
     commands = flat.node.fleet.robots['robot/0'].commands
-    rear = heard(flat, client, '/robot_0/rear')
+    rear = client.listen(LaserScan, '/robot_0/rear')
     flat.run(0.5)
     assert commands.awaited == stamp_of(rear[-1])
-    front = heard(flat, client, '/robot_0/front')
+    front = client.listen(LaserScan, '/robot_0/front')
     flat.run(until=lambda: front and stamp_of(rear[-1]) > stamp_of(front[-1]))
     assert commands.awaited == stamp_of(front[-1])
 
@@ -81,7 +64,7 @@ def test_a_controller_is_not_waited_for_with_a_scan_from_before_it_came(
     flat: PhysSim, client: Client
 ) -> None:
     flat.robot('turtlebot3_burger')
-    scans = heard(flat, client, '/robot_0/scan')
+    scans = client.listen(LaserScan, '/robot_0/scan')
     set_parameter(flat, 'lockstep', 1e3)
     flat.run(1.0)
     assert scans
