@@ -155,7 +155,7 @@ def test_requests_go_on_while_a_file_is_written_and_only_calls_that_read_it_wait
     assert tick(simulation, 1) == 1
     assert len(simulation.world) == 1
     # Who wants the world at once does not wait for the file.
-    assert simulation.advance_frame().moved
+    assert simulation.advance_frame().stepped
 
     def call(each: Wait) -> list[Answer]:
         seen.append(each)
