@@ -22,9 +22,14 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.robots import part_name, whole_of
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Body, Joint, seat_of
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import contain_each, contains_each, extent_of
+from physsim_ros.model.shapes import (
+    contain_each,
+    contains_each,
+    distances_from_outlines,
+    extent_of,
+)
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import (
     cross,
@@ -39,7 +44,6 @@ from physsim_ros.model.transform import (
     Twist,
     world_to_local,
 )
-from physsim_ros.simulation.world.joint_requests import seat_of
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
@@ -151,8 +155,28 @@ class SceneQuery:
         covering = rows[contain_each(forms, local[:, 0], local[:, 1], slack)]
         bodies = self.snapshot.scene.bodies
         rows = covering.tolist()
-        solid = [self.names[row] for row in rows if bodies[row].medium is None]
-        return *solid, *(self.names[row] for row in rows if bodies[row].medium is not None)
+        solid = [row for row in rows if bodies[row].medium is None]
+        regions = [row for row in rows if bodies[row].medium is not None]
+        names = self.names
+        return tuple([names[row] for row in solid + regions])
+
+    def bodies_near(self, point: Point, reach: float) -> tuple[str, ...]:
+        """
+        Return the bodies that cover a point, topmost first, or else those beside it.
+
+        :param reach: the greatest distance of bodies beside the point; the nearest comes first [m]
+        """
+        if covering := self.bodies_at(point):
+            return covering
+        beside = self.bodies_at(point, reach)
+        if len(beside) < 2:
+            return beside
+        rows = [self._rows[name] for name in beside]
+        bodies, poses = self.snapshot.scene.bodies, self.snapshot.poses[rows]
+        x, y = rotated_each(point - poses[:, :2], -poses[:, 2]).T
+        away = distances_from_outlines([bodies[row].shape.form for row in rows], x, y)
+        is_region = np.array([bodies[row].medium is not None for row in rows])
+        return tuple(beside[at] for at in np.lexsort((away, is_region)).tolist())
 
     def bodies_along(self, start: Point, end: Point) -> tuple[str, ...]:
         """

@@ -114,6 +114,12 @@ class RigidBody:
         return offset_of(self.body)
 
     @property
+    def center(self) -> Point:
+        """Return the centre of mass in the world [m]."""
+        x, y = self.pm_body.position
+        return x, y
+
+    @property
     def pose(self) -> Pose:
         """Return the body's origin in the world [m, rad]."""
         x, y = self.pm_body.position
@@ -405,7 +411,7 @@ class BodySet:
         boxes: Sequence[tuple[float, float, float, float]],
         *,
         most: int,
-        without: pymunk.Body | None = None,
+        without: RigidBody | None = None,
         moving_only: bool = False,
     ) -> int:
         """
@@ -419,7 +425,7 @@ class BodySet:
         # All other shapes in the engine are those of bodies.
         ignored = {
             *self._pm_space.static_body.shapes,
-            *(() if without is None else without.shapes),
+            *(() if without is None else without.pm_body.shapes),
         }
         count = 0
         for box in boxes:

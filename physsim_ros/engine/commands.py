@@ -23,7 +23,7 @@ from physsim_ros.model.states import DriveCommand
 from physsim_ros.model.transform import Twist
 
 
-class Commands:
+class CommandSet:
     """
     What drives and motors obey, and are to obey.
 

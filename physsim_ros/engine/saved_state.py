@@ -18,9 +18,9 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import (
     BodyState,
     Checkpoint,
-    Commands,
     ImpulseCache,
     Motion,
+    TimedCommands,
     WorldState,
 )
 from physsim_ros.model.scene import Body, Scene
@@ -176,7 +176,7 @@ def _timed(state: WorldState, step: int) -> dict[str, Any]:
     }
 
 
-def _shifted(commands: Commands, steps: int) -> Commands:
+def _shifted(commands: TimedCommands, steps: int) -> TimedCommands:
     """Return commands with their steps counted from a beginning that is earlier."""
     return tuple(each._replace(begun=each.begun + steps) for each in commands)
 

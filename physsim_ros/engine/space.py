@@ -4,13 +4,13 @@
 """
 Space: the bodies, joints and walls that are in the engine, and all that can be done to them.
 
-Laws: a Pymunk object never leaves the engine's folder; true velocities do not jump when gravity or
-a wrench changes.
+Laws: no other folder uses a Pymunk object; true velocities do not jump when gravity or a
+wrench changes.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 import math
 
 from physsim_ros.engine.bodies import (
@@ -22,7 +22,7 @@ from physsim_ros.engine.bodies import (
 )
 from physsim_ros.engine.body_table import BodyTable, check_columns, check_floor, columns_of
 from physsim_ros.engine.boundary import Boundary
-from physsim_ros.engine.commands import Commands
+from physsim_ros.engine.commands import CommandSet
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
@@ -78,7 +78,7 @@ class Space:
         self.boundary = Boundary(self.pm_space, self.shapes)
         self._core = CoreWorld(self.pm_space, dt)
         self.joints = JointSet(self.pm_space, self.bodies.by_name, self._core, dt)
-        self.commands = Commands(self.bodies, self.joints, dt)
+        self.commands = CommandSet(self.bodies, self.joints, dt)
         self.broken: list[tuple[str, float]] = []
         self.joined: set[str] = set()
         self._changes = self._age = 0
@@ -213,7 +213,7 @@ class Space:
             old.body = body
             self.commands.drop_without_drive(body)
             if pose != old.pose:
-                self.set_pose(old, pose)
+                self.set_poses([(old, pose)])
             if twist != self.twist_of(old):
                 self.set_twist(old, twist)
             return
@@ -255,22 +255,25 @@ class Space:
         self._take_out(rigid)
         return rigid
 
-    def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
-        """Set the pose of a body."""
-        touching = self.bodies.touching(rigid.pm_body)
-        rigid.pose = self.joints.with_turns(rigid, pose)
-        self.bodies.note_moved()
-        self.bodies.wake_around(rigid, touching)
-        if rigid.body.medium is not None:
-            wake_bodies(each.pm_body for each in self.bodies.by_name.values())
-        if rigid.body.anchored:
-            self._core.note_moved_static()
-        # It attracts others from another place.
+    def set_poses(self, poses: Sequence[tuple[RigidBody, Pose]]) -> None:
+        """Set the poses of bodies."""
+        for rigid, pose in poses:
+            touching = self.bodies.touching(rigid.pm_body)
+            rigid.pose = self.joints.with_turns(rigid, pose)
+            self.bodies.note_moved()
+            self.bodies.wake_around(rigid, touching)
+            if rigid.body.anchored:
+                self._core.note_moved_static()
+            self._release(touching)
+        moved = [rigid for rigid, _ in poses]
+        rigids = self.bodies.by_name.values()
+        if any(rigid.body.medium is not None for rigid in moved):
+            wake_bodies(each.pm_body for each in rigids)
+        # They attract others from other places.
         attracting = len(self._table.columns.attractors) if self._table is not None else 0
-        for each in self.bodies.by_name.values() if attracting else (rigid,):
+        for each in rigids if attracting else moved:
             each.begin_fields()
-        self._release(touching)
-        self._changes += 1
+        self._changes += len(poses)
 
     def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
         """Set the velocity of a body: it flies then, unless joints or contacts hold it."""

@@ -8,9 +8,10 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 (`drawing`). Start with `world_file`, then `world_reader` and `world_writer`.
 """
 
+from physsim_ros.files.directory_lock import DirectoryLock
 from physsim_ros.files.foreign import advice_on_xml, CONVERTED, kind_of
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
-from physsim_ros.files.reading import begin_on_thread, finish_files, on_thread
+from physsim_ros.files.reading import finish_before_end, finish_files, on_thread
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import (
     BadDrawing,
@@ -46,12 +47,13 @@ __all__ = [
     'PROPERTIES',
     'SETTINGS',
     'BadDrawing',
+    'DirectoryLock',
     'OwnWorlds',
     'advice_on_xml',
-    'begin_on_thread',
     'check_world_name',
     'drawings',
     'find_world',
+    'finish_before_end',
     'finish_files',
     'hides_shipped',
     'kind_of',

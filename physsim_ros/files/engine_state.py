@@ -20,6 +20,7 @@ from physsim_ros.engine.bodies import lead_of, offset_of
 from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.core_world import LOST
 from physsim_ros.files.world_schema import MOST_COMING, ROUNDING
+from physsim_ros.model.body_description import check_command
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.checks import ListOf, LONGEST, number, pair, Row, Whole, Within
 from physsim_ros.model.declarations import Checked
@@ -37,7 +38,6 @@ from physsim_ros.model.states import (
 )
 from physsim_ros.model.transform import local_to_world, NO_WRENCH, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import steps_covering
-from physsim_ros.simulation.world.body_requests import check_command
 
 # Greatest number of a robot's state, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12

@@ -22,7 +22,7 @@ from physsim_ros.files.world_schema import (
     OWN_JOINT_KEYS,
     ROUNDING,
 )
-from physsim_ros.model.checkpoint import Commands, WorldState
+from physsim_ros.model.checkpoint import TimedCommands, WorldState
 from physsim_ros.model.checks import ListOf, LONGEST, point_list, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
@@ -104,7 +104,7 @@ _COMING = ListOf(_Command.from_value, 'mappings', MOST_COMING)
 
 def commands_from(
     entries: list[dict[Any, Any]], joints: tuple[Joint, ...], physics_rate: float
-) -> Commands:
+) -> TimedCommands:
     """
     Return the commands of the motors of a file, whose steps count from now.
 

@@ -17,9 +17,9 @@ _Result = TypeVar('_Result')
 _awaited: set[Future[Any]] = set()
 
 
-def begin_on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> Future[_Result]:
+async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _Result:
     """
-    Call a function on a thread of its own; return the future of its result.
+    Return what a function returns that is called on a thread of its own, or raise its error.
 
     :param finishes: whether the end of the process waits for it, as for a file that is written
     """
@@ -32,19 +32,16 @@ def begin_on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> F
             future.set_exception(error)
 
     if finishes:
-        _awaited.add(future)
-        future.add_done_callback(_awaited.discard)
+        finish_before_end(future)
     Thread(target=call, name='file', daemon=not finishes).start()
+    return await wrap_future(future)
+
+
+def finish_before_end(future: Future[_Result]) -> Future[_Result]:
+    """Have the end of the process wait for a future, which is returned."""
+    _awaited.add(future)
+    future.add_done_callback(_awaited.discard)
     return future
-
-
-async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _Result:
-    """
-    Return what a function returns that is called on a thread of its own, or raise its error.
-
-    :param finishes: as of `begin_on_thread`
-    """
-    return await wrap_future(begin_on_thread(work, finishes=finishes))
 
 
 def finish_files() -> None:

@@ -29,6 +29,7 @@ from physsim_ros.files.world_schema import (
     SETTINGS,
     WORLD_KEYS,
 )
+from physsim_ros.model.body_description import check_namespaces, check_start, new_body
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.checks import number, pair
@@ -36,17 +37,12 @@ from physsim_ros.model.colors import color_value
 from physsim_ros.model.declarations import check_key
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.requests import Spawn
-from physsim_ros.model.settings import OF_WORLD, WorldSettings
+from physsim_ros.model.requests import parts_of, Spawn
+from physsim_ros.model.settings import check_limit, OF_WORLD, WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import steps_covering
-from physsim_ros.simulation.world.assembly import parts_of
-from physsim_ros.simulation.world.body_description import new_body
-from physsim_ros.simulation.world.capacity import check_limit
-from physsim_ros.simulation.world.live_space import check_start
-from physsim_ros.simulation.world.robot_requests import check_namespaces
 
 # Keys of a body whose values follow from `motion`.
 _MOTION_KEYS = ('at', 'velocity', 'spin')

@@ -105,7 +105,7 @@ def _scaled(step: int, ratio: float) -> int:
 
 
 # The last command of each motor, and those on their way to it in their order.
-Commands = tuple[TimedCommand, ...]
+TimedCommands = tuple[TimedCommand, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,7 +128,7 @@ class WorldState:
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
     joints: tuple[Joint, ...] = ()
-    commands: Commands = ()
+    commands: TimedCommands = ()
     lesson: Lesson | None = None
     memory: ImpulseCache | None = field(default=None, compare=False)
     physics_rate: float | None = field(default=None, compare=False, repr=False)
@@ -230,7 +230,7 @@ class Checkpoint:
     field_leads: Floats = field(default_factory=lambda: NO_FIELDS)
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
-    commands: Commands = ()
+    commands: TimedCommands = ()
     bounds: Mapping[str, NDArray[np.void]] = field(default_factory=dict)
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
     coming: tuple[tuple[int, tuple[DriveCommand, ...]], ...] = ()

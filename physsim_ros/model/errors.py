@@ -33,6 +33,8 @@ class Refusal(PhysSimError):
     :param field: the offending field of the request, '' if it is the whole request
     :param values: further pairs of key and value for the event
     :param body: name of the body for which it is refused, where the request does not name it
+
+    :ivar is_half_done: whether the request has changed the world, which is to be rebuilt
     """
 
     code = 'refused'
@@ -49,6 +51,7 @@ class Refusal(PhysSimError):
         self.field = abbreviated(field)
         self.values = values
         self.body = body
+        self.is_half_done = False
 
 
 class Malformed(Refusal):
@@ -207,6 +210,12 @@ class Running(Refusal):
     """Time is running, where it must be paused."""
 
     code = 'running'
+
+
+class InUse(Refusal):
+    """Another node has the lock of the directory."""
+
+    code = 'in_use'
 
 
 class Busy(Refusal):

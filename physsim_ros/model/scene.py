@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -135,6 +136,26 @@ class Seat(NamedTuple):
     uy: float
     phase: float
     length: float
+
+
+def seat_of(
+    kind: JointKind, points: tuple[Point, ...], pose_a: Pose, pose_b: Pose, phase: float
+) -> Seat:
+    """Return the seat of a joint that is drawn with points of the world [m]."""
+    ux = uy = 0.0
+    at_b = points[-1]
+    if kind.schema.has_axis or kind.schema.rolls:
+        (x1, y1), (x2, y2) = points
+        length = math.dist(*points)
+        ux, uy = rotated(((x2 - x1) / length, (y2 - y1) / length), -pose_b[2])
+    if kind.schema.has_axis:
+        at_b = points[0]
+    if kind.schema.rolls:
+        # A wheel that rolls to the right on a surface below it turns clockwise.
+        ux, uy = -uy, ux
+    length = math.dist(points[0], at_b)
+    on_a, on_b = world_to_local(points[0], pose_a), world_to_local(at_b, pose_b)
+    return Seat(*on_a, *on_b, ux, uy, phase, length)
 
 
 class Guide(NamedTuple):

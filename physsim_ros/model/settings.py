@@ -18,7 +18,7 @@ from physsim_ros.model.checks import (
     Within,
 )
 from physsim_ros.model.declarations import Checked
-from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.errors import BadProperty, WorldFull
 from physsim_ros.model.media import DRAG, FLUID_DENSITY, GUST_TIME, GUSTS, Medium, VISCOSITY
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import Point
@@ -41,6 +41,8 @@ MOST_ROBOT_TOPICS = 4000
 LIMIT = 'limit'
 # A note of a setting that is of a world alone: a world file without it has its default.
 OF_WORLD = 'of world'
+# The counts that the settings limit.
+_COUNTED = {'max_bodies': 'bodies', 'max_shapes': 'convex pieces', 'max_joints': 'joints'}
 # Greatest number of samples of a stroke: a minute of a pen at 160 Hz.
 MOST_SAMPLES = 10_000
 
@@ -230,3 +232,15 @@ def check_setting(name: object) -> None:
     """
     if name not in WorldSettings.FIELDS:
         raise BadProperty(f'the world has no setting {shown(name)}', field=str(name))
+
+
+def check_limit(limit: str, count: int, settings: WorldSettings) -> None:
+    """
+    Refuse a number of bodies, convex pieces or joints.
+
+    :param limit: name of the greatest number in the settings
+    :raises WorldFull: it is too great
+    """
+    most = getattr(settings, limit)
+    if count > most:
+        raise WorldFull(f'the world would have {count} {_COUNTED[limit]}; {limit} is {most}')

@@ -330,7 +330,7 @@ class Frame:
     :param contacts: since the frame before; None if they were not requested
     :param answers: to the requests applied since the frame before, in their order
     :param speed: simulation time by wall time; 0 is paused
-    :param moved: whether simulation time differs from that of the frame before
+    :param stepped: whether steps, forward or back, led to it; not a request or a jump alone
     :param preview: of the unfinished drawing
     :param past: whether it lies before the newest step of its course
     :param course: number of the course of events in force
@@ -340,7 +340,7 @@ class Frame:
     contacts: Contacts | None
     answers: tuple[Answer, ...] = field(default=())
     speed: float = 1.0
-    moved: bool = True
+    stepped: bool = True
     preview: Preview = NO_PREVIEW
     past: bool = False
     course: int = 1
@@ -348,7 +348,7 @@ class Frame:
     @property
     def passing(self) -> bool:
         """Return whether time runs here, so that the next frame comes of itself."""
-        return self.moved and self.speed != 0.0
+        return self.stepped and self.speed != 0.0
 
 
 def run_state(speed: float) -> str:

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Poses, twists and wrenches; plane vectors: rotation counter-clockwise, and products."""
+"""Poses, twists and wrenches; plane vectors: rotation counter-clockwise, products, distances."""
 
 from __future__ import annotations
 
@@ -97,3 +97,18 @@ def next_vertices(vertices: Floats) -> Floats:
     `np.roll` takes 20 times as long for a few.
     """
     return np.concatenate((vertices[1:], vertices[:1]))
+
+
+def segment_distances(points: Floats, start: Floats, end: Floats) -> Floats:
+    """
+    Return the distances of points from segments [m].
+
+    :param points: (n, 2) float64 [m]
+    :param start: (2,) float64 of one segment, (n, 2) of one for each point, or (k, 1, 2) [m]
+    :param end: the same
+    :return: (n,) float64, or (k, n)
+    """
+    along, away = end - start, points - start
+    share = np.clip(dots(away, along) / np.maximum(dots(along, along), 1e-300), 0.0, 1.0)
+    result: Floats = norms(away - share[..., None] * along)
+    return result

@@ -123,7 +123,7 @@ class FrameLoop:
         self._rest_ns = time.perf_counter_ns() - request_time.ended
         self._was_overdue = tick_time.is_overdue()
         statistics = self._outputs.statistics
-        if frames and not frames[-1].moved:
+        if frames and not frames[-1].stepped:
             statistics.reset_pace()
             return
         statistics.add(
@@ -196,7 +196,7 @@ class FrameLoop:
         if self.started:
             self.apply_in_time()
         elif wait is not Wait.NONE:
-            self._simulation.requests.apply_waiting()
+            self._simulation.requests.finish_calls()
             # No tick goes on with a replay that the call began.
             self._simulation.finish_work(lambda: False)
 

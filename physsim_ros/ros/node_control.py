@@ -92,7 +92,7 @@ class NodeControl:
             'reset': Service(self.reset, Wait.BEHIND_REQUESTS),
             'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
             'load_world': Service(lambda: world_files.load(confined=True), Wait.FOR_SEEK),
-            'save_world': Service(world_files.save, Wait.FOR_SEEK),
+            'save_world': Service(world_files.save, Wait.TO_READ),
         }
 
     # Values

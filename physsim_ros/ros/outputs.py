@@ -123,7 +123,7 @@ class Outputs:
         with self._boundary.output('~/events'):
             self.topics.events.flush()
         if self.frame is not None and self.frame.preview != self._session.preview:
-            frame = replace(self.frame, answers=(), moved=False)
+            frame = replace(self.frame, answers=(), stepped=False)
             self._show_on((self.topics.preview, self.viewer), frame)
 
     def open_viewer(self) -> None:

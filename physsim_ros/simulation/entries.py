@@ -16,9 +16,6 @@ from physsim_ros.model.sizes import request_size
 from physsim_ros.model.slices import Sliced
 from physsim_ros.model.snapshot import Answer
 
-# Memory of a marker as rclpy decodes it [bytes].
-_UNREAD = 2500
-
 
 @dataclass(frozen=True, slots=True)
 class Seek:
@@ -58,10 +55,12 @@ class Unread:
 
     :param subject: name of the body or joint that it names
     :param convert: returns the request, at the moment that is shown; raises a Refusal
+    :param size: memory of what it is made of [bytes]
     """
 
     subject: str
     convert: Callable[[], Request]
+    size: int = 0
 
 
 class Wait(Enum):
@@ -72,11 +71,14 @@ class Wait(Enum):
     :cvar BEHIND_REQUESTS: after the requests that wait; also during a seek, which it replaces, but
         not during an amendment
     :cvar FOR_SEEK: after the requests and the end of a seek: it reads or replaces the world
+    :cvar TO_READ: as `FOR_SEEK`; only its first slice reads the world, so that while a thread
+        writes a file, requests are applied, and only other calls wait
     """
 
     NONE = 'none'
     BEHIND_REQUESTS = 'behind requests'
     FOR_SEEK = 'for seek'
+    TO_READ = 'to read'
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +94,11 @@ class Call:
     call: Sliced[Sequence[Answer]]
     wait: Wait
     on_told: Callable[[], object]
+
+    @property
+    def holds_requests(self) -> bool:
+        """Return whether requests wait while it is under way."""
+        return self.wait in (Wait.BEHIND_REQUESTS, Wait.FOR_SEEK)
 
 
 class Origin(NamedTuple):
@@ -137,7 +144,7 @@ class Entry:
         """Return whether it is applied to the world, and so waits for the end of a seek."""
         match self.request:
             case Call(wait=wait):
-                return wait is Wait.FOR_SEEK
+                return wait in (Wait.FOR_SEEK, Wait.TO_READ)
             case Seek() | Refusal() | Answer():
                 return False
         return True
@@ -151,7 +158,7 @@ class Entry:
 def size_of(request: Request | Unread | Amend | TakeBack) -> int:
     """Return the memory that a request takes [bytes]."""
     if isinstance(request, Unread):
-        return _UNREAD
+        return request.size
     if isinstance(request, Amend):
         return sum(map(size_of, request.requests))
     if isinstance(request, TakeBack):

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 import math
 
 from physsim_ros.model.checks import number
-from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.sensing import View
@@ -109,7 +109,7 @@ class FrameMaker:
         """
         view = self._view
         if view is None or self.is_changed:
-            self._observe_frame(moved=view is None or view.snapshot.step != self.step)
+            self._observe_frame()
         assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
         return self._view
 
@@ -127,6 +127,15 @@ class FrameMaker:
     def _forget_frames(self) -> None:
         """Have the next frame be the first one of its world: there is none before it."""
         self._view = self._passed = None
+
+    def _show_again(self, frame: Frame, before: Snapshot | None) -> None:
+        """
+        Show a frame that was made before, of the same moment.
+
+        :param before: snapshot of another time that was shown before it; None if there is none
+        """
+        self._view = View(frame, before)
+        self.playback.changed = self.playback.stepped = False
 
     def at_shown_moment(self) -> Past:
         """
@@ -163,12 +172,12 @@ class FrameMaker:
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
         self.requests.apply_waiting()
-        return self._observe_frame(moved=False) if self.is_changed else None
+        return self._observe_frame() if self.is_changed else None
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
         self._run_periods(1)
-        return self._observe_frame(moved=True)
+        return self._observe_frame()
 
     def pass_frames(self, count: int) -> Frame | None:
         """
@@ -178,7 +187,7 @@ class FrameMaker:
         """
         self._run_periods(count)
         if self._is_frame_due:
-            return self._observe_frame(moved=True)
+            return self._observe_frame()
         self._begin_frame(is_read=True)
         return None
 
@@ -262,7 +271,7 @@ class FrameMaker:
         due = self._due_frames(now_ns, is_overdue, ends_frame, by_steps=by_steps)
         frames = tuple(due)
         if not frames and playback.changed and not self._is_unfinished:
-            return (self._observe_frame(moved=False),)
+            return (self._observe_frame(),)
         return frames
 
     def _due_frames(
@@ -288,7 +297,7 @@ class FrameMaker:
                     playback.clock.restart()
                     return
                 if self._is_frame_due:
-                    yield self._observe_frame(moved=True)
+                    yield self._observe_frame()
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame
             else:
@@ -299,7 +308,7 @@ class FrameMaker:
     def _finished_frame(self) -> Frame | None:
         """Return the frame of steps that have ended in this call, if they began in another one."""
         was_unfinished, self._is_unfinished = self._is_unfinished, False
-        return self._observe_frame(moved=True) if was_unfinished and self._is_frame_due else None
+        return self._observe_frame() if was_unfinished and self._is_frame_due else None
 
     @property
     def _is_frame_due(self) -> bool:
@@ -325,41 +334,44 @@ class FrameMaker:
 
     def _drive_on(self) -> None:
         """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
-        for drive in self.driving.values():
-            if not is_driving(self.world, drive, self.frame_steps):
-                # Nobody undoes a tick.
-                self.past.apply_unasked(drive)
+        for name, drive in [*self.driving.items()]:
+            try:
+                if not is_driving(self.world, drive, self.frame_steps):
+                    # Nobody undoes a tick.
+                    self.past.apply_unasked(drive)
+            except (UnknownBody, BadProperty):
+                # Its robot is gone, or has no drive any more.
+                del self.driving[name]
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
-        before = self.playback.step
         if not self._carry_out(self.playback.rewind(steps), is_overdue):
             return None
         _finished(self.playback.replay_ahead(steps), is_overdue)
         if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self.requests.report_oldest('; paused')
-        return self._observe_frame(moved=self.playback.step < before)
+        return self._observe_frame()
 
-    def _observe_frame(self, *, moved: bool) -> Frame:
+    def _observe_frame(self) -> Frame:
         """Return the frame that is shown, with all answers; fit the past into its budget."""
         past, playback, requests = self.past, self.playback, self.requests
-        snapshot, contacts = playback.observe_frame(moved=moved)
+        snapshot, contacts = playback.observe_frame()
         requests.note_arrival()
         past.fit_memory(playback.moment)
         if past.reports:
             requests.answers += past.reports
             past.reports.clear()
-        playback.changed = False
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if past.reports_contacts else None,
             answers=requests.take_answers() if requests.answers else (),
             speed=playback.speed,
-            moved=moved,
+            stepped=playback.stepped,
             past=snapshot.step < past.tree.head,
             course=past.tree.course,
         )
+        playback.changed = playback.stepped = False
         before, last = self._passed, self._view
         if last is not None and (before is None or before.step == snapshot.step):
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before

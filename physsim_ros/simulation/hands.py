@@ -23,6 +23,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
+from physsim_ros.simulation.world.hand_requests import holds_nothing
 
 # Steady time without a request after which a hand lets go [ns]: its page is gone.
 LONGEST_SILENCE = 5 * 10**9
@@ -69,7 +70,7 @@ class Hands:
         hand = self._dragging.get(request.hand)
         if hand is None and not isinstance(request, Grab):
             # Grips of a past moment belong to no present hand.
-            return Answer(message=f'{request.hand} holds no body')
+            return holds_nothing(request)
         if hand is not None and not isinstance(request, Grab):
             gesture = hand.gesture
         if isinstance(request, Grab | MoveHand):

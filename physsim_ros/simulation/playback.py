@@ -31,6 +31,7 @@ class Playback:
 
     :ivar clock: the speed, and the steps that are due
     :ivar changed: whether the next frame differs from the last one without a step
+    :ivar stepped: whether steps, forward or back, have led from the last frame to this moment
     :ivar frames_due: count of single frames to be made in a paused world, one in each call
     """
 
@@ -39,6 +40,7 @@ class Playback:
             physics_rate=past.physics_rate, frame_steps=past.frame_steps, speed=speed
         )
         self.changed = True
+        self.stepped = False
         self.frames_due = 0
         self._past = past
         # Whether the steps of the frame that is shown were made before contacts were reported.
@@ -158,20 +160,16 @@ class Playback:
         stands_still = self.speed == 0 and not self.changed
         return self.speed > 0 or stands_still or self.frames_due > 0
 
-    def observe_frame(self, *, moved: bool) -> CachedFrame:
-        """
-        Return the frame that is shown, and note that it was.
-
-        :param moved: whether its step differs from that of the frame before
-        """
+    def observe_frame(self) -> CachedFrame:
+        """Return the frame that is shown, and note that it was."""
         shown = self._shown
         if shown is None:
-            return self._observe_world(moved=moved)
+            return self._observe_world()
         # Contacts belong to the first frame of a step.
         self._shown = shown._replace(contacts=NO_CONTACTS)
         return shown
 
-    def _observe_world(self, *, moved: bool) -> CachedFrame:
+    def _observe_world(self) -> CachedFrame:
         """Return the state of the world, and cache it for rewinds."""
         cursor, cache = self._past.cursor, self._past.frames
         world = cursor.world
@@ -179,7 +177,7 @@ class Playback:
         contacts = world.contacts(snapshot) if world.reports_contacts else None
         frame = CachedFrame(snapshot, contacts)
         # The first frame of this step has the contacts.
-        cache.add_frame(frame if moved else cache.with_first_contacts(frame))
+        cache.add_frame(frame if self.stepped else cache.with_first_contacts(frame))
         self._past.tree.note_shown(*cursor.moment)
         return frame
 
@@ -207,7 +205,7 @@ class Playback:
         """Note requests since the last frame as shown at this step."""
         step, serial = self._past.cursor.moment
         if serial > self._past.tree.serial_shown_at(step):
-            self._observe_world(moved=False)
+            self._observe_world()
 
     def seek_shown(self) -> None:
         """Send the world to the moment that is shown."""
@@ -228,7 +226,7 @@ class Playback:
         """Show the moment of the cursor, which is another than the one that was shown."""
         self._shown = None
         self.clock.restart()
-        self.changed = True
+        self.changed, self.stepped = True, False
 
     # By steps
 
@@ -249,7 +247,7 @@ class Playback:
 
     def run(self, steps: int) -> None:
         """Advance the world, which is at the moment that is shown, by steps."""
-        self._lacks_contacts = False
+        self._lacks_contacts, self.stepped = False, True
         cursor = self._past.cursor
         cursor.advance(steps)
         cursor.build_ahead(steps)
@@ -264,7 +262,7 @@ class Playback:
             work under way
         """
         self.seek_shown()
-        self._lacks_contacts = False
+        self._lacks_contacts, self.stepped = False, True
         cursor = self._past.cursor
         while steps > 0:
             some = 1 if by_steps else min(steps, self.steps_to_period)
@@ -285,7 +283,7 @@ class Playback:
         if step < self.step:
             while (shown := self._past.frames.replay_to_frame(step)) is None:
                 yield
-            self._shown, self._lacks_contacts = shown, False
+            self._shown, self._lacks_contacts, self.stepped = shown, False, True
 
     def replay_ahead(self, steps: int) -> Iterator[None]:
         """

@@ -8,14 +8,14 @@ Laws: entries are applied in the order of their arrival, and each is answered on
 hands and drives only if refused. A seek, or a call that sends the world elsewhere, is answered
 when the moment is reached, or when the world is sent elsewhere before. Requests that read or
 change the world wait for the end of a seek; all but answers wait for the end of an amendment, and
-all for that of a call in slices. `waiting_entries` has what replaces a waiting entry, and how many
-may wait.
+all for that of a call in slices, unless that has read the world and only writes: then other calls
+wait. `waiting_entries` has what replaces a waiting entry, and how many may wait.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future, wait
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
@@ -29,7 +29,7 @@ from physsim_ros.model.requests import (
     MoveHand,
     Request,
 )
-from physsim_ros.model.slices import at_once, in_slices, Sliced, Slices
+from physsim_ros.model.slices import in_slices, Sliced, Slices
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import (
     Amend,
@@ -87,9 +87,9 @@ class RequestQueue:
         # Answers the seek under way, or the call that began it; its argument tells by what it is
         # superseded, '' by nothing.
         self._answer_arrival: Callable[[str], object] | None = None
-        # Whether the last call has sent the world elsewhere; the call that is under way.
+        # Whether the last call has sent the world elsewhere; the calls that are under way.
         self._has_jumped = False
-        self._under_way: _UnderWay | None = None
+        self._under_way: list[_UnderWay] = []
 
     # Submitting
 
@@ -153,9 +153,7 @@ class RequestQueue:
         :raises Busy: too many requests wait
         """
         if wait is Wait.NONE:
-            for answer in at_once(in_slices(call)):
-                self.tell(answer)
-            on_told()
+            self._carry_out(Call(call, wait, on_told), in_slices(call))
             return
         if busy := self._waiting.busy():
             raise busy
@@ -201,21 +199,40 @@ class RequestQueue:
 
     @property
     def is_busy(self) -> bool:
-        """Return whether requests wait, or a call in slices is under way, for which all wait."""
-        return self._under_way is not None or self.has_requests
+        """Return whether requests or calls wait, or a call is under way for which they wait."""
+        return self._holds_requests or not all(each.is_answer for each in self._waiting)
+
+    @property
+    def _holds_requests(self) -> bool:
+        return any(each.call.holds_requests for each in self._under_way)
 
     def apply_waiting(self) -> None:
         """Apply all entries, and finish the seeks, calls and amendments that others wait for."""
         if self._waiting:
             self.apply_up_to_seek()
-        while (self._waiting or self._under_way) and not self._is_applying:
-            if self._under_way:
-                wait((self._under_way.awaited,))
+        while (self._waiting or self._holds_requests) and not self._is_applying:
+            self._await_slice()
             self._playback.seek_shown()
             self._past.cursor.finish_work()
             self.apply_up_to_seek()
         self._past.cursor.finish_amendment()
         self.note_arrival()
+
+    def continue_calls(self) -> None:
+        """Go on with the calls for which no request waits, also during a seek."""
+        self._continue_calls(each for each in self._under_way if not each.call.holds_requests)
+
+    def finish_calls(self) -> None:
+        """Apply all entries, and finish the calls that have read the world, too."""
+        self.apply_waiting()
+        while self._is_reading:
+            self._await_slice()
+            self.continue_calls()
+            self.apply_waiting()
+
+    def _await_slice(self) -> None:
+        """Wait until a call that is under way can go on."""
+        wait([each.awaited for each in self._under_way], return_when=FIRST_COMPLETED)
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
@@ -238,7 +255,7 @@ class RequestQueue:
                     case Amend() | TakeBack() as change:
                         entry.origin.check()
                         self._playback.seek_shown()
-                        self._past.cursor.work(self._amend(change, entry))
+                        self._past.cursor.begin_amendment(self._amend(change, entry))
                     case Seek(stamp=stamp):
                         message = self.seek(stamp)
                         self._answer_arrival = partial(self._answer_seek, entry.origin, message)
@@ -265,7 +282,7 @@ class RequestQueue:
             return
         self._is_applying = True
         try:
-            self._continue_call()
+            self._continue_calls(self._under_way)
             while (first := self._waiting.first) and self._is_ready(first):
                 self.note_arrival()
                 entry = self._waiting.take()
@@ -279,25 +296,36 @@ class RequestQueue:
 
     def _is_ready(self, entry: Entry) -> bool:
         """Return whether an entry need not wait for a seek, a call or an amendment."""
-        if self._under_way is not None:
+        if self._holds_requests:
+            return False
+        if isinstance(entry.request, Call) and self._is_reading:
             return False
         if entry.is_for_world:
             return self._playback.is_there
         return entry.is_answer or not self._past.cursor.is_amending
 
-    def _continue_call(self) -> None:
-        """Go on with the call that is under way, if it has what it waits for."""
-        if self._under_way is not None and self._under_way.awaited.done():
-            call, slices, _ = self._under_way
-            self._under_way = None
-            self._carry_out(call, slices)
+    @property
+    def _is_reading(self) -> bool:
+        """Whether a call that has read the world is under way, for which other calls wait."""
+        return any(each.call.wait is Wait.TO_READ for each in self._under_way)
+
+    def _continue_calls(self, calls: Iterable[_UnderWay]) -> None:
+        """Go on with those calls that have what they wait for."""
+        for each in [each for each in calls if each.awaited.done()]:
+            self._under_way.remove(each)
+            self._carry_out(each.call, each.slices)
 
     def _carry_out(self, call: Call, slices: Slices[Sequence[Answer]]) -> None:
         """Carry out the next slice of a call, and collect its answers after the last one."""
         try:
-            self._under_way = _UnderWay(call, slices, slices.send(None))
+            self._under_way.append(_UnderWay(call, slices, slices.send(None)))
         except StopIteration as end:
-            if self._has_jumped and not self._playback.has_arrived:
+            if call.wait is Wait.NONE:
+                # In the order of entries.
+                for answer in end.value:
+                    self.tell(answer)
+                call.on_told()
+            elif call.holds_requests and self._has_jumped and not self._playback.has_arrived:
                 self._answer_arrival = partial(self._answer_call, call, end.value)
             else:
                 self._answer_call(call, end.value)

@@ -29,7 +29,7 @@ from physsim_ros.sensing import (
     View,
 )
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world.robot_requests import robot_of_name
+from physsim_ros.simulation.world.robot_requests import drive_of_name, robot_of_name
 
 
 class Robot:
@@ -61,8 +61,7 @@ class Robot:
         self.simulation = simulation
         self.name = name
         # After the requests that wait, one of which may spawn it.
-        simulation.requests.apply_up_to_seek()
-        robot_of_name(simulation.world.space, name)
+        robot_of_name(simulation.at_shown_moment().cursor.world.space, name)
         simulation.reports_contacts = True
 
     @property
@@ -92,9 +91,7 @@ class Robot:
         :raises UnknownBody: the robot was deleted
         """
         command = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
-        _, robot = robot_of_name(self.simulation.world.space, self.name)
-        if robot.drive is None:
-            raise BadProperty(f'{self.name} has no drive', field='name')
+        drive_of_name(self.simulation.world.space, self.name)
         self.simulation.driving[self.name] = command
 
     def place(self, x: float, y: float, yaw: float = 0.0) -> None:

@@ -24,7 +24,6 @@ from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.world import Beginning, forces_now, load_message
@@ -261,7 +260,7 @@ class Simulation(FrameMaker):
 
         A world that begins with this state, and gets no request, repeats the run.
         """
-        return self.at_shown_moment().frames.saver_of_run()
+        return self.at_shown_moment().saver_of_run()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """
@@ -322,8 +321,7 @@ class Simulation(FrameMaker):
         self._note_beginning()
         self.requests.note_jump()
         self.driving = {drive.name: drive for drive in saved.driving}
-        self._view = View(saved.frame, saved.before)
-        self.playback.changed = False
+        self._show_again(saved.frame, saved.before)
 
     def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> str:
         """

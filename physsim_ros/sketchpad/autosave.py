@@ -7,8 +7,9 @@ Autosave: the world that pages draw in is written to a file, which the next star
 A world with a lesson is kept as soon as a page opens it.
 
 Law: it takes at most a hundredth of the world's time and one file, and no request waits for it; a
-world that is too large, or a full disk, stops nothing, and people are told. What the disk did not
-take is tried again. The file begins with a comment that names the people who drew in it.
+world that is too large, a full disk, or another node that has the directory stops nothing, and
+people are told. What was not written is tried again. The file begins with a comment that names the
+people who drew in it.
 """
 
 from __future__ import annotations
@@ -23,11 +24,12 @@ import time
 from typing import TypeAlias
 
 import numpy as np
-from physsim_ros.files import begin_on_thread, make_directory, read_bytes, read_parts, write_file
+from physsim_ros.files import DirectoryLock, read_bytes, read_parts, write_file
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.errors import InUse, WorldFull
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.sketchpad.file_work import FileWork
 
 # Least time from one autosave to the next while bodies move and while nothing does [s], and its
 # least ratio to the time of an autosave.
@@ -45,7 +47,8 @@ _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
 # Of its events.
 _TOPIC = 'autosave'
 # Why a save has failed, None where it has not, and the time that it took [s].
-_Written: TypeAlias = tuple[OSError | WorldFull | None, float]
+_Failure: TypeAlias = OSError | WorldFull | InUse
+_Written: TypeAlias = tuple[_Failure | None, float]
 
 
 class Autosave:
@@ -53,6 +56,8 @@ class Autosave:
     The file of unsaved changes.
 
     :param directory: of the user's worlds
+    :param lock: of that directory
+    :param file_work: of the world
     :param text: returns a function that, on any thread, returns the world of now as text, or
         raises WorldFull beyond a length [characters]
     :param people: returns the names that people who draw have chosen
@@ -63,13 +68,18 @@ class Autosave:
     def __init__(
         self,
         directory: Path,
+        lock: DirectoryLock,
+        file_work: FileWork,
         text: Callable[[], Callable[[int], str]],
         people: Callable[[], Sequence[str]] = list,
     ) -> None:
         self._file, self._unsaved = directory / _NOW, directory / _BEFORE
+        self._lock, self._file_work = lock, file_work
         self._text, self._people = text, people
         self.failure: Answer | None = None
+        # Scene of the last frame; that of the world which somebody has saved last.
         self._scene: Scene | None = None
+        self._saved: Scene | None = None
         self._changed = False
         self._due = self._due_still = 0.0
         self._poses: Floats = np.empty((0, 3))
@@ -77,10 +87,29 @@ class Autosave:
         self._still = False
         # The save under way, which ends with why it failed, or None, and its duration [s].
         self._writing: Future[_Written] | None = None
-        # Count of saves by people: what was under way meanwhile is not kept.
-        self._saves = 0
-        with suppress(OSError):
-            self._file.replace(self._unsaved)
+        # Whether the file is that of this start.
+        self._has_begun = False
+        if directory.is_dir():
+            try:
+                self._begin()
+            except InUse as error:
+                self.failure = _failure(error)
+            except OSError:
+                # As of a directory that can only be read; the first save tells.
+                pass
+
+    def _begin(self) -> None:
+        """
+        Acquire the lock; the first time, keep the unsaved world of the last start.
+
+        :raises InUse: another node has it
+        :raises OSError: the directory cannot be written
+        """
+        self._lock.acquire()
+        if not self._has_begun:
+            with suppress(FileNotFoundError):
+                self._file.replace(self._unsaved)
+            self._has_begun = True
 
     @property
     def unsaved_at(self) -> float:
@@ -112,7 +141,13 @@ class Autosave:
         return read_bytes(self._unsaved, _MOST_BYTES)
 
     def forget_unsaved(self) -> str:
-        """Delete the unsaved world of the last start, and return a message about it."""
+        """
+        Delete the unsaved world of the last start, and return a message about it.
+
+        :raises InUse: it is that of another node
+        :raises OSError: it cannot be deleted
+        """
+        self._begin()
         self._unsaved.unlink(missing_ok=True)
         return 'discarded the unsaved world'
 
@@ -131,17 +166,30 @@ class Autosave:
             self._changed, self.failure = drawn and scene.lesson is not None, None
         else:
             self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
+        self._forget_saved()
 
-    def note_saved(self) -> None:
-        """Note that somebody has saved the world."""
+    def note_saved(self, scene: Scene) -> None:
+        """
+        Note that somebody has saved the world; what was drawn since is autosaved.
+
+        :param scene: of the world that was saved
+        """
+        self._saved = scene
+        self._forget_saved()
+
+    def _forget_saved(self) -> None:
+        """Delete the file, after a save that is under way, if the shown world is saved."""
+        if self._saved is None or self._saved is not self._scene:
+            return
+        self._saved = None
         self._changed, self.failure = False, None
-        self._saves += 1
-        self._forget()
 
-    def _forget(self) -> None:
-        """Delete the file."""
-        with suppress(OSError):
-            self._file.unlink(missing_ok=True)
+        def forget() -> None:
+            if self._has_begun and self._lock.is_held:
+                with suppress(OSError):
+                    self._file.unlink(missing_ok=True)
+
+        self._file_work.submit(forget)
 
     def is_due(self, now: float) -> bool:
         """
@@ -155,8 +203,8 @@ class Autosave:
     def save(self) -> Future[_Written]:
         """Begin to save the world of now on a thread, for whose end nothing waits."""
         self._changed = False
-        write = partial(self._write, self._text(), self._people()[:MOST_NAMES], self._saves)
-        self._writing = begin_on_thread(write, finishes=True)
+        write = partial(self._write, self._text(), self._people()[:MOST_NAMES])
+        self._writing = self._file_work.submit(write)
         return self._writing
 
     def note_end(self) -> Answer | None:
@@ -167,7 +215,7 @@ class Autosave:
         self._writing = None
         error, took = writing.result()
         # A world that is too large stays so until it changes.
-        self._changed |= isinstance(error, OSError)
+        self._changed |= isinstance(error, OSError | InUse)
         now = time.monotonic()
         self._due = now + max(PERIOD, SHARE * took)
         self._due_still = now + max(STILL_PERIOD, SHARE * took)
@@ -176,31 +224,29 @@ class Autosave:
             return None
         return self.failure or Answer(topic=_TOPIC, message='what was drawn is autosaved again')
 
-    def _write(self, text: Callable[[int], str], names: Sequence[str], saves: int) -> _Written:
+    def _write(self, text: Callable[[int], str], names: Sequence[str]) -> _Written:
         """
-        Write a world and the names of people, unless somebody saves it meanwhile.
+        Write a world and the names of people.
 
-        :param saves: count of saves by people before it
         :return: why that failed, None where it did not, and the time that it took [s]
         """
         began = time.thread_time()
-        failed: OSError | WorldFull | None = None
+        failed: _Failure | None = None
         try:
+            self._begin()
             content = text(LONGEST)
             if names:
                 content = f'{_BY}{json.dumps(names)}\n{content}'
-            make_directory(self._file.parent)
             write_file(self._file, content.encode())
-            if self._saves != saves:
-                self._forget()
-        except (OSError, WorldFull) as error:
+        except (OSError, WorldFull, InUse) as error:
             failed = error
         return failed, time.thread_time() - began
 
 
-def _failure(error: OSError | WorldFull) -> Answer:
+def _failure(error: _Failure) -> Answer:
     """Return the event of a failure."""
     # The path is nobody's business on a page.
     reason = error.strerror if isinstance(error, OSError) else error
     message = f'what was drawn is not autosaved: {reason}'
-    return Answer(topic=_TOPIC, message=message, code='autosave_failed')
+    code = error.code if isinstance(error, InUse) else 'autosave_failed'
+    return Answer(topic=_TOPIC, message=message, code=code)

@@ -2,23 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Work on files that messages ask for, and that a slow disk delays.
+Work on the files of a world, which a slow disk delays.
 
-Laws: the world's thread never waits for the disk; one piece of work is done after the other, in
-the order of the messages; the end of the process waits for all of them.
+Laws: the world's thread never waits for the disk; one thread does one piece of work after the
+other, in the order of the messages; the end of the process waits for all of them.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
-from concurrent.futures import Future, wait
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TypeVar
 
-from physsim_ros.files import begin_on_thread
+from physsim_ros.files import finish_before_end
 from physsim_ros.model.errors import Busy
+from physsim_ros.model.slices import wrap_future
 
-# Pieces of work that wait, each on a thread: twice the greatest class.
+# Pieces of work that messages ask for and that wait: twice the greatest class.
 MOST_WORK = 128
+_Result = TypeVar('_Result')
 
 
 class FileWork:
@@ -30,32 +32,30 @@ class FileWork:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        # The work that has not been noted as ended, each with what notes its end.
-        self._waiting: deque[tuple[Future[str], Callable[[Future[str]], None]]] = deque()
+        self._thread = ThreadPoolExecutor(1, 'files')
+        # Number of pieces of work that messages wait for.
+        self._awaited = 0
 
-    def begin(self, work: Callable[[], str], on_end: Callable[[Future[str]], None]) -> None:
+    async def do(self, work: Callable[[], _Result]) -> _Result:
         """
-        Have a thread do a piece of work after those that wait.
+        Return the result of a piece of work that a message asks for, or raise its error.
 
-        :param work: returns a message about what was done
-        :param on_end: called on the world's thread with the work that has ended
         :raises Busy: too much waits; nothing is done
         """
-        if len(self._waiting) >= MOST_WORK:
+        if self._awaited >= MOST_WORK:
             raise Busy('too many files wait to be written; nothing was done')
-        before = self._waiting[-1][0] if self._waiting else None
+        self._awaited += 1
+        try:
+            return await wrap_future(self.submit(work))
+        finally:
+            self._awaited -= 1
 
-        def work_in_order() -> str:
-            if before is not None:
-                wait((before,))
-            return work()
-
-        future = begin_on_thread(work_in_order, finishes=True)
-        self._waiting.append((future, on_end))
+    def submit(self, work: Callable[[], _Result]) -> Future[_Result]:
+        """Have the thread do a piece of work, for whose end nobody here waits."""
+        future = finish_before_end(self._thread.submit(work))
         future.add_done_callback(lambda _: self._wake())
+        return future
 
-    def note_ends(self) -> None:
-        """Note the end of the work that has ended."""
-        while self._waiting and self._waiting[0][0].done():
-            done, on_end = self._waiting.popleft()
-            on_end(done)
+    def close(self) -> None:
+        """Have the thread end after the work that waits."""
+        self._thread.shutdown(wait=False)

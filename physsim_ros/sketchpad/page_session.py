@@ -10,7 +10,6 @@ Law: a session changes nothing itself; it submits requests, and every message ha
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
 import time
@@ -258,16 +257,17 @@ class PageSession:
         :param work: returns the message of the answer; raises a Refusal
         """
 
-        def answer(done: Future[str]) -> None:
+        async def answer() -> tuple[Answer, ...]:
+            done = self.shared.file_work.do(work)
             try:
-                with self.world.boundary.message(origin.topic):
-                    message = done.result()
+                message = await self.world.boundary.slices_of_message(origin.topic, done)
             except Refusal as refusal:
                 self.refuse(origin, refusal)
             else:
                 self.answer_page(origin, message)
+            return ()
 
-        self.shared.file_work.begin(work, answer)
+        self.call(origin, answer, Wait.NONE)
 
     def perform(self, origin: Origin, action: Sliced[str], wait: Wait = Wait.NONE) -> None:
         """

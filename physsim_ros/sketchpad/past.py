@@ -29,7 +29,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.model.transform import local_to_world, rotated_each
-from physsim_ros.simulation.past.line import CachedFrame
+from physsim_ros.simulation.past import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.message import Content
@@ -71,7 +71,7 @@ class TimelineReport:
         """
         last = self._sent
         # A running world without requests changes nothing but its time.
-        runs = frame.moved and not frame.answers and frame.speed != 0.0
+        runs = frame.passing and not frame.answers
         known = last is not None and last.speed == frame.speed
         if runs and known and now - self._read_at < TIMELINE_PERIOD:
             return None

@@ -23,7 +23,7 @@ from physsim_ros.model.errors import BadProperty, Frozen, TeacherOnly, ViewOnly
 from physsim_ros.model.names import shown_name, WORLD
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.line import Node
+from physsim_ros.simulation.past import Node
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Requests that concern no body: settings of the world; a hand may let go anywhere.

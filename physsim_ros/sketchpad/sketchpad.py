@@ -16,7 +16,7 @@ from functools import partial
 import time
 from typing import Any
 
-from physsim_ros.files import OwnWorlds, text_of
+from physsim_ros.files import DirectoryLock, OwnWorlds, text_of
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.slices import Sliced, with_checks
 from physsim_ros.model.snapshot import Answer, Frame
@@ -68,15 +68,18 @@ class Sketchpad:
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts(world.simulation.forces_now)
-        own_worlds = OwnWorlds(world.world_dir, world.lesson_dir)
-        self._autosave = Autosave(world.world_dir, self._world_text, self._named_people)
-        results = Results(results_file(world.world_dir))
+        directory = world.world_dir
+        own_worlds, results = OwnWorlds(directory, world.lesson_dir), results_file(directory)
+        self._file_work, self._lock = FileWork(wake), DirectoryLock(directory)
+        self._autosave = Autosave(
+            directory, self._lock, self._file_work, self._world_text, self._named_people
+        )
         self._server = Server(
             address=address,
             port=port,
             own_worlds=own_worlds,
             autosave=self._autosave,
-            results=results_file(world.world_dir),
+            results=results,
             inbox=self._inbox,
             boundary=self._boundary,
         )
@@ -87,8 +90,8 @@ class Sketchpad:
             PastContacts(world.simulation, self._server.send),
             own_worlds,
             self._autosave,
-            results,
-            FileWork(wake),
+            Results(results, self._lock),
+            self._file_work,
             self._server.list_worlds,
             self._server.ask_to_leave,
         )
@@ -99,6 +102,8 @@ class Sketchpad:
         self._frame: Frame | None = None
         self._sent_recording = world.recording_address
         self._sent_class: dict[str, Any] = {}
+        if self.autosave_failure is not None:
+            self._simulation.requests.tell(self.autosave_failure)
 
     def url(self, role: Role = Role.DRAW) -> str:
         """Return the address of a page with its token."""
@@ -171,16 +176,18 @@ class Sketchpad:
         self._server.answer(answers)
 
     def close(self) -> None:
-        """Close all pages, and end the server's thread."""
+        """Close all pages, end the server's thread, and release the lock after the last file."""
         self._server.close()
+        self._file_work.submit(self._lock.release)
+        self._file_work.close()
 
     def _do_periodic_work(self, now: float) -> None:
         """
-        Note the ends of work on files, keep hands, send pasts, autosave, tell of the recording.
+        Go on with work on files, keep hands, send pasts, autosave, tell of the recording.
 
         :param now: steady time [s]
         """
-        self._shared.file_work.note_ends()
+        self._simulation.requests.continue_calls()
         for session in self._sessions.values():
             session.keep_hand(now)
         self._shared.pasts.send_due(now)

@@ -104,7 +104,7 @@ class FrameRecorder:
             self._plots.send_pace(batch, context.real_time_factor or 0.0)
 
     def _is_new(self, frame: Frame) -> bool:
-        if self._last is None or frame.moved or frame.answers or frame.speed != self._last.speed:
+        if self._last is None or frame.stepped or frame.answers or frame.speed != self._last.speed:
             return True
         before, now = self._last.snapshot, frame.snapshot
         if frame.preview != self._last.preview or now.scene is not before.scene:

@@ -15,6 +15,7 @@ from physsim_ros.drawing import DrawingSession, DrawingSettings, knife
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.grouping import MOST_STROKES, MOST_TIME
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.body_description import new_body
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Malformed, WorldFull
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -24,7 +25,6 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Pose
-from physsim_ros.simulation.world.body_description import new_body
 import pytest
 
 from ..building import DISC

@@ -43,8 +43,8 @@ def test_the_topmost_bodies_under_the_points_are_joined(kind, points, bodies, en
 def test_what_was_joined_and_what_was_changed_is_said():
     world = pair()
     axle = joining('axle', [(0.4, 0.0)], a='a/0', b='world')
-    assert world.apply(axle).message == 'joined a/0 to the background by axle joint/0'
-    assert world.apply(axle).message == 'changed axle joint/0 of a/0 and the background'
+    assert world.apply(axle).answer.message == 'joined a/0 to the background by axle joint/0'
+    assert world.apply(axle).answer.message == 'changed axle joint/0 of a/0 and the background'
 
 
 def test_named_bodies_are_joined_wherever_the_points_are():
@@ -63,10 +63,10 @@ def test_points_may_be_given_in_the_frame_of_a_body():
 @pytest.mark.parametrize(('request_', 'kind'), [(Pin, 'pin'), (Axle, 'axle')])
 def test_a_click_gives_the_joint_the_lowest_free_name(request_, kind):
     world = pair()
-    names = [world.apply(request_(point=(0.4, 0.0))).subject for _ in range(3)]
+    names = [world.apply(request_(point=(0.4, 0.0))).answer.subject for _ in range(3)]
     world.apply(Unjoin(name=f'{kind}/1'))
     assert names == [f'{kind}/0', f'{kind}/1', f'{kind}/2']
-    assert world.apply(request_(point=(0.4, 0.0))).subject == f'{kind}/1'
+    assert world.apply(request_(point=(0.4, 0.0))).answer.subject == f'{kind}/1'
 
 
 # Constraints

@@ -148,7 +148,7 @@ def test_a_command_moves_many_bodies_at_once(world):
         spawn(world, f'a/{number}', DISC)
     poses, twists = ((1.0, 0.0, 0.0), (2.0, 0.0, 0.0)), ((3.0, 0.0, 0.0), (4.0, 0.0, 0.0))
 
-    answer = world.apply(Command(names=('a/2', 'a/0'), poses=poses, twists=twists))
+    answer = world.apply(Command(names=('a/2', 'a/0'), poses=poses, twists=twists)).answer
 
     assert answer == Answer(message='set pose and velocity of 2 bodies')
     assert world.snapshot().poses[:, 0].tolist() == [2.0, 0.0, 1.0]

@@ -320,6 +320,19 @@ def test_a_planet_turns_about_its_carrier(report):
     report.check(23, 'the same, angle', last.poses[2, 2], 4.0, 5e-3, 'rad')
 
 
+def test_a_gear_whose_carrier_alone_is_dynamic_turns_it(report):
+    sim = simulation(gravity=(0.0, 0.0))
+    for name in ('sun/0', 'ring/0'):
+        spawn(sim, name, Disc(radius=0.5), kinematic=True, spin=1.0)
+    arm = spawn(sim, 'arm/0', Box(width=1.0, height=1.0))
+    gear = {'a': 'sun/0', 'b': 'ring/0', 'ratio': -1.0, 'carrier': 'arm/0'}
+    join(sim, 'gear/0', 'gear', [(0.0, 0.0)], **gear)
+
+    # Willis: ring and sun turn alike as seen from the arm, one against the other.
+    spin = run(sim, 0.05).twists[arm, 2]
+    report.check(23, 'carrier of wheels that turn alike, spin', spin, 1.0, 1e-6, 'rad/s')
+
+
 def test_a_planetary_gear_shares_its_torque(report):
     # Sun, arm and planet turn by w, c and 2 c - w. The motor loads c alone, so that Lagrange has
     # I_s w' = I_p (2 c' - w') and (I_a + m d²) c' + 2 I_p (2 c' - w') = T.

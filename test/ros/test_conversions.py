@@ -6,10 +6,12 @@
 from __future__ import annotations
 
 import math
+import tracemalloc
 from typing import Any
 
-from geometry_msgs.msg import Quaternion
+from geometry_msgs.msg import Point, Quaternion
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import (
     BadOutline,
     BadProperty,
@@ -33,13 +35,19 @@ from physsim_ros.model.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Tr
 from physsim_ros.ros.requests.conversions import (
     body_request,
     command_request,
+    memory_of,
     name_of,
     point_request,
 )
+from physsim_ros.ros.requests.request_topics import RequestTopics
+from physsim_ros.simulation import waiting_entries
+from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, command, delete, delete_all, marker, point
 import pytest
+from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import MultiDOFJointState
-from visualization_msgs.msg import Marker
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker, MarkerArray, UVCoordinate
 
 from ..building import ELL
 
@@ -356,3 +364,56 @@ def test_a_rotation_or_point_that_is_not_finite_is_refused(number: float) -> Non
         for at in ((number, 0.0), (0.0, number)):
             with pytest.raises(Malformed):
                 point_request(kind, point(*at), frame_id='map')
+
+
+POINTS = [Point(x=float(number)) for number in range(1000)]
+
+
+@pytest.mark.parametrize(
+    'fields',
+    [
+        {},
+        {'points': POINTS},
+        {'colors': [ColorRGBA(g=number / 1e3) for number in range(1000)]},
+        {'uv_coordinates': [UVCoordinate(u=number / 1e3) for number in range(1000)]},
+        *({each: 'x' * 100_000} for each in ('ns', 'text', 'mesh_resource', 'texture_resource')),
+    ],
+)
+def test_the_memory_of_a_marker_is_known_to_a_factor_of_two(fields: dict[str, Any]) -> None:
+    array = MarkerArray(markers=[Marker(id=number, **fields) for number in range(10)])
+    data = serialize_message(array)
+    tracemalloc.start()
+    try:
+        array = deserialize_message(data, MarkerArray)
+        memory, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert memory / 2 < sum(map(memory_of, array.markers)) < 2 * memory
+
+
+class Topics:
+    """The topics of a node, to which a test sends bytes."""
+
+    def __init__(self) -> None:
+        self.receive: dict[str, Any] = {}
+
+    def create_subscription(self, _: type, topic: str, receive: Any, *__: Any, raw: bool) -> None:
+        """Subscribe, as a node does."""
+        assert raw
+        self.receive[topic] = receive
+
+
+def test_markers_of_an_array_wait_within_the_memory_that_they_have(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    topics, simulation = Topics(), Simulation(speed=0.0)
+    RequestTopics(topics, simulation.requests, ErrorBoundary(), 'map')
+    markers = [box(f'a/{number}', at=(2.0 * number, 0.0)) for number in range(5)]
+    for each in markers:
+        each.points = POINTS
+    array = MarkerArray(markers=markers)
+    monkeypatch.setattr(waiting_entries, 'MOST_BYTES', 3 * memory_of(markers[0]))
+    topics.receive['~/spawn_array'](serialize_message(array))
+    frame = simulation.apply_requests()
+    assert frame is not None
+    assert [each.code for each in frame.answers] == [''] * 3 + ['busy'] * 2

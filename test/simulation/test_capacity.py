@@ -90,6 +90,23 @@ def test_a_world_that_is_full_refuses_and_is_seldom_counted(monkeypatch):
     assert 1000 < sum(counted) <= 100 * 100 + 2 * 945
 
 
+def test_overlaps_within_bodies_that_move_together_count_once(monkeypatch):
+    lump = Compound(element=DISC, centers=((0.0, 0.0),) * 20)
+    world = World(settings=replace(FEW, max_overlaps=80))
+    for number in range(2):
+        spawn(world, f'lump/{number}', lump, (9.0 * number, 0.0, 0.0))
+    every, counted = capacity.count_overlaps, list[int]()
+
+    def count(*args: Any, **said: Any) -> int:
+        counted.append(every(*args, **said))
+        return counted[-1]
+
+    monkeypatch.setattr(capacity, 'count_overlaps', count)
+    # Each has 19 within, and so the bound is 76: the rest of the world is not counted.
+    world.apply(MoveBodies(names=('lump/0', 'lump/1'), by=(0.0, 1.0)))
+    assert counted == [0]
+
+
 def test_what_has_moved_apart_leaves_a_place():
     world = World(settings=FEW)
     assert flooded(world, one_pose(12)) == 7

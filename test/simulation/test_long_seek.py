@@ -149,7 +149,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, d
     steps = []
     for tick in range(1, 1000):
         for frame in simulation.advance(tick * SECOND // 60, is_overdue=lambda: True):
-            assert frame.moved
+            assert frame.stepped
             steps.append(frame.snapshot.step)
             assert simulation.world.digest() == digests[frame.snapshot.step]
     assert steps == [484, 488]

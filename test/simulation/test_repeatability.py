@@ -141,7 +141,6 @@ def test_looking_changes_nothing(looking):
 CHANGES: dict[str, Callable[[World], object]] = {
     'a step': lambda world: world.step(1),
     'a body': lambda world: spawn(world, 'new/0', DISC, (0.0, 20.0, 0.0)),
-    'a body less': lambda world: world.apply(Delete(name='mix/1')),
     'a colour': lambda world: spawn(world, 'peg/0', DISC, (3.0, 3.0, 0.0), color=RED),
     'a lifetime': lambda world: spawn(world, 'peg/0', DISC, (3.0, 3.0, 0.0), lifetime=9.0),
     'a pose': lambda world: world.apply(Command(names=('mix/1',), poses=((0.0, 20.0, 0.0),))),
@@ -161,17 +160,16 @@ CHANGES: dict[str, Callable[[World], object]] = {
     'gravity': lambda world: world.apply(Configure(changes={'gravity': (0.0, -9.8)})),
     'iterations': lambda world: world.apply(Configure(changes={'iterations': 11})),
     'a default': lambda world: world.apply(Configure(changes={'friction': 0.51})),
+    'a body less': lambda world: world.apply(Delete(name='mix/1')),
 }
 
 
-@pytest.mark.parametrize('change', CHANGES.values(), ids=CHANGES.keys())
-def test_whatever_decides_how_the_world_goes_on_is_in_the_digest(change):
+def test_whatever_decides_how_the_world_goes_on_is_in_the_digest():
     world = busy_world()
-    before = world.digest()
-
-    change(world)
-
-    assert world.digest() != before
+    for what, change in CHANGES.items():
+        before = world.digest()
+        change(world)
+        assert world.digest() != before, what
 
 
 # A refusal changes nothing
@@ -248,8 +246,7 @@ REFUSED: dict[str, tuple[Callable[[], Request], type[Refusal], str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize(('make', 'error', 'field'), REFUSED.values(), ids=REFUSED.keys())
-def test_a_refusal_changes_nothing(make, error, field):
+def test_a_refusal_changes_nothing():
     world, other = busy_world(), busy_world()
     for each in (world, other):
         spawn(each, 'far/0', DISC, (100.0, 0.0, 0.0), anchored=True)
@@ -259,13 +256,13 @@ def test_a_refusal_changes_nothing(make, error, field):
         each.step(30)
     before = world.digest()
 
-    with pytest.raises(Refusal) as refused:
-        world.apply(make())
+    for what, (make, error, field) in REFUSED.items():
+        with pytest.raises(Refusal) as refused:
+            world.apply(make())
+        assert (type(refused.value), refused.value.field) == (error, field), what
+        assert world.digest() == before, what
 
-    assert type(refused.value) is error
-    assert refused.value.field == field
-    assert world.digest() == before
-    # Nor has it changed what no digest shows.
+    # Nor have they changed what no digest shows.
     world.step(60)
     other.step(60)
     assert world.digest() == other.digest()
@@ -349,7 +346,7 @@ def test_restoring_replaces_everything_but_the_time():
     spawn(world, 'a/1', DISC, (4.0, 0.0, 0.0))
     world.step(10)
 
-    answer = world.apply(Restore(state=state))
+    answer = world.apply(Restore(state=state)).answer
 
     assert answer == Answer(message='loaded 1 body')
     assert names(world) == ('a/0',)
@@ -401,17 +398,3 @@ def test_what_is_loaded_is_saved_as_it_was_though_contacts_end_within_steps():
         loaded.apply(Restore(state=saved))
 
         assert repr(loaded.save().memory) == repr(saved.memory)
-
-
-def test_a_gear_whose_carrier_alone_is_dynamic_turns_it():
-    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
-    for name in ('sun/0', 'ring/0'):
-        spawn(world, name, DISC, kinematic=True, spin=1.0)
-    spawn(world, 'arm/0', BOX)
-    gear = {'a': 'sun/0', 'b': 'ring/0', 'ratio': -1.0, 'carrier': 'arm/0'}
-
-    join(world, 'gear', [(0.0, 0.0)], name='gear/0', **gear)
-
-    world.step(10)
-    # Willis: ring and sun turn alike as seen from the arm, one against the other.
-    assert world.snapshot().twists[2, 2] == pytest.approx(1.0)

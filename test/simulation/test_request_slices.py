@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from concurrent.futures import Future
+from functools import partial
 from threading import Thread
 
 from physsim_ros.model.errors import Refusal
@@ -118,14 +119,14 @@ def test_a_call_behind_requests_waits_for_them():
     assert seen == [SLICE, COUNT]
 
 
-def begin_reading(simulation: Simulation) -> Future[str]:
+def begin_reading(simulation: Simulation, wait: Wait = Wait.FOR_SEEK) -> Future[str]:
     """Submit a call that waits for a file, and a request behind it; return what is waited for."""
     future: Future[str] = Future()
 
     async def call() -> list[Answer]:
         return [Answer(topic='~/load_world', message=await wrap_future(future))]
 
-    simulation.requests.submit_call(call, Wait.FOR_SEEK)
+    simulation.requests.submit_call(call, wait)
     late = spawning('late/0', BOX, (0.0, 0.0, 0.0))
     simulation.requests.submit(late, topic='~/spawn')
     return future
@@ -146,6 +147,30 @@ def test_time_goes_on_while_a_call_waits_for_a_file_and_requests_wait_for_the_ca
     assert simulation.requests.apply_up_to_seek()
 
 
+@pytest.mark.parametrize('wait', [Wait.TO_READ, Wait.NONE])
+def test_requests_go_on_while_a_file_is_written_and_only_calls_that_read_it_wait(wait):
+    simulation = Simulation(settings=NOWHERE)
+    tick(simulation, 0)
+    future, seen = begin_reading(simulation, wait), list[Wait]()
+    assert tick(simulation, 1) == 1
+    assert len(simulation.world) == 1
+    # Who wants the world at once does not wait for the file.
+    assert simulation.advance_frame().stepped
+
+    def call(each: Wait) -> list[Answer]:
+        seen.append(each)
+        return []
+
+    for each in (Wait.FOR_SEEK, Wait.NONE):
+        simulation.requests.submit_call(partial(call, each), each)
+    tick(simulation, 2)
+    assert seen == [Wait.NONE, Wait.FOR_SEEK][: 1 if wait is Wait.TO_READ else 2]
+    future.set_result('written')
+    (frame,) = simulation.advance(3 * FRAME)
+    assert [each.message for each in frame.answers] == ['written']
+    assert seen == [Wait.NONE, Wait.FOR_SEEK]
+
+
 def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file():
     simulation = Simulation(settings=NOWHERE, speed=0.0)
     tick(simulation, 0)
@@ -154,7 +179,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file
     assert tick(simulation, 1) == 0
     future.set_result('loaded')
     (frame,) = simulation.advance(2 * FRAME)
-    assert frame.moved
+    assert frame.stepped
     assert frame.snapshot.scene.names == ('late/0',)
 
 
@@ -175,7 +200,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_all_requests():
     for number in range(1, COUNT // SLICE):
         assert tick(simulation, number) == 0
     (frame,) = simulation.advance(10**9, is_spent=spent_after(SLICE + 1))
-    assert frame.moved
+    assert frame.stepped
     assert len(frame.snapshot.scene.bodies) == COUNT
 
 

@@ -102,7 +102,7 @@ def test_at_the_oldest_step_time_stops_and_says_so(driven):
     assert len(told(frames, 'history')) == 1
     again = driven.run(-1.0, 0.1)
     assert len(told(again, 'history')) == 1
-    assert not any(frame.moved for frame in again)
+    assert not any(frame.stepped for frame in again)
     assert driven.run(0.0, 0.5) == []
 
 
@@ -121,7 +121,7 @@ def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
         for frame in driven.run(speed, seconds):
             columns = frame.contacts.pairs, frame.contacts.points, frame.contacts.normals
             rows = sorted(map(tuple, np.column_stack(columns).round(6).tolist()))
-            if frame.moved:
+            if frame.stepped:
                 assert shown.setdefault(frame.snapshot.step, rows) == rows
 
     # The row is asleep, and the request wakes it.
@@ -148,7 +148,7 @@ def test_a_paused_world_has_the_contacts_of_its_last_steps_once_they_are_reporte
 
     assert frame.contacts.steps == simulation.frame_steps
     assert len(frame.contacts.pairs) == 1
-    assert not frame.moved
+    assert not frame.stepped
     assert (simulation.step, simulation.world.digest()) == (step, digest)
     simulation.reports_contacts = False
     assert simulation.apply_requests() is None

@@ -25,6 +25,7 @@ from physsim_ros import (
 )
 from physsim_ros.model.errors import BadProperty, InPast, OutOfHistory, UnknownBody
 from physsim_ros.model.requests import Grab
+from physsim_ros.simulation.entries import Origin
 import pytest
 
 NOISY = {'from': 'turtlebot3_burger', 'odometry': {'slip': [0.05, 0.05]}}
@@ -286,6 +287,19 @@ def test_a_robot_that_is_gone_is_not_driven_on():
     robot.simulation.run(1.0)
     with pytest.raises(UnknownBody):
         robot.truth()
+    # Nor is another one of its name.
+    robot.simulation.perform(robot_spawn('turtlebot3_burger'))
+    robot.simulation.run(1.0)
+    assert robot.truth().pose == pytest.approx((0.0, 0.0, 0.0))
+
+
+def test_a_robot_may_be_spawned_by_a_request_that_waits_behind_a_seek():
+    simulation = Simulation(settings=WorldSettings(gravity=(0.0, 0.0)))
+    simulation.run(1.0)
+    simulation.requests.submit_seek(500_000_000, Origin('~/seek'))
+    simulation.requests.submit(robot_spawn('turtlebot3_burger'), topic='~/spawn')
+    Robot(simulation, 'robot/0').drive(0.2)
+    assert 'robot/0' in simulation.world
 
 
 def test_a_robot_that_drives_on_after_an_undo_leaves_what_there_is_to_redo():

@@ -196,7 +196,7 @@ def test_a_body_that_is_no_robot_any_more_has_no_state_of_one():
 def test_a_robot_that_falls_is_told(gravity, falls):
     world = World(settings=WorldSettings(gravity=gravity))
 
-    answer = world.apply(body_request('a/0', robot={'drive': DRIVE}))
+    answer = world.apply(body_request('a/0', robot={'drive': DRIVE})).answer
 
     assert answer.message.startswith('spawned a/0')
     assert ('gravity' in answer.message) is falls

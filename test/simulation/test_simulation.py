@@ -168,7 +168,7 @@ def test_frames_come_at_multiples_of_the_publish_period():
     frames = periods(sim, 61)
 
     assert [frame.snapshot.step for frame in frames] == list(range(0, 241, FRAME))
-    assert [frame.moved for frame in frames] == [False, *[True] * 60]
+    assert [frame.stepped for frame in frames] == [False, *[True] * 60]
     assert (frames[0].snapshot.stamp, frames[-1].snapshot.stamp) == (0, SECOND)
     assert (frames[0].speed, answers(frames)) == (1.0, [])
 
@@ -182,13 +182,13 @@ def test_a_paused_world_carries_out_requests_and_shows_them():
     sim.requests.submit(Delete(name='a/9'), topic='~/spawn')
     (frame,) = periods(sim, 60, since=61)
 
-    assert (frame.moved, frame.speed) == (False, 0.0)
+    assert (frame.stepped, frame.speed) == (False, 0.0)
     assert frame.snapshot.step == 0
     assert frame.snapshot.scene.names == ('a/0',)
     assert [answer.code for answer in frame.answers] == ['', 'unknown_body']
     sim.perform(Delete(name='a/0'))
     (frame,) = periods(sim, 2, since=121)
-    assert (frame.moved, frame.snapshot.scene.names) == (False, ())
+    assert (frame.stepped, frame.snapshot.scene.names) == (False, ())
 
 
 def test_play_and_pause_go_on_where_they_were():
@@ -231,7 +231,7 @@ def test_advance_frame_goes_on_by_a_period_whatever_the_speed():
 
     frame = sim.advance_frame()
 
-    assert (frame.snapshot.step, frame.moved, frame.speed) == (FRAME, True, 0.0)
+    assert (frame.snapshot.step, frame.stepped, frame.speed) == (FRAME, True, 0.0)
     assert [answer.message for answer in frame.answers] == ['spawned a/0']
     assert sim.advance_frame().snapshot.step == 2 * FRAME
 
@@ -245,6 +245,35 @@ def test_advance_frame_ends_on_a_multiple():
     assert sim.advance_frame().snapshot.step == FRAME
 
 
+JUMPS = {
+    'reset': Simulation.reset,
+    'undo': Simulation.undo,
+    'seek': lambda sim: sim.seek(0),
+    'world': lambda sim: sim.open_world(WorldState(settings=NOWHERE)),
+}
+FRAMES = {
+    'frame': lambda sim: sim.frame,
+    'requests': Simulation.apply_requests,
+    'advance': lambda sim: sim.advance(round(60 * PERIOD))[0],
+}
+
+
+@pytest.mark.parametrize('frame', FRAMES.values(), ids=FRAMES)
+@pytest.mark.parametrize('jump', JUMPS.values(), ids=JUMPS)
+def test_a_frame_tells_steps_from_jumps_however_it_is_read(jump, frame):
+    sim = simulation(speed=0.0)
+    sim.perform(spawning('a/0'))
+    sim.run(1.0)
+    assert sim.frame.stepped
+
+    jump(sim)
+    shown = frame(sim)
+
+    assert (shown.snapshot.step, shown.stepped) == (0, False)
+    sim.run(1.0)
+    assert sim.frame.stepped
+
+
 def test_settle_carries_out_what_was_asked_and_goes_nowhere():
     sim = simulation()
     sim.advance(0)
@@ -253,7 +282,7 @@ def test_settle_carries_out_what_was_asked_and_goes_nowhere():
 
     frame = sim.apply_requests()
 
-    assert (frame.moved, frame.snapshot.step) == (False, 0)
+    assert (frame.stepped, frame.snapshot.step) == (False, 0)
     assert [answer.subject for answer in frame.answers] == ['a/0']
     assert sim.apply_requests() is None
 

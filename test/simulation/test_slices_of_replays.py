@@ -3,10 +3,13 @@
 
 """Replays that build whole worlds do it in slices, or on the thread that asks for the result."""
 
+from collections.abc import Callable
 from threading import get_ident, Thread
 
 from physsim_ros.engine import checkpoint
+from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -93,6 +96,33 @@ def test_a_run_is_saved_alike_however_long_that_takes(history: float) -> None:
 
     assert save() == soon
     assert {each.body.name for each in soon.bodies} == {'a/0', 'b/0'}
+
+
+COPIES = {
+    'a run': lambda simulation: simulation.saver_of_run()(),
+    'forces': lambda simulation: simulation.forces_now(simulation.frame.snapshot),
+}
+
+
+@pytest.mark.parametrize('copy', COPIES.values(), ids=COPIES)
+def test_a_copy_that_fails_is_an_error_and_not_the_end_of_the_world(
+    copy: Callable[[Simulation], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulation, failures = Simulation(), []
+    simulation.perform(spawning('a/0', DISC, (0.0, 5.0, 0.0)))
+    simulation.run(0.25)
+    simulation.perform(spawning('b/0', DISC, (3.0, 5.0, 0.0)))
+    digest = simulation.world.digest()
+    boundary = ErrorBoundary(log=failures.append)
+
+    with monkeypatch.context() as patch, boundary.output('page'):
+        patch.setattr(Space, 'step', lambda *_, **__: 1 / 0)
+        copy(simulation)
+
+    assert len(failures) == 1
+    assert 'by zero' in failures[0]
+    assert simulation.world.digest() == digest
+    simulation.run(0.25)
 
 
 def digest_of(state: WorldState) -> str:

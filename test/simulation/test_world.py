@@ -65,7 +65,7 @@ def test_a_spawned_body_is_what_was_said_and_where(world):
             mass=4.0, friction=0.25, elasticity=0.75, velocity=(1.0, 2.0), spin=3.0, group=5,
             sensor=True,
         )
-    )  # fmt: skip
+    ).answer  # fmt: skip
 
     assert answer == Answer(subject='box/3', message='spawned box/3')
     assert body(world, 'box/3') == Body(
@@ -107,7 +107,7 @@ def test_a_deleted_body_is_gone_and_its_name_can_be_used_again_and_comes_last(wo
     spawn(world, 'a/0', DISC, mass=3.0, velocity=(1.0, 0.0))
     spawn(world, 'a/1', DISC)
 
-    answer = world.apply(Delete(name='a/0'))
+    answer = world.apply(Delete(name='a/0')).answer
 
     assert answer == Answer(subject='a/0', message='deleted a/0')
     assert names(world) == ('a/1',)
@@ -124,12 +124,12 @@ def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world):
     for name in ('a/0', 'b/0', 'a/1', 'ab/0', 'a/b/0'):
         spawn(world, name, DISC)
 
-    answer = world.apply(DeleteAll(namespace='a'))
+    answer = world.apply(DeleteAll(namespace='a')).answer
 
     assert answer == Answer(message='deleted 2 bodies')
     assert names(world) == ('b/0', 'ab/0', 'a/b/0')
-    assert world.apply(DeleteAll(namespace='ab')) == Answer(message='deleted 1 body')
-    assert world.apply(DeleteAll(namespace='nobody')) == Answer(message='deleted 0 bodies')
+    assert world.apply(DeleteAll(namespace='ab')).answer == Answer(message='deleted 1 body')
+    assert world.apply(DeleteAll(namespace='nobody')).answer == Answer(message='deleted 0 bodies')
 
 
 def test_bodies_and_joints_are_deleted_together_or_not_at_all(world):
@@ -140,11 +140,11 @@ def test_bodies_and_joints_are_deleted_together_or_not_at_all(world):
     with pytest.raises(UnknownJoint) as refused:
         world.apply(DeleteBodies(names=('a/0',), joints=('j/1', 'j/9')))
     assert (refused.value.field, len(world.scene.joints)) == ('joints', 3)
-    assert world.apply(DeleteBodies(names=('a/0',), joints=('j/0', 'j/1'))).subject == 'a/0'
+    assert world.apply(DeleteBodies(names=('a/0',), joints=('j/0', 'j/1'))).answer.subject == 'a/0'
 
     assert names(world) == ('a/1', 'a/2')
     assert [joint.name for joint in world.scene.joints] == ['j/2']
-    assert world.apply(DeleteBodies(names=(), joints=('j/2',))).message == 'deleted 1 joint'
+    assert world.apply(DeleteBodies(names=(), joints=('j/2',))).answer.message == 'deleted 1 joint'
 
 
 # Lifetime

@@ -10,24 +10,42 @@ from concurrent.futures import wait
 import errno
 import os
 from pathlib import Path
+import signal
 from threading import Event
 import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
-from physsim_ros.files import load_mapping
+from physsim_ros.files import DirectoryLock, finish_files, load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave as module
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
+from physsim_ros.sketchpad.file_work import FileWork
+from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser, Page
 from ..building import BOX, spawning
 from ..client import Client
+from ..outside import Outside
 from ..worlds.film import state_of
+
+
+@pytest.fixture
+def lock(tmp_path: Path) -> DirectoryLock:
+    return DirectoryLock(tmp_path)
+
+
+def autosave_in(
+    directory: Path,
+    lock: DirectoryLock,
+    text: Callable[[], Callable[[int], str]],
+    people: Callable[[], list[str]] = list,
+) -> Autosave:
+    return Autosave(directory, lock, FileWork(lambda: None), text, people)
 
 
 def empty() -> Callable[[int], str]:
@@ -57,9 +75,11 @@ def end_save(autosave: Autosave) -> Answer | None:
     return autosave.note_end()
 
 
-def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> None:
+def test_what_was_drawn_is_kept_and_what_was_saved_is_not(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
     simulation = Simulation()
-    autosave = Autosave(tmp_path, names_in(simulation))
+    autosave = autosave_in(tmp_path, lock, names_in(simulation))
     autosave.note_frame(simulation.advance_frame(), drawn=False)
     assert not autosave.is_due(time.monotonic())
     drawn(simulation, autosave, 'a/0')
@@ -72,19 +92,22 @@ def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> Non
     assert not autosave.is_due(time.monotonic())
     assert autosave.is_due(time.monotonic() + 2 * PERIOD)
 
-    again = Autosave(tmp_path, empty)
+    again = autosave_in(tmp_path, lock, empty)
     assert abs(again.unsaved_at - time.time()) < 3600.0
     assert again.unsaved_content() == b'a/0'
     again.forget_unsaved()
     assert again.unsaved_at == 0.0
     end_save(autosave)
-    autosave.note_saved()
-    assert not list(tmp_path.iterdir())
+    autosave.note_saved(simulation.world.scene)
+    finish_files()
+    assert [each.name for each in tmp_path.iterdir()] == ['.lock']
 
 
-def test_while_nothing_moves_a_change_is_kept_within_a_second(tmp_path: Path) -> None:
+def test_while_nothing_moves_a_change_is_kept_within_a_second(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
     simulation = Simulation()
-    autosave = Autosave(tmp_path, empty)
+    autosave = autosave_in(tmp_path, lock, empty)
     simulation.speed = 0.0
     for name in ('a/0', 'a/1'):
         simulation.requests.submit(spawning(name, BOX), topic='~/spawn')
@@ -95,9 +118,11 @@ def test_while_nothing_moves_a_change_is_kept_within_a_second(tmp_path: Path) ->
         end_save(autosave)
 
 
-def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> None:
+def test_a_world_that_was_opened_and_not_changed_is_not_kept(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
     simulation = Simulation()
-    autosave = Autosave(tmp_path, empty)
+    autosave = autosave_in(tmp_path, lock, empty)
     drawn(simulation, autosave, 'a/0')
     simulation.requests.submit(Restore(state=Simulation().save()), topic='~/load_world')
     autosave.note_frame(simulation.advance_frame(), drawn=True)
@@ -106,19 +131,23 @@ def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> 
     assert autosave.is_due(time.monotonic())
 
 
-def test_a_lesson_that_a_page_opened_is_kept_for_the_next_start(tmp_path: Path) -> None:
+def test_a_lesson_that_a_page_opened_is_kept_for_the_next_start(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
     simulation = Simulation()
-    autosave = Autosave(tmp_path, empty)
+    autosave = autosave_in(tmp_path, lock, empty)
     simulation.requests.submit(Restore(state=state_of('lever')), topic='~/load_world')
     autosave.note_frame(simulation.advance_frame(), drawn=True)
     assert autosave.is_due(time.monotonic())
 
 
-def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_takes_a_hundredth_of_the_time(
+    tmp_path: Path, lock: DirectoryLock, monkeypatch: pytest.MonkeyPatch
+) -> None:
     times = iter((0.0, 2.0))
     monkeypatch.setattr(time, 'thread_time', lambda: next(times))
     simulation = Simulation()
-    autosave = Autosave(tmp_path, empty)
+    autosave = autosave_in(tmp_path, lock, empty)
     drawn(simulation, autosave, 'a/0')
     end_save(autosave)
     drawn(simulation, autosave, 'a/1')
@@ -127,12 +156,14 @@ def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.Mo
     assert autosave.is_due(now + 1.1 * SHARE * 2.0)
 
 
-def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) -> None:
+def test_the_unsaved_world_has_the_names_of_those_who_drew_it(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
     names = ['Mia', 'Jürgen "J" Groß']
-    autosave = Autosave(tmp_path, lambda: lambda _: 'format: 1', lambda: names)
+    autosave = autosave_in(tmp_path, lock, lambda: lambda _: 'format: 1', lambda: names)
     drawn(Simulation(), autosave, 'a/0')
     end_save(autosave)
-    again = Autosave(tmp_path, empty)
+    again = autosave_in(tmp_path, lock, empty)
     assert again.unsaved_by == names
     assert load_mapping(again.unsaved_content().decode(), field='file') == {'format': 1}
     for line in ('# drawn by: [', f'# drawn by: {"[" * 5000}', '# drawn by: {}', '# a comment'):
@@ -147,17 +178,20 @@ def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) ->
         again.unsaved_content()
 
 
-def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) -> None:
+def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
     simulation = Simulation()
 
     def refuse(_: int) -> str:
         raise WorldFull('too large', field='world')
 
-    end_save(Autosave(tmp_path, lambda: refuse))
-    assert not list(tmp_path.iterdir())
+    end_save(autosave_in(tmp_path, lock, lambda: refuse))
+    finish_files()
+    assert [each.name for each in tmp_path.iterdir()] == ['.lock']
     nowhere = tmp_path / 'file'
     nowhere.write_text('')
-    autosave = Autosave(nowhere, empty)
+    autosave = autosave_in(nowhere, DirectoryLock(nowhere), empty)
     drawn(simulation, autosave, 'a/0')
     end_save(autosave)
     assert autosave.unsaved_at == 0.0
@@ -167,7 +201,7 @@ def test_what_a_full_disk_did_not_take_is_written_when_there_is_room(tmp_path: P
     simulation = Simulation()
     directory = tmp_path / 'worlds'
     directory.write_text('')
-    autosave = Autosave(directory, names_in(simulation))
+    autosave = autosave_in(directory, DirectoryLock(directory), names_in(simulation))
     drawn(simulation, autosave, 'a/0')
     event = end_save(autosave)
     assert event is not None
@@ -185,13 +219,15 @@ def test_what_a_full_disk_did_not_take_is_written_when_there_is_room(tmp_path: P
     assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
 
 
-def test_a_world_that_is_too_large_is_tried_again_when_it_changes(tmp_path: Path) -> None:
+def test_a_world_that_is_too_large_is_tried_again_when_it_changes(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
     simulation = Simulation()
 
     def refuse(_: int) -> str:
         raise WorldFull('too large', field='world')
 
-    autosave = Autosave(tmp_path, lambda: refuse)
+    autosave = autosave_in(tmp_path, lock, lambda: refuse)
     for name in ('a/0', 'a/1'):
         drawn(simulation, autosave, name)
         assert autosave.is_due(time.monotonic() + 2 * PERIOD)
@@ -200,7 +236,7 @@ def test_a_world_that_is_too_large_is_tried_again_when_it_changes(tmp_path: Path
     assert autosave.failure is not None
     assert autosave.failure.message.endswith(': too large')
     # A world that somebody has saved, or that is that of a file, lacks nothing.
-    autosave.note_saved()
+    autosave.note_saved(simulation.world.scene)
     assert autosave.failure is None
 
 
@@ -238,8 +274,76 @@ def test_a_failure_is_told_on_all_pages_also_later_ones_in_events_and_diagnostic
     browser.until(lambda: tick() or event_on(later))
 
 
+def test_what_is_drawn_during_a_save_by_name_is_autosaved(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
+    simulation = Simulation()
+    autosave = autosave_in(tmp_path, lock, names_in(simulation))
+    drawn(simulation, autosave, 'a/0')
+    saved = simulation.world.scene
+    drawn(simulation, autosave, 'a/1')
+    autosave.note_saved(saved)
+    assert autosave.is_due(time.monotonic())
+    # The frame of a save that ends at once is shown after it.
+    simulation.perform(spawning('a/2', BOX))
+    autosave.note_saved(simulation.world.scene)
+    autosave.note_frame(simulation.advance_frame(), drawn=True)
+    assert not autosave.is_due(time.monotonic() + 2 * PERIOD)
+
+
+def test_a_directory_that_cannot_be_written_is_no_hindrance(
+    tmp_path: Path, lock: DirectoryLock, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    simulation = Simulation()
+    with monkeypatch.context() as patches:
+        patches.setattr(os, 'open', refuse)
+        autosave = autosave_in(tmp_path, lock, names_in(simulation))
+    assert autosave.failure is None
+    drawn(simulation, autosave, 'a/0')
+    end_save(autosave)
+    assert (tmp_path / '.autosave.yaml').read_text() == 'a/0'
+
+
+def test_of_two_nodes_on_a_directory_one_autosaves_until_it_ends(
+    start: Callable[..., PhysSim],
+    outside: Outside,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for name in ('PERIOD', 'STILL_PERIOD', 'SHARE'):
+        monkeypatch.setattr(module, name, 0.0)
+    given = {'sketchpad': 'serve', 'sketchpad_port': 0, 'world_dir': tmp_path}
+    first = outside.start_world(**given)
+    first.wait_for('ready')
+    kept = tmp_path / '.autosave.yaml'
+    kept.write_text('drawn in the first')
+    browser = Browser(start(**given | {'world_dir': str(tmp_path)}))
+    page = browser.open_page()
+    browser.until(lambda: 'in_use' in {each['code'] for each in page.of_type('answer')})
+    lesson = {'lesson': 'Lever', 'answer': '2', 'right': True}
+    assert page.ask('answered', **lesson)['code'] == 'in_use'
+    assert page.ask('forget')['code'] == 'in_use'
+    assert page.spawn('a/0')['ok']
+    assert page.ask('save', name='mine')['ok']
+    assert page.spawn('a/1')['ok']
+    browser.physsim.run(0.1)
+    finish_files()
+    assert kept.read_text() == 'drawn in the first'
+    assert not (tmp_path / '.unsaved.yaml').exists()
+
+    first.interrupt(signal.SIGKILL)
+    assert page.ask('answered', **lesson)['ok']
+    assert page.spawn('a/2')['ok']
+    browser.until(lambda: browser.physsim.step() or 'a/2' in kept.read_text())
+    assert (tmp_path / '.unsaved.yaml').read_text() == 'drawn in the first'
+    browser.close()
+
+
 def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, lock: DirectoryLock, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     held, write = Event(), module.write_file
 
@@ -248,12 +352,14 @@ def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(
         write(path, content)
 
     monkeypatch.setattr(module, 'write_file', write_later)
-    autosave = Autosave(tmp_path, empty)
-    writing = autosave.save()
-    autosave.note_saved()
+    simulation = Simulation()
+    autosave = autosave_in(tmp_path, lock, empty)
+    drawn(simulation, autosave, 'a/0')
+    autosave.save()
+    autosave.note_saved(simulation.world.scene)
     held.set()
-    wait((writing,))
-    assert not list(tmp_path.iterdir())
+    finish_files()
+    assert [each.name for each in tmp_path.iterdir()] == ['.lock']
 
 
 def test_no_request_waits_for_a_save_and_one_is_under_way(

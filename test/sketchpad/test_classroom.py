@@ -15,8 +15,9 @@ from types import ModuleType
 from typing import Any
 from urllib.parse import quote
 
-from physsim_ros.files import shipped_lessons
+from physsim_ros.files import DirectoryLock, finish_files, shipped_lessons
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import InUse
 from physsim_ros.model.lesson import LONGEST_TITLE
 from physsim_ros.ros import node_control, world_files
 from physsim_ros.simulation.world import Beginning, beginning_of
@@ -500,11 +501,16 @@ def test_results_stay_and_an_answer_that_was_right_is_not_lost(
         return [person['answered']['lesson'] for person in told if person['answered']]
 
     again.until(lambda: last_lessons() == ['Lever'])
-    kept = Results(results_file(tmp_path))
+    kept = Results(results_file(tmp_path), DirectoryLock(tmp_path))
     assert kept.last_of('Anna')['lesson'] == 'Lever'
-    assert kept.note('Anna', 'Lever', '1', right=True)['tries'] == 2
+    with pytest.raises(InUse):
+        kept.note('Anna', 'Lever', '1', right=True, visitor='Page 1')
     assert teacher(browser).ask('forget_results')['ok']
     assert results() == []
+    browser.physsim.node.destroy_node()
+    finish_files()
+    # What is in the file counts when the lock is there.
+    assert kept.note('Anna', 'Lever', '1', right=True, visitor='Page 1')['tries'] == 1
 
 
 def test_neither_world_nor_pages_wait_for_a_slow_disk_and_no_answer_is_lost(
@@ -545,33 +551,51 @@ def test_neither_world_nor_pages_wait_for_a_slow_disk_and_no_answer_is_lost(
 def test_the_greatest_results_fit_into_their_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    kept, sign = Results(results_file(tmp_path)), '\N{GRINNING FACE}'
+    lock, sign = DirectoryLock(tmp_path), '\N{GRINNING FACE}'
+    kept = Results(results_file(tmp_path), lock)
 
     def note(number: int) -> None:
         person = f'{number}{sign * LONGEST_PERSON}'[:LONGEST_PERSON]
-        kept.note(person, sign * LONGEST_TITLE, sign * LONGEST_ANSWER, right=True)
+        kept.note(person, sign * LONGEST_TITLE, sign * LONGEST_ANSWER, right=True, visitor=person)
 
     with monkeypatch.context() as patch:
         patch.setattr(results, 'write_file', lambda *_, **__: None)
         for number in range(MOST_RESULTS):
             note(number)
     note(MOST_RESULTS)
-    assert list(Results(results_file(tmp_path))) == list(kept)
+    assert list(Results(results_file(tmp_path), lock)) == list(kept)
     assert len(list(kept)) == MOST_RESULTS
 
 
+def test_one_visitor_of_many_names_and_lessons_drives_out_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lock = DirectoryLock(tmp_path)
+    Results(results_file(tmp_path), lock).note('Zoe', 'L', '1', right=True, visitor='Page 1')
+    kept = Results(results_file(tmp_path), lock)
+    for name in ('Anna', 'Ben'):
+        kept.note(name, 'Lever', '1', right=True, visitor=name)
+    monkeypatch.setattr(results, 'write_file', lambda *_, **__: None)
+    for number in range(MOST_RESULTS + 1):
+        kept.note(f'n{number % 9}', f'{number}', '1', right=True, visitor='Page 1')
+    people = [each['person'] for each in kept]
+    assert len(people) == MOST_RESULTS
+    assert people[:3] == ['Zoe', 'Anna', 'Ben']
+    assert kept.last_of(f'n{MOST_RESULTS % 9}')['lesson'] == str(MOST_RESULTS)
+
+
 def test_an_answer_that_cannot_be_written_is_refused_and_not_counted(tmp_path: Path) -> None:
-    results = Results(results_file(tmp_path))
-    results.note('Anna', 'Lever', '1', right=False)
+    results = Results(results_file(tmp_path), DirectoryLock(tmp_path))
+    results.note('Anna', 'Lever', '1', right=False, visitor='Page 1')
     results_file(tmp_path).unlink()
     results_file(tmp_path).mkdir()
     with pytest.raises(OSError, match='directory'):
-        results.note('Anna', 'Lever', '2', right=True)
+        results.note('Anna', 'Lever', '2', right=True, visitor='Page 1')
     with pytest.raises(OSError, match='directory'):
         results.forget()
     assert [(each['answer'], each['tries']) for each in results] == [('1', 1)]
     results_file(tmp_path).rmdir()
-    assert results.note('Anna', 'Lever', '2', right=True)['tries'] == 2
+    assert results.note('Anna', 'Lever', '2', right=True, visitor='Page 1')['tries'] == 2
 
 
 def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path) -> None:
@@ -580,11 +604,11 @@ def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path)
     )
     spoilt = (f'[{one % tries}]' for tries in ('"x"', 'Infinity', '[]', 'true', '1, "x": NaN'))
     half = '[{"person": "\\ud800"}]'
+    lock = DirectoryLock(tmp_path)
     for text in ('', '{', '[1]', '{}', '[{}]', '\udcff', '[' * 100_000, half, *spoilt):
         results_file(tmp_path).write_text(text, errors='surrogateescape')
-        assert (
-            Results(results_file(tmp_path)).note('Anna', 'Lever', '1', right=False)['tries'] == 1
-        )
+        kept = Results(results_file(tmp_path), lock)
+        assert kept.note('Anna', 'Lever', '1', right=False, visitor='Page 1')['tries'] == 1
 
 
 def test_lessons_of_another_directory_reach_the_world(

@@ -72,6 +72,13 @@ def test_a_world_that_cannot_be_kept_is_not_written_over(
     browser.physsim.step()
 
 
+def test_an_unsaved_world_that_cannot_be_deleted_is_named(browser: Browser) -> None:
+    (worlds_of(browser) / '.unsaved.yaml').mkdir()
+    answer = browser.open_page().ask('forget')
+    assert answer['code'] == 'bad_world_file'
+    assert answer['message'].startswith('the unsaved world: ')
+
+
 @pytest.mark.parametrize('name', ['mine', '名前', '😀', 'a "quoted" one', 'ü; filename=x'])
 def test_a_world_of_any_name_can_be_downloaded(browser: Browser, name: str) -> None:
     assert browser.open_page().ask('save', name=name)['ok']
@@ -141,7 +148,7 @@ def test_files_and_directories_are_for_this_user_alone(browser: Browser) -> None
     assert {stat.S_IMODE(mode) for mode in made.values() if stat.S_ISREG(mode)} == {0o600}
     assert {stat.S_IMODE(mode) for mode in made.values() if stat.S_ISDIR(mode)} == {0o700}
     assert stat.S_IMODE(worlds.stat().st_mode) == 0o700
-    assert len(made) == 6
+    assert len(made) == 7
 
 
 def test_a_page_is_served_though_its_address_cannot_be_printed(

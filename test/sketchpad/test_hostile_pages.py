@@ -8,10 +8,12 @@ from contextlib import ExitStack, suppress
 import json
 from pathlib import Path
 import socket
+from threading import Event
+from typing import Any
 
 from physsim_ros.sketchpad import Role
 from physsim_ros.sketchpad.inbox import CAPACITY
-from physsim_ros.sketchpad.server import guarded, website
+from physsim_ros.sketchpad.server import guarded, website, world_handlers
 from physsim_ros.sketchpad.server.access import Access
 from physsim_ros.sketchpad.server.open_pages import MOST_PAGES
 from physsim_ros.sketchpad.server.server import MOST_BYTES
@@ -287,6 +289,32 @@ def test_a_file_that_is_too_large_is_refused_with_a_code(browser: Browser, way: 
     assert status.startswith(b'HTTP/1.1 413 ')
     assert json.loads(body[: body.index(b'}') + 1])['code'] == 'malformed'
     assert browser.physsim.digest() == before
+
+
+def test_one_upload_too_many_is_refused_with_a_code(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    goes_on, read = Event(), world_handlers.load_mapping
+
+    def read_later(text: str, *, field: str) -> dict[str, Any]:
+        goes_on.wait()
+        return read(text, field=field)
+
+    monkeypatch.setattr(world_handlers, 'load_mapping', read_later)
+    post = {'method': 'POST', 'body': 'format: 1', 'headers': {'Origin': browser.base}}
+    sent = [
+        browser.loop.create_task(browser.begin_fetch('/world', **post))
+        for _ in range(world_handlers.MOST_UPLOADS + 1)
+    ]
+    browser.until(lambda: any(each.done() for each in sent))
+    (refused,) = (each.result() for each in sent if each.done())
+    assert refused.code == 503
+    assert json.loads(refused.body)['code'] == 'busy'
+    goes_on.set()
+    browser.until(lambda: all(each.done() for each in sent))
+    assert sorted(each.result().code for each in sent) == [200] * world_handlers.MOST_UPLOADS + [
+        503
+    ]
 
 
 @pytest.mark.parametrize('kind', ['message', 'ping'])

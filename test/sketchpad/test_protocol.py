@@ -332,7 +332,7 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     assert not simulation.requests.apply_up_to_seek()
     assert not page.answers(shared)
     physsim.node.apply_requests()
-    page.until(lambda: page.answers(shared))
+    page.until(lambda: sketchpad.handle_messages() or page.answers(shared))
     assert simulation.world.stamp == 500_000_000
     text = text_of(simulation.save(), simulation.physics_rate)
     assert page.answers(shared)[0]['values']['yaml'] == text

@@ -24,9 +24,8 @@ from physsim_ros.files import (
 )
 from physsim_ros.model import errors
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import check_limit, WorldSettings
 from physsim_ros.model.shapes import Disc
-from physsim_ros.simulation.world.capacity import check_limit
 from physsim_ros.sketchpad.messages.fields import person
 from physsim_ros.sketchpad.server.page_handlers import PAGE
 import pytest

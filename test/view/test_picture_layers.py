@@ -150,7 +150,7 @@ def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
     box, half = scene(body()), Preview(lines=(((0, 0), (3, 4)),), points=((3, 4),), label='wall')
     # Nothing moves: a preview alone is something new to see.
     for preview in (NO_PREVIEW, half, half, NO_PREVIEW):
-        recording.draw(frame(box, [(0, 0, 0)], moved=False, preview=preview))
+        recording.draw(frame(box, [(0, 0, 0)], stepped=False, preview=preview))
 
     (shown, cleared) = recording.rows('world/preview/lines', 'LineStrips3D:strips')
     assert (shown.frame, cleared.frame) == (1, 2)

@@ -72,7 +72,7 @@ def test_an_anchored_body_that_is_put_elsewhere_is_drawn_there(recording):
 
 
 def test_a_paused_world_adds_nothing(recording):
-    paused = frame(scene(body()), [(0, 0, 0)], moved=False)
+    paused = frame(scene(body()), [(0, 0, 0)], stepped=False)
 
     recording.draw(*[paused] * 5)
     recording.draw(*[paused] * 5)
@@ -82,9 +82,9 @@ def test_a_paused_world_adds_nothing(recording):
 
 def test_what_happens_to_a_paused_world_is_drawn(recording):
     box = scene(body())
-    paused = frame(box, [(0, 0, 0)], moved=False)
-    moved_by_hand = frame(box, [(1, 0, 0)], moved=False)
-    told = frame(box, [(1, 0, 0)], moved=False, answers=(Answer(topic='~/spawn', message='no'),))
+    paused = frame(box, [(0, 0, 0)], stepped=False)
+    moved_by_hand = frame(box, [(1, 0, 0)], stepped=False)
+    told = frame(box, [(1, 0, 0)], stepped=False, answers=(Answer(topic='~/spawn', message='no'),))
 
     recording.draw(paused, moved_by_hand, told)
 

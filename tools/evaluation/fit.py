@@ -27,19 +27,20 @@ from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
 from physsim_ros.drawing.strokes.plain_forms import ELLIPSE, fits_of, SHAPES
 from physsim_ros.drawing.strokes.signs import SIGNS
-from physsim_ros.drawing.strokes.stages import Candidate
+from physsim_ros.drawing.strokes.stages import Candidate, RECTANGLE
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal
 
 from .outlines import Floats
-from .scenes import faulty_scenes, OUTLINES, scenes
+from .scenes import faulty_scenes, OUTLINES, Scene, scenes
 from .several import joined_things
 
 # Strokes of each kind and of each fault, and things of several strokes.
 _COUNT = 100
-# Outlines of each kind, for one of each fault.
-_OUTLINES = 3
+# Outlines of each kind, for one of each fault: as many rectangles as other polygons of all kinds,
+# since planks and boxes are drawn more often than other solids with corners.
+_OUTLINES, _RECTANGLES = 3, 9
 # Knots of a term: quantiles of its measure among all candidates, and among those that were meant.
 _EVERY, _MEANT = (0.02, 0.25, 0.5, 0.75, 0.98), (0.02, 0.15, 0.85, 0.98)
 # Weights of the penalties on the second differences of a term's values, and on the values.
@@ -107,8 +108,8 @@ def examples(count: int, half: str) -> Iterator[Example]:
 
 def outlines(count: int, half: str) -> Iterator[Example]:
     """Yield outlines of all kinds, so many with each fault, with their candidates for shapes."""
-    plain, faulty = scenes(_OUTLINES * count, half, OUTLINES), faulty_scenes(count, half, OUTLINES)
-    for scene in itertools.chain(plain, faulty):
+    faulty = faulty_scenes(count, half, OUTLINES)
+    for scene in itertools.chain(*_plain_outlines(count, half), faulty):
         try:
             outline = resample_stroke(scene.samples).outline
         except Refusal:
@@ -117,6 +118,12 @@ def outlines(count: int, half: str) -> Iterator[Example]:
         shape = ELLIPSE if scene.figure.smooth else scene.figure.kind
         meant = SHAPES.index(shape) if shape in SHAPES else None
         yield Example(candidates=[(name, candidate) for name in SHAPES], meant=meant)
+
+
+def _plain_outlines(count: int, half: str) -> Iterator[Iterator[Scene]]:
+    for kind in OUTLINES:
+        times = _RECTANGLES if kind.meaning == RECTANGLE else _OUTLINES
+        yield scenes(times * count, half, (kind,))
 
 
 def _example(samples: Floats, kind: str, tail: Floats) -> Example:

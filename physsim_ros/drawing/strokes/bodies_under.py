@@ -47,8 +47,8 @@ def joint_ends(points: Floats, scene: SceneQuery, snap: float) -> tuple[End, End
     :return: None where no body at either point is dynamic, or it is the same body at both
     """
     start, end = point_of(points[0]), point_of(points[-1])
-    first = _bodies_near(start, scene, snap) or (WORLD,)
-    last = _bodies_near(end, scene, snap) or (WORLD,)
+    first = scene.bodies_near(start, snap) or (WORLD,)
+    last = scene.bodies_near(end, snap) or (WORLD,)
     moving = next((b for b in last if _is_dynamic(b, scene)), None)
     for a in first:
         b = next((b for b in last if b != a), None) if _is_dynamic(a, scene) else moving
@@ -145,8 +145,8 @@ def hatched_body(points: Floats, scene: SceneQuery) -> str | None:
 def wall_end(point: Point, context: Context) -> Point:
     """Return the snapped end of a wall: an end of another wall, or a point on a body [m]."""
     scene, snap = context.scene, context.settings.snap
-    near = scene.bodies_at(point, snap)
-    for name in near:
+    near = scene.bodies_near(point, snap)
+    for name in scene.bodies_at(point, snap):
         shape = scene.body(name).shape
         if isinstance(shape, Chain):
             for end in (shape.points[0], shape.points[-1]):
@@ -155,11 +155,6 @@ def wall_end(point: Point, context: Context) -> Point:
                     return there
     covering = scene.bodies_at(point)
     return point if covering or not near else nearest_on_surface(point, near[0], scene)
-
-
-def _bodies_near(point: Point, scene: SceneQuery, snap: float) -> tuple[str, ...]:
-    """Return the bodies that cover a point, or else those within `snap`, topmost first."""
-    return scene.bodies_at(point) or scene.bodies_at(point, snap)
 
 
 def _snapped(point: Point, name: str, scene: SceneQuery, snap: float) -> Point:

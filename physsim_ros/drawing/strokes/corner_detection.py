@@ -17,9 +17,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.strokes.fitting import line, WOBBLE
-from physsim_ros.drawing.strokes.geometry import ARM, meeting_point, smoothed, turns
+from physsim_ros.drawing.strokes.geometry import angles, ARM, meeting_point, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.shapes import signed_area
 from physsim_ros.model.transform import dots, norms, Point
 
 # The least turn of a corner [rad], half of which makes a candidate: over its arms it is rounded.
@@ -28,6 +29,9 @@ _CORNER_TURN = 0.42
 # worth one. The wobble of a careful hand, in shares of the size, which is worth no corner: of open
 # lines and of outlines, whose many corners are flatter.
 _CORNER_COST, _WOBBLE_CLOSED = 0.5, 0.008
+# Places along a side, -1 .. 1, between fifths that may be round, and the parabola there.
+_ALONG = np.linspace(-0.6, 0.6, 12)
+_PARABOLA = _ALONG**2 - (_ALONG**2).mean()
 # The least distance between the ends of a side, in shares of the length along the stroke.
 _ASTRAY = 0.75
 
@@ -106,6 +110,30 @@ def _side_error(outline: Floats, at: list[int]) -> float:
     path = np.vstack((outline, outline[: at[0] + 1]))
     ends = np.array([*at, at[0] + len(outline)])
     return math.sqrt(float(np.diagonal(_errors(path, ends), 1).sum()) / len(outline))
+
+
+def turning_within(outline: Floats, at: list[int]) -> float:
+    """
+    Return the share of the turning of a closed polyline that lies within its sides.
+
+    A circle has 1, a polygon 0. Parabolas of least squares make it independent of the tremor.
+
+    :param at: the corners, as `corners` returns them
+    """
+    if len(at) < 2:
+        return 1.0
+    starts = np.array(at)
+    middles = (starts + np.append(starts[1:], at[0] + len(outline))) / 2
+    place = middles[:, None] + (middles - starts)[:, None] * _ALONG
+    before = np.floor(place).astype(np.intp)
+    share = (place - before)[..., None]
+    points = outline[before % len(outline)] * (1.0 - share)
+    points += outline[(before + 1) % len(outline)] * share
+    slope = (points * _ALONG[:, None]).sum(axis=1) / float((_ALONG**2).sum())
+    bend = (points * _PARABOLA[:, None]).sum(axis=1) / float((_PARABOLA**2).sum())
+    bend *= 2.0 * _ALONG[-1]
+    turn = float(angles(slope - bend, slope + bend).sum() / (2.0 * math.pi * _ALONG[-1]))
+    return turn if signed_area(outline) > 0.0 else -turn
 
 
 def _without_stubs(points: Floats, at: list[int]) -> list[int]:

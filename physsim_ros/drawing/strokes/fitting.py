@@ -23,7 +23,13 @@ from physsim_ros.drawing.strokes.geometry import (
     unit_vector,
 )
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import dots, next_vertices, norms, rotated_each
+from physsim_ros.model.transform import (
+    dots,
+    next_vertices,
+    norms,
+    rotated_each,
+    segment_distances,
+)
 
 # The wobble of a careful hand (rms) in shares of the size of an open stroke: what is farther from
 # straight sides is a curve, which is simplified to half of that.
@@ -152,21 +158,6 @@ def simplified(points: Floats, bends: Floats) -> Floats | None:
     if math.sqrt(float((off**2).mean())) <= WOBBLE * size:
         return None
     return _traced(path, size)
-
-
-def segment_distances(points: Floats, start: Floats, end: Floats) -> Floats:
-    """
-    Return the distances of points from segments [m].
-
-    :param points: (n, 2) float64 [m]
-    :param start: (2,) float64 of one segment, or (k, 1, 2) of several [m]
-    :param end: the same
-    :return: (n,) float64, or (k, n)
-    """
-    along, away = end - start, points - start
-    share = np.clip(dots(away, along) / np.maximum(dots(along, along), 1e-300), 0.0, 1.0)
-    result: Floats = norms(away - share[..., None] * along)
-    return result
 
 
 def traced(outline: Floats) -> Floats:

@@ -16,7 +16,6 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.fitting import segment_distances
 from physsim_ros.drawing.strokes.geometry import (
     angles,
     ARM,
@@ -30,7 +29,7 @@ from physsim_ros.drawing.strokes.geometry import (
     straightness,
 )
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.transform import cross, dots, norms
+from physsim_ros.model.transform import cross, dots, norms, segment_distances
 
 # The greatest distance of strokes that touch, and of ends that meet, in shares of the size; the
 # least turn from one stroke to another that goes back [rad].

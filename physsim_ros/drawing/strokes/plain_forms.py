@@ -16,7 +16,11 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.corner_detection import bends_of, outline_corners
+from physsim_ros.drawing.strokes.corner_detection import (
+    bends_of,
+    outline_corners,
+    turning_within,
+)
 from physsim_ros.drawing.strokes.evidence import evidence, LEAST, Limit, probabilities
 from physsim_ros.drawing.strokes.features import Features, TREMOR
 from physsim_ros.drawing.strokes.fitting import Ellipse, traced
@@ -59,7 +63,8 @@ class Fits:
     :param corners: (k, 2) float64: the meeting points of straight sides [m]
     :param measures: by name, as the table of evidence has them: error and aspect of the ellipse;
         the distances (rms) from the rectangle and from the sides, in shares of the size; that of
-        the rectangle's farthest corner, in widths of it; the number of corners; the bulge of sides
+        the rectangle's farthest corner, in widths of it; the number of corners; the bulge of
+        sides, and the share of the turning that lies within them
     """
 
     ellipse: Ellipse
@@ -145,6 +150,7 @@ def fits_of(outline: Floats) -> Fits:
         'sides error': min(residual / size_of(wide), 1.0),
         'corners': float(len(at)),
         'bulge': _bulge(wide, at),
+        'arcs': turning_within(wide, at),
     }
     return Fits(ellipse=ellipse, rectangle=rectangle, corners=narrowed(sharp), measures=measures)
 

@@ -141,8 +141,12 @@ def _subdivided(samples: Floats) -> Floats:
     before, after = turn[:-1], turn[1:]
     product = np.maximum(before * after, 0.0)
     mean = 2.0 * product / np.where(product > 0.0, before + after, 1.0)
-    # The height of an arc is an eighth of its chord times its turn.
-    aside = np.column_stack((steps[:, 1], -steps[:, 0])) * (mean / 8)[:, None]
+    # The height of an arc is an eighth of its chord times its turn; of a step longer than both
+    # beside it, as a side between two round corners, only a part as long as these turns.
+    lengths = norms(steps)
+    around = np.concatenate((lengths[-1:], lengths, lengths[:1]))
+    bent = np.minimum(np.maximum(around[:-2], around[2:]) / lengths, 1.0)
+    aside = np.column_stack((steps[:, 1], -steps[:, 0])) * (mean * bent / 8)[:, None]
     finer = np.empty((2 * len(samples) - 1, 2))
     finer[::2], finer[1::2] = samples, samples[:-1] + steps / 2 + aside
     return finer

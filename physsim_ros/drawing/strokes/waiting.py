@@ -32,6 +32,7 @@ from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
 from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.stages import Context, GRAVITY, Reading
+from physsim_ros.model.body_description import new_body
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -39,7 +40,6 @@ from physsim_ros.model.requests import Configure, Delete, Join, Request, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import Pose, rotated_each
-from physsim_ros.simulation.world.body_description import new_body
 
 # Meanings that a stroke has by the bodies under it, and by an axle.
 _BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})

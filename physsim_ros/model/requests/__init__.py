@@ -42,6 +42,7 @@ from physsim_ros.model.requests.joints import (
     Unjoin,
     UnjoinAll,
 )
+from physsim_ros.model.requests.parts import parts_of
 from physsim_ros.model.requests.request import (
     AtPoint,
     Configure,
@@ -80,4 +81,5 @@ __all__ = [
     'Unjoin',
     'UnjoinAll',
     'join_from',
+    'parts_of',
 ]

@@ -9,7 +9,12 @@ of shapes are in `ros`, drawn geometry is in `view`. Start with `kinds`, then `f
 `polygons`. A new shape is a class in `kinds`, and a member of `Shape`.
 """
 
-from physsim_ros.model.shapes.containment import contain_each, contains, contains_each
+from physsim_ros.model.shapes.containment import (
+    contain_each,
+    contains,
+    contains_each,
+    distances_from_outlines,
+)
 from physsim_ros.model.shapes.form import (
     Capsule,
     Circle,
@@ -56,6 +61,7 @@ __all__ = [
     'contains',
     'contains_each',
     'crosses_itself',
+    'distances_from_outlines',
     'extent_of',
     'hull_of',
     'is_convex',

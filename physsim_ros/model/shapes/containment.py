@@ -16,6 +16,7 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.shapes.form import Capsule, Circle, Convex, Form, Piece
+from physsim_ros.model.transform import segment_distances
 from physsim_ros.model.weak_cache import cached_weakly
 
 
@@ -65,11 +66,13 @@ class _Columns(NamedTuple):
     :ivar capsules: (c, 5) float64: start, end, radius of capsules, and of circles [m]
     :ivar edges: (e, 4) float64: start and end of the edges of convex pieces [m]
     :ivar sides: (v,) int64: number of edges of each convex piece
+    :ivar outline: (c + e, 5) float64: the capsules, and the edges with a radius of 0 [m]
     """
 
     capsules: Floats
     edges: Floats
     sides: Ints
+    outline: Floats
 
 
 def contain_each(forms: Sequence[Form], x: Floats, y: Floats, slack: float = 0.0) -> Flags:
@@ -98,6 +101,23 @@ def contain_each(forms: Sequence[Form], x: Floats, y: Floats, slack: float = 0.0
             start, end = edges[:, :2].T, edges[:, 2:].T
             inside[of[_are_near(x[of], y[of], start, end, slack)]] = True
     return inside
+
+
+def distances_from_outlines(forms: Sequence[Form], x: Floats, y: Floats) -> Floats:
+    """
+    Return the distance of a point outside each of some forms from its outline, (n,) float64 [m].
+
+    :param x: (n,) float64: of the points, each in the frame of its form [m]
+    :param y: (n,) float64: of the points [m]
+    """
+    outlines = [_columns_of(form).outline for form in forms]
+    segments = np.concatenate(outlines)
+    of = np.repeat(np.arange(len(forms)), [len(each) for each in outlines])
+    points = np.column_stack((x, y))[of]
+    distances = segment_distances(points, segments[:, :2], segments[:, 2:4]) - segments[:, 4]
+    least = np.full(len(forms), np.inf)
+    np.minimum.at(least, of, distances)
+    return least
 
 
 def contains_each(form: Form, x: Floats, y: Floats) -> Flags:
@@ -153,6 +173,7 @@ def _columns_of(form: Form) -> _Columns:
         capsules=np.array(capsules).reshape(-1, 5),
         edges=np.array(edges).reshape(-1, 4),
         sides=np.array(sides, np.int64),
+        outline=np.array([*capsules, *((*edge, 0.0) for edge in edges)]).reshape(-1, 5),
     )
 
 

@@ -62,6 +62,9 @@ _FIELDS = ('at', 'circle', 'box', 'color', 'lifetime')
 # The greatest length of `text` [characters]: ten times all properties with all digits.
 LONGEST_TEXT = 10_000
 
+# Memory of a marker without points as rclpy decodes it, and of each of its points and colours
+# [bytes]: measured with tracemalloc, 1,660, and 112 to 178.
+_MARKER, _ELEMENT = 2000, 180
 # Namespace of the walls of a map, and their greatest number.
 _WALLS, _MOST_WALLS = 'walls', WorldSettings().max_bodies
 # Occupancy from which on a cell is a wall [percent], as map_server's `occupied_thresh` is.
@@ -73,6 +76,16 @@ _AtPoint = TypeVar('_AtPoint', bound=AtPoint)
 def name_of(marker: Marker) -> str:
     """Return the name of the body of a marker."""
     return f'{marker.ns or NAMESPACE}/{marker.id}'
+
+
+def memory_of(marker: Marker) -> int:
+    """Return the memory of a marker as rclpy decodes it [bytes]."""
+    elements = marker.points, marker.colors, marker.uv_coordinates
+    texts = marker.header.frame_id, marker.ns, marker.text, marker.texture_resource
+    textures = marker.texture.header.frame_id, marker.texture.format, marker.texture.data
+    meshes = marker.mesh_resource, marker.mesh_file.filename, marker.mesh_file.data
+    letters = sum(map(len, (*texts, *textures, *meshes)))
+    return _MARKER + _ELEMENT * sum(map(len, elements)) + letters
 
 
 def joint_name_of(marker: Marker) -> str:

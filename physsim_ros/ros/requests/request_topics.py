@@ -135,7 +135,8 @@ class RequestTopics:
                 return conversions.body_request(marker, frame_id=self._frame_id)
 
         for number, marker in enumerate(message.markers):
-            unread = Unread(conversions.name_of(marker), partial(convert, marker))
+            name, size = conversions.name_of(marker), conversions.memory_of(marker)
+            unread = Unread(name, partial(convert, marker), size)
             self._requests.submit(unread, topic=topic, joined=number > 0)
 
     def _make_walls(self, message: OccupancyGrid) -> None:

@@ -7,7 +7,7 @@ The past of a world: a tree of requests with checkpoints, a cursor on it, cached
 Not here: the moment that is shown (`playback`). `past` is the front: undo, redo, reset, courses.
 `line` has the requests and checkpoints; `tree` all lines, and the budget of their memory; `cursor`
 replays a world to a moment; `frames` caches what was shown; `amendment` changes earlier requests.
-Other folders import the names below.
+Folders other than `simulation` import the names below.
 
 Theory of operation
 -------------------
@@ -16,7 +16,8 @@ Theory of operation
 checkpoints that were made up to the next request, and the last step that was reached. Its parent
 is the request before. The root is the state with which the world began. The requests from the root
 to a node, each at its step, decide every bit of the world; two requests after the same one are two
-branches. Nodes never change: a node is added at an end, and removed when nothing uses it.
+branches. The request of a node never changes, but that of a new root, which then is its state. A
+node is added at an end, and removed when nothing uses it.
 
 *The cursor.* A line of events is a node, its tip, with the last step that was reached there, its
 head. One line is in force. The tree has it as flat lists, from the oldest checkpoint that is kept
@@ -58,7 +59,7 @@ persistence. Editors know such a tree as an undo tree.
 """
 
 from physsim_ros.simulation.past.amendment import amend, take_back
-from physsim_ros.simulation.past.line import CachedFrame, Moment
+from physsim_ros.simulation.past.line import CachedFrame, Moment, Node
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.past.tree import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 
@@ -68,6 +69,7 @@ __all__ = [
     'MOST_MEMORY',
     'CachedFrame',
     'Moment',
+    'Node',
     'Past',
     'amend',
     'take_back',

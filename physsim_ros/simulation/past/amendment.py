@@ -162,11 +162,11 @@ class _Amendment:
     def _apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
         cursor = self._cursor
         try:
-            answer = self._past.carry_out(request)
+            change = self._past.carry_out(request)
         except Refusal as refusal:
             # The world may have to be rebuilt.
             cursor.finish_work()
             return refusal
-        if cursor.world.changed:
-            cursor.log(request, answer.subject, gesture, author)
-        return answer
+        if change.has_changed:
+            cursor.log(request, change, gesture, author)
+        return change.answer

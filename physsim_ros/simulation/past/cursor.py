@@ -29,7 +29,7 @@ from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.line import Keyframe, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import Change, World
 
 # Share of the time between two checkpoints in which the bodies for the next one are built [1], so
 # that no frame builds all.
@@ -90,7 +90,7 @@ class Replay:
         yield from self._apply_logged(tree.serial_at(world.step_count))
         yield from self._enter_checkpoint()
         stop = tree.next_stop(world.step_count, end)
-        yield from self._make_steps(stop, is_new=stop > tree.head)
+        yield from self._make_steps(stop, is_new=False)
         yield from self._apply_logged(tree.serial_shown_at(world.step_count))
 
     def _make_steps(self, end: int, *, is_new: bool) -> Generator[None]:
@@ -235,7 +235,7 @@ class Cursor(Replay):
         """Whether an amendment is under way."""
         return self._work is not None and self._work.kind is _Kind.AMENDMENT
 
-    def work(self, slices: Iterator[None]) -> None:
+    def begin_amendment(self, slices: Iterator[None]) -> None:
         """Have an amendment be carried out slice by slice, from now on."""
         self.finish_work()
         self._work = _Work(_Kind.AMENDMENT, slices)
@@ -382,11 +382,11 @@ class Cursor(Replay):
 
     # Going on
 
-    def log(self, request: Request, subject: str, gesture: int, author: str) -> None:
+    def log(self, request: Request, change: Change, gesture: int, author: str) -> None:
         """
         Add the request that has changed the world; it is the new tip.
 
-        :param subject: name of the body or joint concerned, or ''
+        :param change: its effect
         :param author: name of the person who did it; '' is nobody
         """
         tree, (step, serial) = self._tree, self.moment
@@ -398,9 +398,9 @@ class Cursor(Replay):
                 settings=self._world.settings,
                 gesture=gesture,
                 author=author,
-                subject=subject,
-                joined=self._world.joined,
-                adds=self._world.has_grown,
+                subject=change.answer.subject,
+                joined=change.joined,
+                adds=change.has_grown,
             )
         )
         self.serial += 1

@@ -15,19 +15,16 @@ between two checkpoints, is replayed forward while the segment after it is shown
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Iterator
 from itertools import chain, islice
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import Refusal
 from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.cursor import Replay
-from physsim_ros.simulation.past.line import CachedFrame, Keyframe, Moment
+from physsim_ros.simulation.past.line import CachedFrame, Keyframe
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -99,33 +96,6 @@ class FrameCache:
         """Return the cached frames after a step, up to another one, in the order of time."""
         first, last = bisect_right(self._steps, step), bisect_right(self._steps, end)
         return [self._frames[each].copy() for each in self._steps[first:last]]
-
-    def saver_of_run(self) -> Callable[[], WorldState]:
-        """
-        Return a function that returns, on any thread, the state with which the run began.
-
-        That is the state after the last request of the line, or at the first that is kept.
-        """
-        tree, world = self._tree, self._world
-        moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
-        keyframe = tree.keyframe_before(*moment)
-        # Not the nodes: one that becomes the root has another request from then on.
-        nodes = tree.nodes_between(keyframe.serial, moment.serial)
-        requests = [(node.step, node.request) for node in nodes]
-
-        def save() -> WorldState:
-            # In a world of its own, since this one goes on meanwhile.
-            run = World(physics_rate=world.physics_rate, frame_steps=world.frame_steps)
-            run.resume(keyframe.checkpoint)
-            for step, request in requests:
-                run.step(step - run.step_count)
-                # A replay reports a refusal as a divergence.
-                with suppress(Refusal):
-                    run.reapply(request)
-            run.step(moment.step - run.step_count)
-            return run.save()
-
-        return save
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown; a past without length has none."""

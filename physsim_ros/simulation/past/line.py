@@ -13,8 +13,9 @@ Time mostly goes on at the end of the line: there, nothing is searched for.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -209,6 +210,36 @@ class LineInForce:
         # Serial of the first request of each gesture.
         self._gesture_starts: dict[int, int] = {}
 
+    def _splice(self, kept: int, nodes: Sequence[Node]) -> list[Node]:
+        """Keep some nodes, replace those after them by others, and return those replaced."""
+        left = self.nodes[kept:]
+        self.nodes[kept:] = nodes
+        if left:
+            self._gesture_starts.clear()
+        if not kept:
+            self.keyframes.clear()
+        for node in self.nodes if left else nodes:
+            self._gesture_starts[node.gesture] = node.gesture_start
+        # Keyframes of the last node in common depend on the node after it.
+        last = max(0, kept - 1)
+        while self.keyframes and self.keyframes[-1].serial >= self.nodes[last].serial:
+            self.keyframes.pop()
+        for node, following in pairwise(self.nodes[last:]):
+            self.keyframes += [
+                keyframe for keyframe in node.keyframes if keyframe.step <= following.after
+            ]
+        self.keyframes += self.tip.keyframes
+        return left
+
+    def _begin_at(self, place: int) -> Node:
+        """Drop what is before a keyframe, by its place; return its node, the root from then on."""
+        root = self.node(self.keyframes[place].serial)
+        del self.keyframes[:place]
+        del self.nodes[: root.serial - self._first]
+        # A gesture that began before the root keeps its start, the serial of a dropped node.
+        self._gesture_starts = {each.gesture: each.gesture_start for each in self.nodes}
+        return root
+
     @property
     def oldest(self) -> int:
         """Return the oldest step that can be shown."""
@@ -273,13 +304,13 @@ class LineInForce:
     def segment(self, step: int) -> tuple[Keyframe, int]:
         """Return the keyframe before a step, and the step of the next one or the last step."""
         if self.keyframes[-1].step < step:
-            return self.keyframes[-1], max(step, self.head)
+            return self.keyframes[-1], self.head
         place = bisect_left(self.keyframes, step, key=lambda each: each.step)
         first = self.keyframes[max(0, place - 1)]
         end = self.head
         if place < len(self.keyframes):
             end = min(end, self.keyframes[place].step)
-        return first, max(step, end)
+        return first, end
 
     def next_stop(self, step: int, end: int) -> int:
         """Return the next step with a request or a checkpoint, or the end."""

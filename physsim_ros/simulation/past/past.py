@@ -14,7 +14,10 @@ checkpoint, the requests after it, and the frames beside the one that is shown a
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import LONGEST, Within
@@ -27,7 +30,7 @@ from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.line import CachedFrame, Line, Moment
 from physsim_ros.simulation.past.tree import Budget, Tree
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import Change, World
 
 # Check of the times of a past [s].
 _SPAN = Within(0.0, LONGEST, 's')
@@ -130,6 +133,33 @@ class Past:
         """
         return self.tree.course_snapshot(course, self.steps_in(seconds))
 
+    def saver_of_run(self) -> Callable[[], WorldState]:
+        """
+        Return a function that returns, on any thread, the state with which the run began.
+
+        That is the state after the last request of the line, or at the first that is kept.
+        """
+        tree, rate, frame_steps = self.tree, self.physics_rate, self.frame_steps
+        moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
+        keyframe = tree.keyframe_before(*moment)
+        # Not the nodes: one that becomes the root has another request from then on.
+        nodes = tree.nodes_between(keyframe.serial, moment.serial)
+        requests = [(node.step, node.request) for node in nodes]
+
+        def save() -> WorldState:
+            # In a world of its own, since this one goes on meanwhile.
+            run = World(physics_rate=rate, frame_steps=frame_steps)
+            run.resume(keyframe.checkpoint)
+            for step, request in requests:
+                run.step(step - run.step_count)
+                # A replay reports a refusal as a divergence.
+                with suppress(Refusal):
+                    run.reapply(request)
+            run.step(moment.step - run.step_count)
+            return run.save()
+
+        return save
+
     def fit_memory(self, shown: Moment) -> None:
         """
         Drop the oldest entries until everything fits into the budget; report it, once.
@@ -137,7 +167,6 @@ class Past:
         :param shown: the moment that is shown, which is kept
         """
         tree, frames, budget = self.tree, self.frames, self.budget
-        tree.shown = shown
         tree.drop_lost()
         self._count_memory()
         if budget.told and budget.used <= _RELIEF * budget.size:
@@ -151,7 +180,7 @@ class Past:
         for drop in (
             tree.drop_oldest_frames,
             tree.drop_oldest_line,
-            tree.drop_oldest_checkpoint,
+            partial(tree.drop_oldest_checkpoint, shown),
         ):
             while budget.used > budget.size and drop():
                 self._count_memory()
@@ -178,10 +207,10 @@ class Past:
         :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        answer = self._apply(request, gesture, author)
-        if self.cursor.world.changed:
+        change = self._apply(request, gesture, author)
+        if change.has_changed:
             self.tree.drop_undone()
-        return answer
+        return change.answer
 
     def apply_unasked(self, request: Request) -> None:
         """
@@ -193,16 +222,16 @@ class Past:
         """
         self._apply(request, self.tree.node(self.cursor.serial).gesture)
 
-    def _apply(self, request: Request, gesture: int, author: str = '') -> Answer:
+    def _apply(self, request: Request, gesture: int, author: str = '') -> Change:
         cursor = self.cursor
-        answer = self.carry_out(request)
-        if cursor.world.changed:
+        change = self.carry_out(request)
+        if change.has_changed:
             if not cursor.is_newest:
                 self._begin_course()
-            cursor.log(request, answer.subject, gesture, author)
-        return answer
+            cursor.log(request, change, gesture, author)
+        return change
 
-    def carry_out(self, request: Request) -> Answer:
+    def carry_out(self, request: Request) -> Change:
         """
         Carry out a request, in the space in which a replay will carry it out.
 
@@ -215,7 +244,7 @@ class Past:
             with self.boundary.message(type(request).__name__):
                 return world.apply(request)
         except Refusal as refusal:
-            if world.changed or isinstance(refusal, Failed):
+            if refusal.is_half_done or isinstance(refusal, Failed):
                 cursor.seek_moment(*cursor.moment, elsewhere=True)
             raise
 
@@ -317,7 +346,7 @@ class Past:
         :param moment: that is shown
         """
         tree, (_, serial) = self.tree, moment
-        redo = tree.undone[-1].words if tree.has_undone() else ''
+        redo = tree.undone[-1].words if tree.can_redo else ''
         if gesture := tree.last_gesture(serial):
             first, count = gesture
             return first.phrase(count), redo
@@ -353,7 +382,7 @@ class Past:
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
         tree, resets = self.tree, self.tree.reset_count
-        if not tree.has_undone():
+        if not tree.can_redo:
             raise OutOfHistory('there is nothing to redo', field='history')
         words = tree.undone[-1].words
         left, _ = self.go_to(tree.undone[-1])

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
-from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import Within
@@ -89,7 +88,6 @@ class Tree(LineInForce):
     :ivar size: memory of requests, checkpoints and frames of lines that were left [bytes]
     :ivar course: number of the course of the line in force
     :ivar reset_count: number of resets before it
-    :ivar shown: the moment that is shown; the checkpoint before it is not dropped to save memory
     :ivar left: courses that were left, by number, in the order in which they were left
     :ivar undone: lines to which redo returns, the next one last
     :ivar resets: lines before each reset, the latest last
@@ -100,12 +98,12 @@ class Tree(LineInForce):
         self.budget = budget
         self.size = 0
         self.course, self.reset_count = 1, 0
-        self.shown = Moment(0, 0)
         self.left: dict[int, Line] = {}
         self.undone: list[Line] = []
         self.resets: list[Line] = []
-        # By tip and head of another line, the step at which that line parts from this one.
-        self._partings: dict[tuple[Node, int], int | None] = {}
+        # By tip and head of another line: the number of nodes that it has in common with this one,
+        # and the step at which it parts from this one.
+        self._partings: dict[tuple[Node, int], tuple[int, int | None]] = {}
         # The oldest keyframe when lines that part before it were dropped last.
         self._oldest: Keyframe | None = None
 
@@ -137,8 +135,9 @@ class Tree(LineInForce):
             after = apart[0].after if apart else head
             lost = kept == 0 or (kept == 1 and after < self.keyframes[0].step)
             steps = [each[0].step for each in (self.nodes[kept:], apart) if each]
-            self._partings[tip, head] = None if lost else min(steps, default=self.head)
-        return self._partings[tip, head]
+            step = None if lost else min(steps, default=self.head)
+            self._partings[tip, head] = kept, step
+        return self._partings[tip, head][1]
 
     def _apart(self, tip: Node) -> tuple[int, list[Node]]:
         """Return the number of nodes in common with another line, and its other nodes."""
@@ -169,27 +168,13 @@ class Tree(LineInForce):
         :return: the first step at which it differs from the line before
         """
         kept, apart = self._apart(tip)
-        left = self.nodes[kept:]
         tip.users += 1
         if self.nodes:
             self._release(self.tip)
-        self.nodes[kept:] = apart
-        if left:
-            self._gesture_starts.clear()
-        if not kept:
-            self.keyframes.clear()
-        for node in self.nodes if left else apart:
-            self._gesture_starts[node.gesture] = node.gesture_start
-        # Keyframes of the last node in common depend on the node after it.
-        last = max(0, kept - 1)
-        while self.keyframes and self.keyframes[-1].serial >= self.nodes[last].serial:
-            self.keyframes.pop()
-        for node, following in pairwise(self.nodes[last:]):
-            self.keyframes += [
-                keyframe for keyframe in node.keyframes if keyframe.step <= following.after
-            ]
-        self.keyframes += tip.keyframes
-        self._partings.clear()
+        left = self._splice(kept, apart)
+        # A line that grows parts from others where it did, but from those that it goes on from.
+        same = {} if left else self._partings
+        self._partings = {line: found for line, found in same.items() if found[0] < kept}
         steps = [head, *(each[0].step for each in (left, apart) if each)]
         self.head = head
         self._drop_old()
@@ -287,10 +272,10 @@ class Tree(LineInForce):
         for line in [*self.undone, *undone]:
             self.drop(line)
 
-    def has_undone(self) -> bool:
-        """Drop what is lost, and return whether there is anything to redo."""
-        self.drop_lost()
-        return bool(self.undone)
+    @property
+    def can_redo(self) -> bool:
+        """Whether there is anything to redo."""
+        return bool(self.undone) and not self._is_lost(self.undone[-1])
 
     def undoes_reset(self, serial: int) -> bool:
         """Return whether an undo at a serial reverts a reset: all since the reset is undone."""
@@ -300,12 +285,12 @@ class Tree(LineInForce):
         """Drop the lines that part from the line in force before the oldest checkpoint."""
         if self._oldest is not self.keyframes[0]:
             self._oldest = self.keyframes[0]
-            self.drop_where(
-                lambda line: (
-                    line.reset_count == self.reset_count
-                    and self.parting(line.tip, line.head) is None
-                )
-            )
+            self.drop_where(self._is_lost)
+
+    def _is_lost(self, line: Line) -> bool:
+        """Return whether a line parts from the line in force before the oldest checkpoint."""
+        is_of_reset = line.reset_count == self.reset_count
+        return is_of_reset and self.parting(line.tip, line.head) is None
 
     def drop_where(self, is_lost: Callable[[Line], bool]) -> None:
         """
@@ -349,9 +334,13 @@ class Tree(LineInForce):
         if old > 0:
             self._drop_before(old)
 
-    def drop_oldest_checkpoint(self) -> bool:
-        """Drop the oldest checkpoint, with the requests up to the next one, if not needed."""
-        if len(self.keyframes) == 1 or self.keyframes[1].moment > self.shown:
+    def drop_oldest_checkpoint(self, shown: Moment) -> bool:
+        """
+        Drop the oldest checkpoint, with the requests up to the next one, if not needed.
+
+        :param shown: the moment that is shown, which needs the checkpoint before it
+        """
+        if len(self.keyframes) == 1 or self.keyframes[1].moment > shown:
             return False
         self._drop_before(1)
         return True
@@ -359,17 +348,13 @@ class Tree(LineInForce):
     def _drop_before(self, place: int) -> None:
         """Drop the checkpoints before a place in the list, with their requests."""
         keyframe = self.keyframes[place]
-        root = self.node(keyframe.serial)
-        del self.keyframes[:place]
-        del self.nodes[: root.serial - self._first]
+        root = self._begin_at(place)
         kept = root.keyframes.index(keyframe)
         self.size -= root.size + sum(each.size for each in root.keyframes[:kept])
         del root.keyframes[:kept]
         parent, root.parent, root.size = root.parent, None, 0
         root.request = Restore(state=root.loaded.state)
         self._release(parent)
-        # A gesture that began before the root keeps its start, the serial of a dropped node.
-        self._gesture_starts = {each.gesture: each.gesture_start for each in self.nodes}
         self._partings.clear()
 
     def _drop_frames(self, line: Line) -> None:

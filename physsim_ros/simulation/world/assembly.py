@@ -14,48 +14,11 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, Exists
 from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.robots import part_name, Robot, whole_of
 from physsim_ros.model.scene import Body
 from physsim_ros.model.transform import local_to_world, Pose, Twist, world_to_local
-
-
-def parts_of(spawn: Spawn) -> tuple[list[Spawn], list[Join]]:
-    """Return the requests for the parts of a robot that is spawned, points in the world."""
-    robot = spawn.properties.robot
-    if robot is None:
-        return [], []
-    links = [
-        Spawn(
-            name=part_name(spawn.name, link.name),
-            shape=link.shape,
-            pose=_placed(link.at, spawn.pose),
-            color=link.color or spawn.color,
-            lifetime=spawn.lifetime,
-            properties=Properties(
-                mass=link.mass,
-                density=link.density,
-                friction=link.friction,
-                elasticity=link.elasticity,
-                towed=link.towed,
-            ),
-        )
-        for link in robot.links
-    ]
-    joints = [
-        Join(
-            name=part_name(spawn.name, joint.name),
-            kind=joint.kind,
-            points=tuple(local_to_world(point, spawn.pose) for point in joint.points),
-            a=part_name(spawn.name, joint.a),
-            b=part_name(spawn.name, joint.b),
-            properties=joint.properties_of(spawn.name),
-        )
-        for joint in robot.joints
-    ]
-    return links, joints
 
 
 def check_new_parts(space: Space, links: Iterable[Spawn], joints: Iterable[Join]) -> None:
@@ -119,8 +82,8 @@ def moving_with_parts(space: Space, twists: Mapping[str, Twist]) -> dict[str, Tw
     moving = dict(twists)
     for leader, follower in _followers(space, twists):
         vx, vy, spin = twists[leader.body.name]
-        dx, dy = follower.pm_body.position - leader.pm_body.position
-        moving[follower.body.name] = vx - spin * dy, vy + spin * dx, spin
+        (x, y), (at_x, at_y) = follower.center, leader.center
+        moving[follower.body.name] = vx - spin * (y - at_y), vy + spin * (x - at_x), spin
     return moving
 
 
@@ -137,7 +100,3 @@ def _followers(space: Space, named: Mapping[str, object]) -> Iterator[tuple[Rigi
         for each in names:
             if each not in named:
                 yield bodies[leader], bodies[each]
-
-
-def _placed(at: Pose, origin: Pose) -> Pose:
-    return *local_to_world(at[:2], origin), origin[2] + at[2]

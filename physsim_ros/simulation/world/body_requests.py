@@ -5,8 +5,9 @@
 Requests for bodies: spawned, changed, moved, commanded, anchored, deleted.
 
 Laws: everything is checked before anything is changed: a handler that raises a `Refusal` has
-changed nothing. A body that is spawned where it already is, in the colour that it has, keeps both
-to the bit, so that markers which are published back change nothing.
+changed nothing, but `spawn` of a robot and `cut`, which end with the joints. A body that is
+spawned where it already is, in the colour that it has, keeps both to the bit, so that markers
+which are published back change nothing.
 """
 
 from __future__ import annotations
@@ -19,9 +20,17 @@ from typing import Any
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.body_description import (
+    changed_body,
+    changed_twist,
+    check_command,
+    check_start,
+    fields_set_by,
+    new_body,
+)
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, nothing_at
+from physsim_ros.model.errors import BadProperty, nothing_at
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
@@ -33,10 +42,10 @@ from physsim_ros.model.requests import (
     DeleteAll,
     DeleteBodies,
     MoveBodies,
+    parts_of,
     Release,
     Spawn,
 )
-from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, REST
@@ -47,20 +56,12 @@ from physsim_ros.simulation.world.assembly import (
     check_same_parts,
     members,
     moving_with_parts,
-    parts_of,
     placed_with_parts,
 )
-from physsim_ros.simulation.world.body_description import (
-    changed_body,
-    changed_twist,
-    fields_set_by,
-    new_body,
-)
-from physsim_ros.simulation.world.live_space import (
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import (
     body_of_name,
-    check_start,
     is_same_pose,
-    LiveSpace,
     points_in_world,
     pose_in_world,
 )
@@ -194,19 +195,6 @@ def command(live: LiveSpace, request: Command) -> Answer:
     return _done(f'set {said or "nothing"} of', request.names)
 
 
-def check_command(body: Body, request: Command) -> None:
-    """
-    Refuse a command that a body cannot obey.
-
-    :raises Anchored: it is anchored, and takes a pose only
-    :raises BadProperty: it is kinematic, and forces do not move it
-    """
-    if body.anchored and (request.twists.size or request.wrenches.size):
-        raise Anchored(f'{body.name} is anchored; it takes a pose only', field='joint_names')
-    if body.kinematic and request.wrenches.size:
-        raise BadProperty(f'{body.name} is kinematic; forces do not move it', field='wrench')
-
-
 def anchor(live: LiveSpace, request: Anchor) -> Answer:
     """
     Anchor the topmost body at a point.
@@ -315,8 +303,7 @@ def set_poses(live: LiveSpace, poses: Mapping[str, Pose]) -> None:
     bodies = live.space.bodies.by_name
     placed = [(bodies[name], at) for name, at in placed_with_parts(live.space, poses).items()]
     live.capacity.check_bodies([(rigid.body, pose, rigid) for rigid, pose in placed])
-    for rigid, pose in placed:
-        live.space.set_pose(rigid, pose)
+    live.space.set_poses(placed)
 
 
 def _change(
@@ -340,6 +327,7 @@ def _change(
         live.capacity.check_body(body, pose, old=old)
     followers = placed_with_parts(live.space, {body.name: pose}) if pose != old.pose else {}
     live.space.change(old, body, pose, twist)
-    for name, at in followers.items():
-        if name != body.name:
-            live.space.set_pose(live.space.bodies.by_name[name], at)
+    bodies = live.space.bodies.by_name
+    live.space.set_poses(
+        [(bodies[name], followers[name]) for name in followers if name != body.name]
+    )

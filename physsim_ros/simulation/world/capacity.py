@@ -23,12 +23,13 @@ import numpy as np
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.overlaps import bounds_of_pieces, count_inside, count_overlaps, laid_out
 from physsim_ros.engine.space import Space
-from physsim_ros.model.attraction import check_attraction
+from physsim_ros.model.attraction import attracts, check_attraction
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import (
+    check_limit,
     MOST_HANDS,
     MOST_JOINTS_ON_BODY,
     MOST_ROBOT_TOPICS,
@@ -43,8 +44,6 @@ _INSIDE = 10
 # than this many times the pieces of the requests since the last count [1]. A count takes 3 µs for
 # each piece and overlap, a request a third of a millisecond more.
 _PIECE = 100
-# The counts that the settings limit.
-_COUNTED = {'max_bodies': 'bodies', 'max_shapes': 'convex pieces', 'max_joints': 'joints'}
 
 
 class Capacity:
@@ -95,22 +94,22 @@ class Capacity:
             shapes += pieces - (0 if old is None else len(old.body.shape.form.pieces))
             added += _inside(body) + space.bodies.count_near(
                 bounds_of_pieces(body.shape, pose),
-                without=None if old is None else old.pm_body,
+                without=old,
                 moving_only=body.anchored,
                 most=most,
             )
             self._since += pieces
         check_limit('max_shapes', shapes, settings)
         new = [(body, pose) for body, pose, _ in placed]
+        names = {body.name for body, _ in new}
         if len(new) > 1:
-            added += _count(new, most)
+            added += _count(new, most, first=names)
         if self._bound is not None and self._bound + added <= most:
             self._bound += added
             return
         # The bound is exceeded: count.
         before = self._bound
         if before is None or self._age != space.age or self._since * _PIECE > shapes + before:
-            names = {body.name for body, _ in new}
             rigids = space.bodies.by_name.values()
             others = [(each.body, each.pose) for each in rigids if each.body.name not in names]
             before = _count(others, most)
@@ -136,7 +135,7 @@ class Capacity:
 
         :raises WorldFull: too many bodies would attract each other
         """
-        if self.checking:
+        if self.checking and attracts(body, self._space.settings):
             check_attraction(self._with(body), self._space.settings)
 
     def _with(self, body: Body) -> Iterator[Body]:
@@ -198,18 +197,6 @@ def check_state(state: WorldState) -> None:
     count = _count([(each.body, each.pose) for each in state.bodies], most)
     if count > most:
         raise _too_many(count, most)
-
-
-def check_limit(limit: str, count: int, settings: WorldSettings) -> None:
-    """
-    Refuse a number of bodies, convex pieces or joints.
-
-    :param limit: name of the greatest number in the settings
-    :raises WorldFull: it is too great
-    """
-    most = getattr(settings, limit)
-    if count > most:
-        raise WorldFull(f'the world would have {count} {_COUNTED[limit]}; {limit} is {most}')
 
 
 def _count(

@@ -20,7 +20,8 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.model.transform import rotated, world_to_local
 from physsim_ros.simulation.world.body_requests import set_poses
-from physsim_ros.simulation.world.live_space import LiveSpace, points_in_world, pose_in_world
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import points_in_world, pose_in_world
 
 
 def grab(live: LiveSpace, request: Grab) -> Answer:
@@ -58,7 +59,7 @@ def move_hand(live: LiveSpace, request: MoveHand) -> Answer:
     x, y, yaw = pose_in_world(space, (*request.point, request.yaw or 0.0), request.frame)
     grip = space.grips.of(request.hand)
     if grip is None:
-        return _holds_nothing(request)
+        return holds_nothing(request)
     if request.paused:
         rigid = space.bodies.by_name[grip.body]
         if request.yaw is None:
@@ -81,10 +82,11 @@ def let_go(live: LiveSpace, request: LetGo) -> Answer:
     """Remove the grip of a hand."""
     grip = live.space.grips.of(request.hand)
     if grip is None:
-        return _holds_nothing(request)
+        return holds_nothing(request)
     live.space.remove_grip(request.hand)
     return Answer(subject=grip.body, message=f'let go of {grip.body}')
 
 
-def _holds_nothing(request: HandRequest) -> Answer:
+def holds_nothing(request: HandRequest) -> Answer:
+    """Return the answer to a hand that holds no body."""
     return Answer(message=f'{request.hand} holds no body')

@@ -23,7 +23,7 @@ from physsim_ros.model.motor_command import TimedCommand
 from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.rope_path import arc, side, spans
-from physsim_ros.model.scene import Guide, Joint, Seat
+from physsim_ros.model.scene import Guide, Joint, seat_of
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
@@ -31,15 +31,10 @@ from physsim_ros.model.transform import (
     ORIGIN,
     Point,
     Pose,
-    rotated,
     world_to_local,
 )
-from physsim_ros.simulation.world.live_space import (
-    are_same,
-    body_of_name,
-    LiveSpace,
-    points_in_world,
-)
+from physsim_ros.simulation.world.live_space import LiveSpace
+from physsim_ros.simulation.world.lookup import are_same, body_of_name, points_in_world
 
 # A click means a weld or an axle within this share of the body's inner radius [1], and within at
 # least this distance [m].
@@ -309,26 +304,6 @@ def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> Non
         other = ', and so is the background' if WORLD in names else ''
         message = f'{immovable}{other}; there is nothing for the {kind} to hold'
         raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
-
-
-def seat_of(
-    kind: JointKind, points: tuple[Point, ...], pose_a: Pose, pose_b: Pose, phase: float
-) -> Seat:
-    """Return the seat of a joint that is drawn with points of the world [m]."""
-    ux = uy = 0.0
-    at_b = points[-1]
-    if kind.schema.has_axis or kind.schema.rolls:
-        (x1, y1), (x2, y2) = points
-        length = math.dist(*points)
-        ux, uy = rotated(((x2 - x1) / length, (y2 - y1) / length), -pose_b[2])
-    if kind.schema.has_axis:
-        at_b = points[0]
-    if kind.schema.rolls:
-        # A wheel that rolls to the right on a surface below it turns clockwise.
-        ux, uy = -uy, ux
-    length = math.dist(points[0], at_b)
-    on_a, on_b = world_to_local(points[0], pose_a), world_to_local(at_b, pose_b)
-    return Seat(*on_a, *on_b, ux, uy, phase, length)
 
 
 def _phase(space: Space, a: str, b: str, properties: JointProperties) -> float:

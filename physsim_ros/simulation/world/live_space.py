@@ -13,13 +13,12 @@ into a space that is built from it.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator
 from dataclasses import replace
 from functools import partial
 import math
 from typing import NamedTuple
 
-from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.checkpoint import (
     BodyPool,
     slices_of_freeing,
@@ -30,19 +29,13 @@ from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.saved_state import begin_at, checkpoint_of, saved_state
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import no_body, no_frame
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.latency import delay
-from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.slices import finish
-from physsim_ros.model.transform import local_to_world, Point, Pose
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world.capacity import Capacity, check_state
 
-# Difference within which places are the same [1, of their size]: markers that come back have the
-# digits of a double; no person draws a point twice so exactly.
-_SAME = 1e-9
 # Greatest number of spaces that wait to be freed: as many as an impatient person replaces by undo
 # and redo in the time in which one is freed.
 _MOST_FREEING = 3
@@ -132,19 +125,19 @@ class LiveSpace:
         return checkpoint
 
     @suspended_collection()
-    def resume(self, checkpoint: Checkpoint, *, going_over: bool = False) -> None:
-        """
-        Go back, or forward, to a checkpoint.
-
-        :param going_over: whether the world is at that moment now, with the same bodies; the
-            contacts of the unfinished frame are kept then
-        """
-        finish(self.slices_of_resumption(checkpoint, going_over=going_over))
+    def resume(self, checkpoint: Checkpoint) -> None:
+        """Go back, or forward, to a checkpoint."""
+        finish(self.slices_of_resumption(checkpoint))
 
     def slices_of_resumption(
         self, checkpoint: Checkpoint, *, going_over: bool = False
     ) -> Generator[None]:
-        """Do as `resume` in slices; yield after each."""
+        """
+        Do as `resume` in slices; yield after each.
+
+        :param going_over: whether the world is at that moment now, with the same bodies; the
+            contacts of the unfinished frame are kept then
+        """
         space = yield from slices_of_restore(checkpoint, self._sub_step)
         old, pool = self.space, self._pool
         if going_over:
@@ -262,67 +255,3 @@ def steps_covering(seconds: float, physics_rate: float) -> int:
     """
     # Subtract a tolerance, so that 0.1 s at 240 Hz gives 24 steps, not 25.
     return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))
-
-
-def body_of_name(
-    space: Space, name: str, field: str = 'name', *, others: tuple[str, ...] = ()
-) -> RigidBody:
-    """
-    Return the body of a name.
-
-    :param field: of the request, for the refusal
-    :param others: names that the request takes beside those of bodies
-    :raises UnknownBody: there is none
-    """
-    if name not in space.bodies.by_name:
-        raise no_body(name, (*others, *space.bodies.by_name), field)
-    return space.bodies.by_name[name]
-
-
-def check_start(body: Body, names: Collection[str]) -> None:
-    """
-    Refuse an actor that waits for a body that there is not.
-
-    :param names: of the bodies of the world
-    :raises UnknownBody: the field is the key of `start`
-    """
-    waits_for = {} if body.actor is None else body.actor.start.bodies
-    for field, name in waits_for.items():
-        if name not in names:
-            raise no_body(name, names, field)
-
-
-def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:
-    """
-    Return a pose of a frame as a pose of the world.
-
-    :param frame: '' for the world, or a body's name
-    :raises UnknownFrame: there is no such body
-    :raises BadProperty: the pose is too far away
-    """
-    if not frame:
-        return pose
-    if frame not in space.bodies.by_name:
-        raise no_frame(frame, space.bodies.by_name)
-    origin = space.bodies.by_name[frame].pose
-    result = (*local_to_world(pose[:2], origin), origin[2] + pose[2])
-    check_pose(result, 'pose')
-    return result
-
-
-def are_same(points: Sequence[Point], others: Sequence[Point]) -> bool:
-    """Return whether points are the same as others, but for rounding [m]."""
-    size = 1.0 + max(abs(number) for point in points for number in point)
-    pairs = zip(points, others, strict=True)
-    return all(math.dist(here, there) <= _SAME * size for here, there in pairs)
-
-
-def is_same_pose(pose: Pose, other: Pose) -> bool:
-    """Return whether two poses are the same, but for rounding and whole turns [m, rad]."""
-    turn = math.remainder(other[2] - pose[2], math.tau)
-    return are_same((pose[:2],), (other[:2],)) and abs(turn) <= _SAME
-
-
-def points_in_world(space: Space, points: Iterable[Point], frame: str) -> tuple[Point, ...]:
-    """Return points of a frame as points of the world; raises as `pose_in_world`."""
-    return tuple(pose_in_world(space, (*point, 0.0), frame)[:2] for point in points)

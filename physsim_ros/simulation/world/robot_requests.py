@@ -9,13 +9,12 @@ Law: no two robots have one topic or frame.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
-from physsim_ros.model.errors import BadProperty, Exists, UnknownBody
+from physsim_ros.model.body_description import check_namespaces
+from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.robots import Robot
+from physsim_ros.model.robots import Drive, Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.states import DriveCommand, NEVER
@@ -25,21 +24,19 @@ from physsim_ros.simulation.world.live_space import LiveSpace
 _MOST_NAMED = 10
 
 
-def drive(live: LiveSpace, request: DriveRobot) -> Answer:
+def drive_robot(live: LiveSpace, request: DriveRobot) -> Answer:
     """
     Have a robot drive at a velocity.
 
     :raises UnknownBody: there is no such body
     :raises BadProperty: it is no robot, or has no drive
     """
-    rigid, robot = robot_of_name(live.space, request.name)
-    if robot.drive is None:
-        raise BadProperty(f'{request.name} has no drive', field='name')
-    timeout = robot.drive.timeout if request.timeout is None else request.timeout
-    begun = live.begin_of_command(request.name, robot.drive.latency, robot.drive.command_rate)
+    rigid, drive = drive_of_name(live.space, request.name)
+    timeout = drive.timeout if request.timeout is None else request.timeout
+    begun = live.begin_of_command(request.name, drive.latency, drive.command_rate)
     end = live.step_after(timeout)
     until = NEVER if end is None else end + begun - live.step_count
-    command = DriveCommand(begun, robot.drive.aim(request.velocity), until)
+    command = DriveCommand(begun, drive.aim(request.velocity), until)
     live.space.commands.drive(rigid, command, live.step_count)
     return Answer(subject=request.name, message=f'drives {request.name}')
 
@@ -61,16 +58,28 @@ def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
     raise BadProperty(f'{name} is not a robot{hint}', field='name')
 
 
+def drive_of_name(space: Space, name: str) -> tuple[RigidBody, Drive]:
+    """
+    Return the body of a name, and the drive of the robot that it is.
+
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot, or has no drive
+    """
+    rigid, robot = robot_of_name(space, name)
+    if robot.drive is None:
+        raise BadProperty(f'{name} has no drive', field='name')
+    return rigid, robot.drive
+
+
 def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
     """
-    Return whether a robot does what a command says for some steps; true of one that is not there.
+    Return whether a robot does what a command says for some steps.
 
     :param steps: from now on
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot, or has no drive
     """
-    rigid = live.space.bodies.by_name.get(request.name)
-    drive = None if rigid is None or rigid.body.robot is None else rigid.body.robot.drive
-    if rigid is None or drive is None:
-        return True
+    rigid, drive = drive_of_name(live.space, request.name)
     aim, until = live.space.commands.drive_of(rigid)
     if aim != drive.aim(request.velocity):
         return False
@@ -100,28 +109,3 @@ def _prefix_of(robot: Robot, body: str) -> str:
     """Return the prefix of the names of topics and frames of a robot."""
     namespace = robot.namespace_of(body)
     return f'{namespace}/' if namespace else ''
-
-
-def check_namespaces(bodies: Iterable[Body]) -> None:
-    """
-    Refuse two robots of one namespace, topic or frame; of two bodies of one name the first counts.
-
-    A sensor may have the topic of another robot, whose namespace is nested in that of its own.
-
-    :raises Exists: there are
-    """
-    taken: dict[str, str] = {}
-    seen: set[str] = set()
-    for body in bodies:
-        if body.robot is None or body.name in seen:
-            continue
-        seen.add(body.name)
-        namespace = body.robot.namespace_of(body.name)
-        for name in body.robot.names_below(namespace):
-            other = taken.setdefault(name, body.name)
-            if other != body.name:
-                raise Exists(
-                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
-                    'one of them another namespace',
-                    field='namespace',
-                )

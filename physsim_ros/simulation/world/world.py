@@ -4,9 +4,9 @@
 """
 The world: requests go in, snapshots come out.
 
-Laws: the world changes between steps only by `apply`; a refusal changes nothing, or `changed`
-tells that the caller is to rebuild the world; the same requests at the same steps give the same
-bits, in another process too.
+Laws: the world changes between steps only by `apply`; a refusal changes nothing, or says that it
+is half done, and the caller is to rebuild the world; the same requests at the same steps give the
+same bits, in another process too.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from collections.abc import Callable, Generator, Mapping
 from dataclasses import replace
 import hashlib
 from operator import gt
-from typing import Any
+from typing import Any, NamedTuple
 
 from physsim_ros.engine.contacts import take_contacts
 from physsim_ros.model import requests
 from physsim_ros.model.arrays import make_read_only
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import StepFailed
+from physsim_ros.model.errors import Refusal, StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
@@ -75,7 +75,7 @@ def load_message(state: WorldState) -> str:
 
 
 # The handler of each type of request. It checks everything, then changes the space; a request that
-# consists of several, such as a cut, may fail half way: `World.changed` is then true.
+# consists of several, such as a cut, may fail half way: `Refusal.is_half_done` is then true.
 HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.Spawn: body_requests.spawn,
     requests.ChangeBody: body_requests.change_body,
@@ -98,10 +98,27 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
     requests.CommandMotors: joint_requests.command_motors,
-    requests.DriveRobot: robot_requests.drive,
+    requests.DriveRobot: robot_requests.drive_robot,
     requests.Configure: configure,
     requests.Restore: restore,
 }
+
+
+class Change(NamedTuple):
+    """
+    The effect of a request on a world.
+
+    :ivar answer: to it
+    :ivar has_changed: whether it changed anything
+    :ivar joined: bodies whose joints it added, replaced or removed, by name; none where it has
+        replaced the whole world
+    :ivar has_grown: whether it left more bodies, or more joints, than there were before
+    """
+
+    answer: Answer
+    has_changed: bool
+    joined: frozenset[str]
+    has_grown: bool
 
 
 class World(LiveSpace):
@@ -113,10 +130,6 @@ class World(LiveSpace):
     :param settings: at the start; None is the default ones
 
     :ivar reports_contacts: whether contacts are reported, which costs a tenth of a step
-    :ivar changed: whether the last request changed anything; also one that failed half way
-    :ivar joined: bodies whose joints it added, replaced or removed, by name; none where it has
-        replaced the whole world
-    :ivar has_grown: whether it left more bodies, or more joints, than there were before
     """
 
     def __init__(
@@ -129,8 +142,6 @@ class World(LiveSpace):
         super().__init__(settings or WorldSettings(), physics_rate)
         self.frame_steps = frame_steps
         self.reports_contacts = False
-        self.changed = self.has_grown = False
-        self.joined: frozenset[str] = frozenset()
         self._lost: list[str] = []
 
     # Reading
@@ -222,21 +233,27 @@ class World(LiveSpace):
 
     # Changing
 
-    def apply(self, request: Request) -> Answer:
+    def apply(self, request: Request) -> Change:
         """
         Carry out a request.
 
-        :raises Refusal: nothing is changed, or `changed` is true, as the request failed half way
+        :raises Refusal: nothing is changed, or the request is half done
         """
-        before, counts = (self.space, self.space.changes), self._counts
-        self.space.joined.clear()
+        space, changes, counts = self.space, self.space.changes, self._counts
+        space.joined.clear()
         try:
-            return HANDLERS[type(request)](self, request)
-        finally:
-            self.changed = before != (self.space, self.space.changes)
-            self.joined = frozenset(self.space.joined if before[0] is self.space else ())
+            answer = HANDLERS[type(request)](self, request)
+        except Refusal as refusal:
+            refusal.is_half_done = self.space is not space or space.changes != changes
+            raise
+        is_other = self.space is not space
+        return Change(
+            answer=answer,
+            has_changed=is_other or space.changes != changes,
+            joined=frozenset() if is_other else frozenset(space.joined),
             # One by one: a cut may add a body, and remove a joint.
-            self.has_grown = any(map(gt, self._counts, counts))
+            has_grown=any(map(gt, self._counts, counts)),
+        )
 
     @property
     def _counts(self) -> tuple[int, int]:
@@ -282,12 +299,15 @@ class World(LiveSpace):
 
     def step(self, count: int) -> tuple[str, ...]:
         """
-        Make a number of steps.
+        Make a number of steps at once, in a world beside the live one, which its failure spares.
 
         :return: bodies that left the range of numbers and were removed
-        :raises StepFailed: in place of any error
+        :raises RuntimeError: in place of any error
         """
-        finish(self.slices_of_steps(count))
+        try:
+            finish(self.slices_of_steps(count))
+        except StepFailed as error:
+            raise RuntimeError(str(error)) from error
         return tuple(self.take_lost())
 
     def slices_of_steps(self, count: int) -> Generator[None]:

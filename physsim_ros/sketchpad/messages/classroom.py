@@ -62,7 +62,7 @@ def note_answer(
     def note() -> str:
         with reaching('the results'):
             page.answered = page.shared.results.note(
-                person, lesson, answer[:LONGEST_ANSWER], right=right
+                person, lesson, answer[:LONGEST_ANSWER], right=right, visitor=page.unnamed
             )
         return 'the answer is noted'
 

@@ -136,13 +136,14 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
         return await page.world.perform_on('save_world', name)
 
-    page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
+    page.perform(origin, partial(_saving, page, save), Wait.TO_READ)
 
 
 async def _saving(page: PageSession, save: Sliced[str]) -> str:
     """Save the world, note that it is saved, and return the message about it."""
+    scene = page.world.simulation.world.scene
     done = await in_slices(save)
-    page.shared.autosave.note_saved()
+    page.shared.autosave.note_saved(scene)
     page.shared.list_worlds(None)
     return done
 
@@ -168,10 +169,10 @@ def put_back(page: PageSession, origin: Origin, name: str) -> None:
 @message('forget', 'page')
 def forget(page: PageSession, origin: Origin) -> None:
     """Delete the unsaved world of the last start."""
-    _manage(page, origin, page.shared.autosave.forget_unsaved)
+    _manage(page, origin, page.shared.autosave.forget_unsaved, 'the unsaved world')
 
 
-def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: str = '') -> None:
+def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: str) -> None:
     """Change the files of own worlds, and send all pages the list."""
 
     def manage() -> str:
@@ -180,7 +181,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
         page.shared.list_worlds(None)
         return done
 
-    page.perform(origin, manage)
+    page.perform(origin, partial(page.shared.file_work.do, manage))
 
 
 @message('open_text', '~/load_world', Right.TEACH, world=_world_text)
@@ -215,7 +216,7 @@ def share(page: PageSession, origin: Origin, *, run: bool = False) -> None:
             page.send(await on_thread(write))
         return []
 
-    page.call(origin, send_text, Wait.FOR_SEEK)
+    page.call(origin, send_text, Wait.TO_READ)
 
 
 def _text_content(

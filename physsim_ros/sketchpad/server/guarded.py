@@ -17,6 +17,7 @@ import time
 from typing import Any, NoReturn
 
 from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import Busy
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.access import Access, headers_for
 from physsim_ros.sketchpad.server.turns import Turns
@@ -224,7 +225,7 @@ class GuardedSocket(Guarded, WebSocketHandler):
         # A browser always sends the origin; tornado checks it only where it is there.
         self.require_origin()
         if reason := self.too_many:
-            self.refuse(503, reason)
+            self.refuse(503, reason, Busy.code)
 
     def on_ping(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
         """Count a ping, which tornado has answered, among the messages; no browser sends any."""

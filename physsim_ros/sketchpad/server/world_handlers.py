@@ -25,7 +25,7 @@ from physsim_ros.files import (
     read_parts,
     write_file,
 )
-from physsim_ros.model.errors import Malformed, PhysSimError, Refusal
+from physsim_ros.model.errors import Busy, Malformed, PhysSimError, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
@@ -164,7 +164,7 @@ class UploadWorld(GuardedUpload):
         """Answer with the world's own answer."""
         content = self.content
         if self._turns.locked():
-            self.refuse(503, 'too many uploads at once')
+            self.refuse(503, 'too many uploads at once', Busy.code)
         async with self._turns:
             try:
                 answer = await self._replace_world(content)

@@ -78,6 +78,30 @@ def populate(world: World, bodies: Sequence[Spawn]) -> None:
         world.apply(body)
 
 
+@pytest.mark.parametrize('order', [1, -1])
+@pytest.mark.parametrize(('end', 'nearest'), [(-0.02, 'ball/0'), (-0.08, 'plank/0')])
+def test_an_end_between_bodies_is_on_the_nearest_whichever_was_drawn_last(
+    world: World, order: int, end: float, nearest: str
+) -> None:
+    spawn(world, 'a/0', Disc(radius=0.3), (2.0, 1.0, 0.0))
+    bodies = [
+        spawning('ball/0', Disc(radius=0.3), (0.0, 0.3, 0.0)),
+        spawning('plank/0', Box(width=3.0, height=0.3), (0.0, -0.25, 0.0)),
+    ]
+    for body in bodies[::order]:
+        world.apply(body)
+
+    rod = draw(world, [(2.0, 1.0), (0.0, end)])
+    wall = draw(world, [(-2.0, 0.5), (0.0, end)])
+    arrow = draw(world, [(0, end), (-3, end), (-2.5, 0.4), (-3, end), (-2.5, -0.4)])
+
+    assert (joined(rod).a, joined(rod).b) == ('a/0', nearest)
+    surface = {'ball/0': 0.0, 'plank/0': -0.1}[nearest]
+    assert wall.meaning == 'wall'
+    assert wall.outline[-1].tolist() == pytest.approx([0.0, surface], abs=1e-9)
+    assert arrow.subject == nearest
+
+
 @pytest.mark.parametrize(('bodies', 'way', 'kind', 'ends'), LINES.values(), ids=LINES)
 def test_a_line_from_body_to_body_is_a_joint(
     world: World, bodies: Sequence[Spawn], way: Way, kind: str, ends: tuple[str, str]

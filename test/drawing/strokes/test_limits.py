@@ -142,6 +142,11 @@ def ring(count: int, width: float = 1.0, height: float = 1.0) -> tuple[tuple[flo
     return tuple((width * math.cos(each), height * math.sin(each)) for each in angles)
 
 
+def gear(depth: float) -> Floats:
+    """Return a gear of eight teeth, as deep as a share of the radius of its root."""
+    return np.array([*ring(16), (1.0, 0.0)]) * (1.0 + depth * (np.arange(17) % 2))[:, None]
+
+
 def bowed(corners: Sequence[tuple[float, float]], bow: float) -> Floats:
     """Return a closed polyline about the origin whose sides are bowed outwards by a share."""
     points = np.array((*corners, corners[0]))
@@ -320,15 +325,15 @@ LIMITS: dict[
     'radius of a loop of a line': (
         'plain_forms._LOOP', [], looped, (0.1142, 0.1158), ('wall', '')),
     'dent of a bean': (
-        '', [], bean, (0.5, 0.65), ('disc', 'polygon')),
+        '', [], bean, (0.7, 0.75), ('disc', 'polygon')),
     'roundness of a square': (
-        '', [], squircle, (0.6, 0.7),
+        '', [], squircle, (0.56, 0.61),
         ('rectangle', 'disc'),
     ),
     'slant of a trapezoid': (
         '',
         [], lambda it: [(0.0, 0.0), (2.0, 0.0), (2.0 - it, 1.0), (it, 1.0), (0.0, 0.0)],
-        (0.3, 0.4), ('rectangle', 'polygon'),
+        (0.38, 0.43), ('rectangle', 'polygon'),
     ),
     'swings of a scribble': (
         'swings._FEWEST',
@@ -414,17 +419,13 @@ LIMITS: dict[
         [(0.0, 0.35), (0.2, 0.0), (0.0, -0.4), (-0.2, 0.0), (0.0, 0.35)],
         (4, 5), ('polygon', 'axle world'),
     ),
-    'depth of the teeth of a gear': (
-        'corner_detection._WOBBLE_CLOSED', [],
-        lambda it: np.array([*ring(16), (1.0, 0.0)]) * (1.0 + it * (np.arange(17) % 2))[:, None],
-        (0.2405, 0.2432), ('disc', 'polygon'),
-    ),
+    'depth of the teeth of a gear': ('', [], gear, (0.065, 0.08), ('disc', 'polygon')),
     'roundness of a plank': (
         '', [], lambda it: squircle(it) * (1.0, 0.2), (0.6, 0.65), ('rectangle', 'polygon'),
     ),
     'bow of a plank': ('', [], bowed_plank, (0.2, 0.25), ('rectangle', 'polygon')),
     'bow of the sides of a square': (
-        '', [], lambda it: bowed(ring(4), it), (0.25, 0.28),
+        '', [], lambda it: bowed(ring(4), it), (0.21, 0.23),
         ('rectangle', 'disc'),
     ),
     'gap in a side of a plank': (
@@ -439,7 +440,7 @@ LIMITS: dict[
         '', [], roofs, (0.5, 0.6), ('rectangle', 'polygon'),
     ),
     'bend of the last part of the shaft of an arrow': (
-        'arrow._SHAFT arrow._NECK', [], bent_late, (0.6119, 0.6206), ('gravity', ''),
+        'arrow._SHAFT arrow._NECK', [], bent_late, (0.5875, 0.5887), ('gravity', ''),
     ),
     'distance of a bump in a shaft from its tail': (
         'arrow._HEAD', [], bumped, (0.134, 0.14), ('gravity', 'wall'),
@@ -455,13 +456,13 @@ LIMITS: dict[
         '', [],
         lambda it: [(0, 0), (2, 0), (2 + 2 * math.cos(it), 2 * math.sin(it)),
                     (2 * math.cos(it), 2 * math.sin(it)), (0, 0)],
-        (1.22, 1.26), ('polygon', 'rectangle'),
+        (1.18, 1.21), ('polygon', 'rectangle'),
     ),
     'angle of a parallelogram': (
         '', [],
         lambda it: [(0, 0), (1.5, 0), (1.5 + 1.2 * math.cos(it), 1.2 * math.sin(it)),
                     (1.2 * math.cos(it), 1.2 * math.sin(it)), (0, 0)],
-        (1.20, 1.25), ('polygon', 'rectangle'),
+        (1.16, 1.19), ('polygon', 'rectangle'),
     ),
     'gap that a scribble bridges between two bodies': (
         'swings._MIDDLE_ON_ENDS',
@@ -605,11 +606,6 @@ FIGURES: dict[
              1 - 2 * SHARE + 4 * it * SHARE * (1 - SHARE)))], 0.4), (0.469, 0.489),
         ('anchor', 'velocity'),
     ),
-    'length of a line beyond the other one of an x': (
-        'x._BEYOND_OF_TWO', [spawning('a/0', Box(width=6.0, height=4.0))],
-        lambda it: ([[(-1.5, 0), (it, 0)], [(0, 1.0), (0, -1.0)]], 0.4), (0.2748, 0.282),
-        ('hatching', 'anchor'),
-    ),
     'gap between a shaft and its head': (
         'joining._BEYOND', [], lambda it: ([arrow(shaft=3.0 - it)[0], arrow()[1]], 0.4),
         (0.692, 0.7023), ('gravity', 'wall'),
@@ -672,6 +668,12 @@ def are_x(angle: float) -> bool:
     """Return whether two lines with an angle between them are an x."""
     x, y = math.cos(angle), math.sin(angle)
     lines = [(-1, 0), (1, 0)], [(-x, -y), (x, y)]
+    return of_lines([resample_stroke(sampled(each)).points for each in lines]) is not None
+
+
+def are_crossed(beyond: float) -> bool:
+    """Return whether two lines are an x, one of them ending so far beyond the other."""
+    lines = [(-1.5, 0), (beyond, 0)], [(0, 1), (0, -1)]
     return of_lines([resample_stroke(sampled(each)).points for each in lines]) is not None
 
 
@@ -785,6 +787,12 @@ STAGES: dict[
     'angle of the lines of an x': (
         'geometry.LEAST_SINE', are_x, (0.295, 0.31), (False, True),
     ),
+    'length of a line beyond the other one of an x': (
+        'x._BEYOND_OF_TWO', are_crossed, (0.26, 0.29), (False, True),
+    ),
+    'depth of the teeth of a gear whose corners are eight': (
+        'corner_detection._WOBBLE_CLOSED', lambda it: corners_of(gear(it)), (0.23, 0.245), (8, 4),
+    ),
     'bow of the sides of a triangle': (
         'plain_forms._SIDED', is_triangle, (0.45, 0.5), (True, False),
     ),
@@ -803,7 +811,8 @@ STAGES: dict[
 
 # Numbers of points between which readings do not differ, and what words and work are limited to.
 RESOLUTION = {
-    'stroke._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG',
+    'stroke._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG', 'corner_detection._ALONG',
+    'corner_detection._PARABOLA',
     'geometry.COUNT', 'geometry.ARM', 'geometry._FEW', 'geometry._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',

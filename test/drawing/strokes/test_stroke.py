@@ -219,3 +219,14 @@ def test_the_first_step_of_a_finger_is_kept(way: str, share: float, batch: int) 
     for samples in (received, received[::-1]):
         drawn = resample_stroke(np.column_stack((samples, times)))
         assert drawn.points[[0, -1]] == pytest.approx(samples[[0, -1]])
+
+
+def test_the_long_sides_between_the_round_ends_of_a_plank_of_few_samples_stay_straight() -> None:
+    angle = np.linspace(-math.pi / 2, math.pi / 2, 5)
+    end = 0.1 * np.column_stack((np.cos(angle), np.sin(angle)))
+    end[:, 0] += 1.0
+    plank = np.vstack((end, -end, end[:1]))
+
+    outline = resample_stroke(plank).outline
+
+    assert np.abs(outline[:, 1]).max() < 0.12

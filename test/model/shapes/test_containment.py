@@ -6,7 +6,14 @@
 import math
 
 import numpy as np
-from physsim_ros.model.shapes import Box, Chain, contain_each, contains, contains_each
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    contain_each,
+    contains,
+    contains_each,
+    distances_from_outlines,
+)
 from physsim_ros.model.transform import Point
 import pytest
 
@@ -89,6 +96,17 @@ def test_many_forms_have_the_points_that_each_of_them_has(slack):
     assert contain_each(forms, *points.T, slack).tolist() == one_by_one
     assert any(one_by_one)
     assert contain_each([], np.empty(0), np.empty(0)).tolist() == []
+
+
+def test_a_form_contains_a_point_outside_it_with_a_slack_of_its_distance():
+    forms = [shape.form for shape in SHAPES.values()] * 40
+    points = np.random.default_rng(4).uniform(-1.5, 2.5, (len(forms), 2))
+    distances = distances_from_outlines(forms, *points.T)
+    for form, point, distance in zip(forms, points.tolist(), distances.tolist(), strict=True):
+        if not contains(form.pieces, *point):
+            assert not contains(form.pieces, *point, distance - 1e-9)
+            assert contains(form.pieces, *point, distance + 1e-9)
+    assert (distances > 0.0).any()
 
 
 @pytest.mark.parametrize('kind', SHAPES)

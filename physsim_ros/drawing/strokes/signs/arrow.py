@@ -12,7 +12,6 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes import regularisation
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.fitting import segment_distances
 from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.drawing.strokes.stages import (
     Candidate,
@@ -28,7 +27,7 @@ from physsim_ros.drawing.strokes.stroke import SHARP
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
-from physsim_ros.model.transform import cross, dots, norms
+from physsim_ros.model.transform import cross, dots, norms, segment_distances
 
 # The least distance between the ends of an arrow, in shares of its size: barbs reach back to the
 # tail's side, if they are as long as the shaft.
@@ -123,8 +122,7 @@ def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a velocity where the tail is at a body that can move, else a turn of gravity."""
     points, scene = form.points, context.scene
     tail = point_of(points[0])
-    under = scene.bodies_at(tail)
-    near = under or scene.bodies_at(tail, context.settings.snap)
+    near = scene.bodies_near(tail, context.settings.snap)
     moving = next((name for name in near if not scene.body(name).anchored), None)
     if moving is not None:
         yield Meaning(
@@ -133,7 +131,7 @@ def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
             build=partial(_set_velocity, moving, points, context),
         )
         return
-    free = not under
+    free = not scene.bodies_at(tail)
     yield Meaning(
         name=GRAVITY,
         weight=form.weight * (1.0 if free else MISPLACED),

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The body that a request makes or changes, as a value without a space.
+The body that a request makes or changes, and what a request may ask of it, without a space.
 
 Law: a property that a request does not name keeps its value. One that it unsets, and one of a new
 body, has the default of the world.
@@ -10,14 +10,15 @@ body, has the default of the world.
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 from typing import Any
 
 from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
-from physsim_ros.model.errors import Anchored, BadProperty
-from physsim_ros.model.requests import ChangeBody, Spawn
+from physsim_ros.model.errors import Anchored, BadProperty, Exists, no_body
+from physsim_ros.model.requests import ChangeBody, Command, Spawn
 from physsim_ros.model.robots import check_namespace
 from physsim_ros.model.scene import Body, BODY_DEFAULTS
 from physsim_ros.model.settings import WorldSettings
@@ -142,6 +143,57 @@ def changed_twist(body: Body, twist: Twist, request: Spawn | ChangeBody) -> Twis
     if properties.velocity is not None:
         vx, vy = properties.velocity
     return vx, vy, spin if properties.spin is None else properties.spin
+
+
+def check_start(body: Body, names: Collection[str]) -> None:
+    """
+    Refuse an actor that waits for a body that there is not.
+
+    :param names: of the bodies of the world
+    :raises UnknownBody: the field is the key of `start`
+    """
+    waits_for = {} if body.actor is None else body.actor.start.bodies
+    for field, name in waits_for.items():
+        if name not in names:
+            raise no_body(name, names, field)
+
+
+def check_command(body: Body, request: Command) -> None:
+    """
+    Refuse a command that a body cannot obey.
+
+    :raises Anchored: it is anchored, and takes a pose only
+    :raises BadProperty: it is kinematic, and forces do not move it
+    """
+    if body.anchored and (request.twists.size or request.wrenches.size):
+        raise Anchored(f'{body.name} is anchored; it takes a pose only', field='joint_names')
+    if body.kinematic and request.wrenches.size:
+        raise BadProperty(f'{body.name} is kinematic; forces do not move it', field='wrench')
+
+
+def check_namespaces(bodies: Iterable[Body]) -> None:
+    """
+    Refuse two robots of one namespace, topic or frame; of two bodies of one name the first counts.
+
+    A sensor may have the topic of another robot, whose namespace is nested in that of its own.
+
+    :raises Exists: there are
+    """
+    taken: dict[str, str] = {}
+    seen: set[str] = set()
+    for body in bodies:
+        if body.robot is None or body.name in seen:
+            continue
+        seen.add(body.name)
+        namespace = body.robot.namespace_of(body.name)
+        for name in body.robot.names_below(namespace):
+            other = taken.setdefault(name, body.name)
+            if other != body.name:
+                raise Exists(
+                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
+                    'one of them another namespace',
+                    field='namespace',
+                )
 
 
 def _default_body(request: Spawn, settings: WorldSettings) -> Body:
