@@ -226,6 +226,8 @@ class BodyPool:
     before this one are used again.
 
     :param retired: a space that is not used any more; None if there is none
+
+    :ivar bodies: that are made, by name
     """
 
     def __init__(self, retired: Space | None = None) -> None:

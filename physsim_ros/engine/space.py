@@ -50,7 +50,10 @@ class Space:
     :param first_shape: number of the first wall of the boundary
     :param lesson: the task that belongs to the world; None is none
 
+    :ivar dt: length of a sub-step [s]
     :ivar pm_space: Pymunk's space
+    :ivar shapes: the engine's numbers of its shapes
+    :ivar boundary: the walls of `bounds`
     :ivar bodies: in it
     :ivar joints: between them
     :ivar commands: of their motors, and of the drives of robots

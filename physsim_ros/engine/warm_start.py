@@ -171,9 +171,9 @@ def read_impulses(
     _, pairs, points = found
     # The engine lists by address, which is never the same twice.
     order = np.lexsort((points['hash'], pairs[:, 1], pairs[:, 0]))
-    # A contact without impulses is like one that is found anew, and a rebuilt space has more of
-    # them: all that touch, though it has not stepped yet.
-    order = order[(points['jnAcc'][order] != 0.0) | (points['jtAcc'][order] != 0.0)]
+    # A contact that nothing presses has no friction either: it is like one that is found anew, and
+    # a rebuilt space has more of them: all that touch, though it has not stepped yet.
+    order = order[points['jnAcc'][order] != 0.0]
     points = points[order]
     return ImpulseCache(
         ids=np.array(ids, np.int64),

@@ -56,7 +56,7 @@ class DirectoryLock:
                 fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError as error:
                 self._close()
-                raise InUse('another node has this world_dir; give one its own') from error
+                raise InUse('another node has this world_dir') from error
             except OSError:
                 # A file system without locks.
                 return

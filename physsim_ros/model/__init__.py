@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Values that all folders use, frozen and checked; NumPy is the most that is imported here.
+Values that all folders use, frozen and checked, and tools for any code.
 
-Nothing here moves, reads a clock or knows an engine. Modules are imported by their names; the
-packages `shapes`, `requests` and `robots` by their fronts. Start with `scene` and `requests`.
+NumPy is the most that is imported here. Nothing here moves, reads a clock or knows an engine.
+Modules are imported by their names; the packages `shapes`, `requests` and `robots` by their
+fronts. Start with `scene` and `requests`.
 
 - Shared by all values: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`, `texts`.
 - Descriptions of a world: `shapes`, `body_properties`, `joints`, `robots`, `settings`, `scene`.
-- Changes of it: `requests`.
+- Changes of it: `requests`, and the body that one describes, `body_description`.
+- What of them acts: `actors`, `media`, `attraction`, `applied_forces`, `latency`, `noise`.
+- Tools: `error_boundary`, `slices`, `weak_cache`, `garbage_collection`, `declarations`, `sizes`.
 - States: `snapshot` is shown, `timeline` is its place in the past, `checkpoint` is saved.
 """

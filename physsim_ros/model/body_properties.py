@@ -13,10 +13,12 @@ from typing import Annotated
 from physsim_ros.model.actors import Actor, actor_from
 from physsim_ros.model.applied_forces import AppliedForce, forces_from
 from physsim_ros.model.checks import (
+    DENSITY,
+    ELASTICITY,
     FASTEST,
     flag,
-    HEAVIEST,
-    LIGHTEST,
+    FRICTION,
+    MASS,
     shown,
     text,
     Vector,
@@ -63,20 +65,18 @@ class Properties(Checked):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    mass: Annotated[
-        float | None, Within(LIGHTEST, HEAVIEST, 'kg'), 'not together with `density`'
-    ] = None
+    mass: Annotated[float | None, MASS, 'not together with `density`'] = None
     density: Annotated[
         float | None,
-        Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+        DENSITY,
         'not together with `mass`; by default parameter `density`',
     ] = None
     friction: Annotated[
-        float | None, Within(0.0, 10.0), 'coefficient of friction; by default parameter `friction`'
+        float | None, FRICTION, 'coefficient of friction; by default parameter `friction`'
     ] = None
     elasticity: Annotated[
         float | None,
-        Within(0.0, 1.0),
+        ELASTICITY,
         'coefficient of restitution; by default parameter `elasticity`',
     ] = None
     velocity: Annotated[Point | None, VELOCITY, 'of the centre of mass, world axes'] = None

@@ -253,8 +253,11 @@ class Vector:
         return vector
 
 
-# The check of a velocity [m/s].
+# The checks of a velocity [m/s], of a mass [kg], of a density [kg/m²] and of the coefficients of
+# friction and restitution [1].
 VELOCITY = Vector(FASTEST, 'm/s', 'faster')
+MASS, DENSITY = Within(LIGHTEST, HEAVIEST, 'kg'), Within(LIGHTEST, HEAVIEST, 'kg/m²')
+FRICTION, ELASTICITY = Within(0.0, 10.0), Within(0.0, 1.0)
 
 
 def flag(value: object, name: str) -> bool:

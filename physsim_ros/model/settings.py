@@ -8,8 +8,10 @@ import math
 from typing import Annotated
 
 from physsim_ros.model.checks import (
+    DENSITY,
+    ELASTICITY,
+    FRICTION,
     HEAVIEST,
-    LIGHTEST,
     Row,
     shown,
     Vector,
@@ -92,23 +94,23 @@ class WorldSettings(Checked):
     ] = None
     density: Annotated[
         float,
-        Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+        DENSITY,
         'density of new bodies, unless they have their own',
     ] = 1.0
     friction: Annotated[
         float,
-        Within(0.0, 10.0),
+        FRICTION,
         'coefficient of friction of new bodies, unless they have their own',
     ] = 0.5
     elasticity: Annotated[
         float,
-        Within(0.0, 1.0),
+        ELASTICITY,
         'coefficient of restitution of new bodies, unless they have their own',
     ] = 0.5
     # Not part of the text, so that older digests stay valid.
     floor_friction: Annotated[
         float,
-        Within(0.0, 10.0),
+        FRICTION,
         'coefficient of friction between bodies and the floor of a world seen from above; 0 for a '
         'world seen from the side',
     ] = field(default=0.0, repr=False)

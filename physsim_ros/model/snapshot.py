@@ -332,7 +332,7 @@ class Frame:
     :param speed: simulation time by wall time; 0 is paused
     :param stepped: whether steps, forward or back, led to it; not a request or a jump alone
     :param preview: of the unfinished drawing
-    :param past: whether it lies before the newest step of its course
+    :param past: whether something lies ahead of it, on its course
     :param course: number of the course of events in force
     """
 
@@ -349,11 +349,3 @@ class Frame:
     def passing(self) -> bool:
         """Return whether time runs here, so that the next frame comes of itself."""
         return self.stepped and self.speed != 0.0
-
-
-def run_state(speed: float) -> str:
-    """Return the word for a speed: paused, playing or rewinding, with its factor if not 1."""
-    if speed == 0.0:
-        return 'paused'
-    words = 'playing' if speed > 0.0 else 'rewinding'
-    return words if abs(speed) == 1.0 else f'{words} at {abs(speed):g}'

@@ -6,7 +6,43 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import NamedTuple
+
+
+class RunState(StrEnum):
+    """
+    The run state of a world.
+
+    :cvar PAST: it stands or plays where something lies ahead
+    """
+
+    PLAYING = 'playing'
+    PAUSED = 'paused'
+    REWINDING = 'rewinding'
+    PAST = 'in the past'
+
+    @classmethod
+    def of(cls, speed: float) -> RunState:
+        """Return the run state at the newest moment, by the speed."""
+        if speed == 0.0:
+            return cls.PAUSED
+        return cls.PLAYING if speed > 0.0 else cls.REWINDING
+
+
+def run_state(speed: float) -> str:
+    """Return the word for a speed: paused, playing or rewinding, with its factor if not 1."""
+    state = RunState.of(speed)
+    return state if abs(speed) in (0.0, 1.0) else f'{state} at {abs(speed):g}'
+
+
+def stamp_of(step: int, physics_rate: float) -> int:
+    """
+    Return the simulation time of a step [ns].
+
+    :param physics_rate: steps a second of simulation time [Hz]
+    """
+    return round(step * 1e9 / physics_rate)
 
 
 class CourseSpan(NamedTuple):
@@ -28,7 +64,7 @@ class TimelineStatus:
     """
     The status of the timeline.
 
-    :param state: playing, paused, rewinding, or 'in the past' where something lies ahead
+    :param state: of the world, at the moment that is shown
     :param speed: simulation seconds a second; 0 is paused, negative goes back
     :param oldest: the oldest simulation time that can be gone back to [s]
     :param now: simulation time that is shown [s]
@@ -41,7 +77,7 @@ class TimelineStatus:
     :param courses: those that were left, in the order of their numbers
     """
 
-    state: str
+    state: RunState
     speed: float
     oldest: float
     now: float

@@ -15,7 +15,8 @@ from collections.abc import Iterator
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.snapshot import Answer, Frame, run_state, Snapshot
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.timeline import run_state
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
@@ -187,7 +188,8 @@ class Diagnostics:
             yield f'{failure}: set parameter viewer to open it again'
         sketchpad = self._outputs.sketchpad
         if sketchpad is not None and (unsaved := sketchpad.autosave_failure) is not None:
-            yield f'{unsaved.message}: make room in world_dir, or save the world by name'
+            remedy = 'save the world by name, make room in world_dir, or give each node its own'
+            yield f'{unsaved.message}: {remedy}'
 
     def _new_namesakes(self) -> list[Answer]:
         """Return an event if there are more nodes of this name than at the last count."""

@@ -20,7 +20,8 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Running
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.slices import in_slices, Sliced
-from physsim_ros.model.snapshot import Answer, run_state
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.timeline import run_state
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters

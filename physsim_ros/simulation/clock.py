@@ -30,6 +30,8 @@ class Clock:
     :param speed: simulation seconds a second
     :raises BadProperty: the speed is out of range
     :raises Malformed: it is not finite
+
+    :ivar late_frames: count of frames that were due and could not be made in time
     """
 
     def __init__(self, *, physics_rate: float, frame_steps: int, speed: float = 1.0) -> None:
@@ -38,7 +40,6 @@ class Clock:
         self._speed = SPEED(speed, 'speed')
         # Steady time [ns] and step from which steps are counted.
         self._anchor: tuple[int, float] | None = None
-        # Count of frames that were due and could not be made in time.
         self.late_frames = 0
 
     @property

@@ -19,6 +19,7 @@ from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.timeline import stamp_of
 from physsim_ros.sensing import View
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
@@ -76,12 +77,12 @@ class FrameMaker:
     @property
     def stamp(self) -> int:
         """Return the simulation time that is shown [ns]."""
-        return round(self.step * 1e9 / self.physics_rate)
+        return stamp_of(self.step, self.physics_rate)
 
     @property
     def is_past(self) -> bool:
-        """Whether the moment that is shown lies before the newest step of its course."""
-        return self.step < self.past.tree.head
+        """Whether something lies ahead of the moment that is shown, on its course."""
+        return not self.playback.is_newest
 
     @property
     def speed(self) -> float:
@@ -368,7 +369,7 @@ class FrameMaker:
             answers=requests.take_answers() if requests.answers else (),
             speed=playback.speed,
             stepped=playback.stepped,
-            past=snapshot.step < past.tree.head,
+            past=self.is_past,
             course=past.tree.course,
         )
         playback.changed = playback.stepped = False

@@ -16,7 +16,7 @@ from collections.abc import Iterator
 
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
-from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.model.timeline import CourseSpan, RunState, stamp_of, TimelineStatus
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.past import CachedFrame, Moment, Past
 from physsim_ros.simulation.world import World
@@ -123,16 +123,11 @@ class Playback:
     def status(self) -> TimelineStatus:
         """Return the status of the timeline at the moment that is shown."""
         tree, rate, shown = self._past.tree, self._past.physics_rate, self.moment
-        if self.speed < 0.0:
-            state = 'rewinding'
-        elif not self.is_newest:
-            state = 'in the past'
-        else:
-            state = 'playing' if self.speed else 'paused'
+        is_past = self.speed >= 0.0 and not self.is_newest
         undo, redo = self._past.words(shown)
         courses = sorted(tree.courses_left(), key=lambda each: each[0].course)
         return TimelineStatus(
-            state=state,
+            state=RunState.PAST if is_past else RunState.of(self.speed),
             speed=self.speed,
             oldest=tree.oldest / rate,
             now=shown.step / rate,
@@ -243,7 +238,7 @@ class Playback:
         """
         step = self.step + self.steps_to_period + self.frames_due * self._past.frame_steps
         self.frames_due += 1
-        return round(step * 1e9 / self._past.physics_rate)
+        return stamp_of(step, self._past.physics_rate)
 
     def run(self, steps: int) -> None:
         """Advance the world, which is at the moment that is shown, by steps."""

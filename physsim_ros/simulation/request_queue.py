@@ -223,9 +223,9 @@ class RequestQueue:
         self._continue_calls(each for each in self._under_way if not each.call.holds_requests)
 
     def finish_calls(self) -> None:
-        """Finish the calls for which no request waits, too."""
+        """Apply all entries, and finish the calls that have read the world, too."""
         self.apply_waiting()
-        while self._under_way:
+        while self._is_reading:
             self._await_slice()
             self.continue_calls()
             self.apply_waiting()

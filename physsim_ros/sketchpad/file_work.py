@@ -32,6 +32,7 @@ class FileWork:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
+        # It ends with this object.
         self._thread = ThreadPoolExecutor(1, 'files')
         # Number of pieces of work that messages wait for.
         self._awaited = 0
@@ -55,7 +56,3 @@ class FileWork:
         future = finish_before_end(self._thread.submit(work))
         future.add_done_callback(lambda _: self._wake())
         return future
-
-    def close(self) -> None:
-        """Have the thread end after the work that waits."""
-        self._thread.shutdown(wait=False)

@@ -179,7 +179,6 @@ class Sketchpad:
         """Close all pages, end the server's thread, and release the lock after the last file."""
         self._server.close()
         self._file_work.submit(self._lock.release)
-        self._file_work.close()
 
     def _do_periodic_work(self, now: float) -> None:
         """

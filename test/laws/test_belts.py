@@ -59,3 +59,13 @@ def test_a_tread_around_a_wheel_and_along_a_chain_drives(report):
     # Its centre of mass is further out than the rim, and it has gone down a little.
     report.check(67, 'box on a wheel, speed', last.twists[1, 0], 0.51, 0.01, 'm/s')
     report.check(67, 'box on a chain, speed', last.twists[3, 0], 0.5, 1e-6, 'm/s')
+
+
+def test_a_wheel_rolls_over_the_seam_of_two_belts(report):
+    sim = simulation(friction=0.5)
+    half = Box(width=10.0, height=1.0)
+    for number, x in enumerate((-4.7, 5.3)):
+        spawn(sim, f'belt/{number}', half, (x, -0.5, 0.0), anchored=True, belt=-20.0)
+    spawn(sim, 'wheel/0', Disc(radius=0.3), (0.0, 0.3, 0.0), velocity=(0.5, 0.0))
+    highest = max(now.poses[2, 1] for now in steps(sim, 480))
+    report.check(67, 'wheel over a seam, height', highest, 0.3, 1e-5, 'm')

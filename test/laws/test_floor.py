@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.requests import Delete, DriveRobot
-from physsim_ros.model.shapes import Box, Disc, Polygon
+from physsim_ros.model.shapes import Box, Chain, contains, Disc, Polygon
 import pytest
 
 from .scenes import DT, G, NOWHERE, simulation, spawn, steps, turned
@@ -369,6 +369,32 @@ def test_a_conveyor_carries_at_its_speed_and_of_several_the_last(report, speeds)
     way = last.poses[row, :2] - start[:2]
     exact = turned((0.4 * 2.0, 0.0), 0.3)
     report.check(40, 'way on a conveyor', abs(way - exact).max(), 0.0, 1e-9, 'm')
+
+
+@pytest.mark.parametrize(
+    'shape',
+    [
+        Disc(radius=0.7),
+        Polygon(outline=((-0.9, -0.6), (0.9, -0.6), (0.2, 0.1), (-0.5, 0.8))),
+        Chain(points=((-0.9, -0.5), (0.1, 0.4), (0.9, 0.2)), thickness=0.3),
+    ],
+    ids=['disc', 'polygon', 'chain'],
+)
+def test_a_conveyor_of_any_shape_carries_what_has_its_centre_on_it(shape):
+    sim = _floor()
+    said = {'anchored': True, 'sensor': True, 'surface_velocity': (0.4, 0.0)}
+    spawn(sim, 'belt/0', shape, (0.0, 0.0, 0.0), **said)
+    # Not on a grid, which would lie on edges.
+    places = np.linspace(-0.93, 0.97, 9)
+    points = [(x, y) for x in places for y in places]
+    for number, (x, y) in enumerate(points):
+        spawn(sim, f'disc/{number}', Disc(radius=0.05), (x, y, 0.0))
+
+    twists = _after(sim, DT).twists[-len(points) :]
+
+    carried = twists.any(axis=1).tolist()
+    assert carried == [contains(shape.form.pieces, x, y) for x, y in points]
+    assert 10 < sum(carried) < len(points) - 10
 
 
 def test_a_conveyor_that_turns_turns_what_lies_on_it(report):

@@ -80,6 +80,17 @@ def test_a_frame_takes_as_many_ticks_as_it_has_sub_steps(in_sub_steps):
     assert frame.snapshot.step % simulation.frame_steps == 0
 
 
+def test_contacts_are_reported_of_whole_steps(in_sub_steps):
+    def impulses(asked_after: int) -> list[list[float]]:
+        """Return those of two steps, of which reports are asked for after a sub-step."""
+        world = in_sub_steps(FREE['stack of ten']).world
+        for number, _ in enumerate(world.slices_of_steps(2), 1):
+            world.reports_contacts = number >= asked_after
+        return world.contacts(world.snapshot()).impulses.tolist()
+
+    assert impulses(1) == impulses(lib.SUB_STEPS) != []
+
+
 def calls_of_a_step(longest: float, monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Return the durations of the calls that make a step of a crowd, each to end in a time [s]."""
     with monkeypatch.context() as patch:

@@ -37,6 +37,25 @@ GRID_LINES = """async at => {
 }"""
 
 
+# The least space between two numbers at the lower edge of a world, at a scale [px/m], around its
+# origin and as far out as bodies are.
+SPACE = """async scale => {
+    const {drawRulers} = await import('/page/view/label_view.js');
+    const {Camera} = await import('/page/view/camera.js');
+    const ctx = document.createElement('canvas').getContext('2d'), spaces = [];
+    ctx.font = '11px system-ui, sans-serif';
+    for (const x of [0, 1e7]) {
+        const ends = [], camera = Object.assign(new Camera(),
+            {x, y: 0, scale, width: 1200, height: 800});
+        const write = (text, [x], color, align) => align === 'center' &&
+            ends.push([-1, 1].map((side) => x + side * ctx.measureText(text).width / 2));
+        drawRulers({camera, write, palette: {}, insets: {left: 0, top: 0, right: 0, bottom: 0}});
+        spaces.push(...ends.slice(1).map(([begin], i) => begin - ends[i][1]));
+    }
+    return Math.min(...spaces);
+}"""
+
+
 # The labels that are drawn of three small bodies in a row, the last one apart, and how often their
 # texts are measured in two frames.
 LABELS = """async () => {
@@ -171,6 +190,12 @@ def test_the_grid_far_from_the_origin_has_no_line_beside_the_page(open_sheet: Op
     near, far = (sheet.page.evaluate(GRID_LINES, at) for at in (0.0, 10_000.0))
     assert len(far) == len(near) > 50
     assert all(0 <= x <= 1200.5 and 0 <= y <= 800.5 for x, y in far)
+
+
+def test_numbers_at_the_edge_of_a_world_are_apart_at_every_scale(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
+    scales = [step * 10.0**power for power in range(-5, 4) for step in (1, 1.4, 2, 3, 5, 7)]
+    assert all(sheet.page.evaluate(SPACE, scale) > 4 for scale in scales)
 
 
 def test_on_a_small_page_a_panel_leaves_room_for_what_is_said_and_for_a_plot(

@@ -72,6 +72,13 @@ def test_a_world_that_cannot_be_kept_is_not_written_over(
     browser.physsim.step()
 
 
+def test_an_unsaved_world_that_cannot_be_deleted_is_named(browser: Browser) -> None:
+    (worlds_of(browser) / '.unsaved.yaml').mkdir()
+    answer = browser.open_page().ask('forget')
+    assert answer['code'] == 'bad_world_file'
+    assert answer['message'].startswith('the unsaved world: ')
+
+
 @pytest.mark.parametrize('name', ['mine', '名前', '😀', 'a "quoted" one', 'ü; filename=x'])
 def test_a_world_of_any_name_can_be_downloaded(browser: Browser, name: str) -> None:
     assert browser.open_page().ask('save', name=name)['ok']

@@ -47,6 +47,21 @@ def test_the_note_of_a_body_tells_what_the_line_before_it_is_now(sheet: Sheet) -
     assert re.fullmatch(r'circle \d+ %; rod.*', sheet.page.evaluate('heard.notes')[1])
 
 
+@pytest.mark.parametrize('way', ['earlier', 'undo'])
+def test_the_note_of_a_stroke_goes_with_what_it_built(sheet: Sheet, way: str) -> None:
+    sheet.play_until(0.3)
+    # A rope from the ball to the box.
+    sheet.drag((0.0, 0.5), (0.8, 2.0), (2.0, 2.8), (3.2, 2.0), (4.0, 0.5))
+    choice = sheet.page.get_by_role('button', name='or chain')
+    # Who is at its button keeps it.
+    choice.hover()
+    if way == 'undo':
+        sheet.page.keyboard.press('Control+z')
+    else:
+        sheet.seek(0.1)
+    choice.wait_for(state='detached')
+
+
 def test_a_stroke_ends_where_the_pen_is_lifted(sheet: Sheet) -> None:
     # The browser of a busy machine has no move to the last place.
     places = [sheet.place(*point) for point in ((-2.0, 5.0), (-1.0, 5.0), (2.0, 5.0))]
@@ -235,14 +250,19 @@ def test_a_polygon_is_closed_by_the_enter_key(sheet: Sheet) -> None:
 
 
 def test_undo_takes_back_what_was_drawn_and_redo_draws_it_again(sheet: Sheet) -> None:
-    before = sheet.names()
     sheet.press('Circle')
-    sheet.drag((0.0, 6.0), (0.4, 6.0))
-    name = sheet.wait_for_new(before)
-    sheet.press('Undo')
-    sheet.wait('name => !(name in physsim.bodies)', name)
-    sheet.press('Redo')
-    sheet.wait('name => name in physsim.bodies', name)
+    names = []
+    for x in (0.0, 2.0):
+        before = sheet.names()
+        sheet.drag((x, 6.0), (x + 0.4, 6.0))
+        names.append(sheet.wait_for_new(before))
+    for name in reversed(names):
+        sheet.press('Undo')
+        sheet.wait('name => !(name in physsim.bodies)', name)
+    for name in names:
+        sheet.press('Redo')
+        sheet.wait('name => name in physsim.bodies', name)
+        assert sheet.page.get_by_role('status').inner_text() == 'Redone: add the circle'
 
 
 def test_two_pages_see_one_world_and_each_has_its_own_tool(

@@ -38,13 +38,7 @@ static Vec shortened(Vec a, double most) {
 
 static bool is_inside(const World *world, int gate, int place) {
     const cpBody *at = world->bodies[gate].engine;
-    Vec local = rotated_back(sub(world->bodies[place].engine->p, at->p), rotation(at->a));
-    for (const cpShape *shape = at->shapeList; shape != NULL; shape = shape->next) {
-        if (covers(shape, local)) {
-            return true;
-        }
-    }
-    return false;
+    return body_covers(at, pose_of(at), world->bodies[place].engine->p);
 }
 
 static bool is_opened(const World *world, const Actor *actor) {

@@ -35,7 +35,7 @@ enum { CLUSTER_POINTS = LCP_ROWS };
 // Bodies that move, at most: two that meet, and each further one brings a point.
 enum { CLUSTER_BODIES = CLUSTER_POINTS + 1 };
 
-// A contact that begins with an impact.
+// A contact that is an impact (`is_impact`), whether it begins or not.
 typedef struct Hit {
     cpArbiter *contact;
     int a, b; // places of its bodies, the lesser first; those that forces do not move are one: `body_count`
@@ -168,7 +168,7 @@ static int by_bodies(const void *one, const void *other) {
     return (first > second) - (first < second);
 }
 
-// List the contacts that begin with an impact, by bodies.
+// List the contacts that are impacts, by bodies.
 static int list_hits(World *world, Hit *hits) {
     int count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {

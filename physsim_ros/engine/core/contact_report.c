@@ -107,7 +107,7 @@ static ReportedPair *reported_pair(Report *report, int a, int b) {
 }
 
 // The time of the first touch of a pair within this sub-step, as a share of it (0 .. 1).
-static double first_touch(World *world, Body *a, Body *b) {
+static double touch_share(World *world, Body *a, Body *b) {
     if (a->sensor || b->sensor) {
         return crossing_time(world, a, b);
     }
@@ -128,12 +128,12 @@ static void add_begun(World *world, Report *report, Begun added) {
 }
 
 // Begin the step of a pair, unless another contact of it has.
-static void touch(World *world, Report *report, ReportedPair *pair) {
+static void begin_pair(World *world, Report *report, ReportedPair *pair) {
     if (pair->stamp == report->stamp) {
         return;
     }
     if (pair->stamp != report->stamp - 1 && report->follows) {
-        double share = first_touch(world, world->bodies + pair->a, world->bodies + pair->b);
+        double share = touch_share(world, world->bodies + pair->a, world->bodies + pair->b);
         double time = world->frame_steps - 1 + (world->own->sub_step + share) / (double)SUB_STEPS;
         add_begun(world, report, (Begun){{pair->a, pair->b}, time});
     }
@@ -150,7 +150,7 @@ static bool is_higher(Vec normal, Vec than) {
 static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) {
     int a = place_of(world, arbiter->body_a), b = place_of(world, arbiter->body_b);
     ReportedPair *pair = reported_pair(report, a < b ? a : b, a < b ? b : a);
-    touch(world, report, pair);
+    begin_pair(world, report, pair);
     double sign = a < b ? 1.0 : -1.0;
     Vec normal = scaled(arbiter->n, sign);
     if (arbiter->count > 0 && (pair->points == 0 || is_higher(normal, pair->highest))) {
@@ -220,7 +220,7 @@ static void add_crossing(World *world, const Body *body, const Body *sensor) {
     int a = place_of(world, body->engine), b = place_of(world, sensor->engine);
     ReportedPair *pair = reported_pair(report, a < b ? a : b, a < b ? b : a);
     if (pair->stamp < report->stamp - 1) {
-        touch(world, report, pair);
+        begin_pair(world, report, pair);
     }
 }
 
@@ -370,6 +370,9 @@ void core_copy_contacts(World *world, const World *old) {
     const Report *from = old->own->report;
     free(report->pairs);
     *report = (Report){0};
+    free(world->begun);
+    world->begun = NULL;
+    world->begun_count = 0;
     if (from == NULL || from->room == 0) {
         return;
     }
@@ -379,9 +382,6 @@ void core_copy_contacts(World *world, const World *old) {
     report->follows = false;
     report->pairs = allocated((size_t)from->room, sizeof(ReportedPair));
     memcpy(report->pairs, from->pairs, (size_t)from->room * sizeof(ReportedPair));
-    free(world->begun);
-    world->begun = NULL;
-    world->begun_count = 0;
     world->frame_steps = old->frame_steps;
     for (int number = 0; number < old->begun_count; number++) {
         add_begun(world, report, old->begun[number]);

@@ -76,7 +76,7 @@ static void list_jointed(World *world) {
 // Mark bodies that springs pull, and those in islands of joints that hang by a spring from something fixed, or that
 // motors hold there: such a body is not in free flight (`half_step.c`).
 static void mark_sprung(World *world) {
-    arena_reset(&world->own->arena);
+    reset_memory(world);
     int *parents = sets_of(world);
     bool *hangs = TAKE(&world->own->arena, bool, world->body_count);
     bool *swings = TAKE(&world->own->arena, bool, world->body_count);

@@ -12,7 +12,6 @@
 // Cost: 40 ns a node of a chain.
 
 #include "elimination_order.h"
-#include "vector.h"
 
 enum { NO_NODE = -1 };
 

@@ -160,8 +160,8 @@ void correct_first_touches(World *world) {
         write_touch(touches + number);
         touches[begun++] = touches[number];
     }
-    world->own->begun = touches;
-    world->own->begun_count = begun;
+    world->own->now.begun = touches;
+    world->own->now.begun_count = begun;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         if (arbiter->state == ARBITER_FIRST_COLLISION) {

@@ -121,11 +121,9 @@ typedef struct Under {
 static bool find_under(int number, void *data) {
     Under *under = data;
     const Body *conveyor = under->conveyors->list[number];
-    Rotation by = rotation(conveyor->scratch.begin.yaw);
-    Vec local = rotated_back(sub(under->body->scratch.begin.p, conveyor->scratch.begin.p), by);
-    const cpShape *shape = conveyor != under->body && number > under->last ? conveyor->engine->shapeList : NULL;
-    for (; shape != NULL; shape = shape->next) {
-        under->last = covers(shape, local) ? number : under->last;
+    bool may_be = conveyor != under->body && number > under->last;
+    if (may_be && body_covers(conveyor->engine, conveyor->scratch.begin, under->body->scratch.begin.p)) {
+        under->last = number;
     }
     return true;
 }
@@ -237,7 +235,7 @@ void apply_floor(World *world) {
     assert(robot == world->robots + world->robot_count && actor == world->actors + world->actor_count);
 }
 
-void find_pushes(World *world) {
+void find_floor_pushes(World *world) {
     if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
         return;
     }

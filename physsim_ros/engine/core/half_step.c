@@ -181,7 +181,7 @@ void find_free(World *world) {
 }
 
 void core_read_state(World *world, Motion *motions, uint8_t *free, uint8_t *unsupported) {
-    arena_reset(&world->own->arena);
+    reset_memory(world);
     uint8_t *flies = TAKE(&world->own->arena, uint8_t, world->body_count);
     uint8_t *falls = TAKE(&world->own->arena, uint8_t, world->body_count);
     find_start(world, flies, falls);
@@ -197,7 +197,7 @@ void core_read_state(World *world, Motion *motions, uint8_t *free, uint8_t *unsu
 }
 
 void core_observe(World *world, Pose *poses, Twist *twists) {
-    arena_reset(&world->own->arena);
+    reset_memory(world);
     uint8_t *flies = TAKE(&world->own->arena, uint8_t, world->body_count);
     find_start(world, flies, TAKE(&world->own->arena, uint8_t, world->body_count));
     for (int place = 0; place < world->body_count - 1; place++) {

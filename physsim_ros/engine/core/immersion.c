@@ -333,23 +333,28 @@ Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outline
         // A polygon has a side an edge. Each edge of a basin makes two arcs at most; for each end of a segment the
         // basin is clipped, to twice its edges at most.
         int edge_count = basin == NULL ? 0 : basin->count;
+        size_t mark = arena_mark(arena);
         wet.sides = TAKE(arena, Side, corner_count(shape));
         wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 8 * edge_count + 2);
         wet.side_count = wet.bow_count = 0;
         if (basin != NULL || body->hull_count == 0) {
             add_piece(&wet, shape, by, edges, arena);
         }
+        if (body->hull_count > 0) {
+            // Of its pieces only areas and moments count; the outline is that of the hull.
+            arena_release(arena, mark);
+            wet.sides = NULL;
+            wet.bows = NULL;
+            wet.side_count = wet.bow_count = 0;
+        }
     }
     if (basin == NULL) {
         wet.area = body->area;
         wet.moment = (Vec){0};
     }
-    if (body->hull_count > 0) {
-        wet.bow_count = wet.side_count = 0;
-        if (outlined) {
-            wet.sides = TAKE(arena, Side, body->hull_count);
-            add_sides(&wet, in_basin(hull_of(body, by, arena), edges, arena));
-        }
+    if (body->hull_count > 0 && outlined) {
+        wet.sides = TAKE(arena, Side, body->hull_count);
+        add_sides(&wet, in_basin(hull_of(body, by, arena), edges, arena));
     }
     return wet;
 }

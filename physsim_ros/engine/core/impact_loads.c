@@ -30,7 +30,6 @@ typedef struct Load {
 } Load;
 
 void bound_loads(World *world) {
-    world->own->load_count = 0;
     if (!has_stage(world, STAGE_LOADS)) {
         return;
     }
@@ -38,7 +37,7 @@ void bound_loads(World *world) {
     for (int number = 0; number < arbiter_count(world); number++) {
         points += arbiter_at(world, number)->count;
     }
-    world->own->loads = TAKE(&world->own->arena, Load, points);
+    world->own->now.loads = TAKE(&world->own->arena, Load, points);
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *each = arbiter_at(world, number);
         bool begins = each->state == ARBITER_FIRST_COLLISION;
@@ -46,15 +45,15 @@ void bound_loads(World *world) {
         for (int point = 0; point < each->count; point++) {
             cpContact *contact = each->contacts + point;
             double most = growth * greatest(contact->jnAcc, 0.0) + slowest_impact * contact->nMass;
-            assert(world->own->load_count < points);
-            world->own->loads[world->own->load_count++] = (Load){contact, begins ? least_load : most};
+            assert(world->own->now.load_count < points);
+            world->own->now.loads[world->own->now.load_count++] = (Load){contact, begins ? least_load : most};
         }
     }
 }
 
 void remove_impact_impulses(World *world) {
-    for (int number = 0; number < world->own->load_count; number++) {
-        const Load *load = world->own->loads + number;
+    for (int number = 0; number < world->own->now.load_count; number++) {
+        const Load *load = world->own->now.loads + number;
         if (load->contact->jnAcc > load->most) {
             load->contact->jtAcc *= load->most / load->contact->jnAcc;
             load->contact->jnAcc = load->most;

@@ -20,16 +20,16 @@
 // is as heavy as many of them, so that Chipmunk's iterations converge on it.
 enum { MOST_BEARINGS = 32 };
 
-typedef struct Touches {
+typedef struct Bearings {
     Bearing *list;
     int count;
-} Touches;
+} Bearings;
 
 static int compared(double a, double b) {
     return (a > b) - (a < b);
 }
 
-static int compare_touches(const void *one, const void *other) {
+static int compare_bearings(const void *one, const void *other) {
     const Bearing *a = one, *b = other;
     double keys[][2] = {{(double)a->a, (double)b->a},
                         {(double)a->b, (double)b->b},
@@ -46,24 +46,24 @@ static int compare_touches(const void *one, const void *other) {
     return 0;
 }
 
-static void add_bearings(World *world, Touches *touches, const cpArbiter *arbiter) {
+static void add_bearings(World *world, Bearings *bearings, const cpArbiter *arbiter) {
     Vec tangent = perpendicular(arbiter->n);
     bool begins = arbiter->state == ARBITER_FIRST_COLLISION;
     double remaining = begins ? remaining_time(body_of(arbiter->body_a), body_of(arbiter->body_b)) : 0.0;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
-        touches->list[touches->count++] = (Bearing){.point = point,
-                                                    .a = place_of(world, arbiter->body_a),
-                                                    .b = place_of(world, arbiter->body_b),
-                                                    .shapes = {arbiter->a->hashid, arbiter->b->hashid},
-                                                    .slop = slop_of(arbiter),
-                                                    .arm_a = point->r1,
-                                                    .arm_b = point->r2,
-                                                    .normal = arbiter->n,
-                                                    .friction = arbiter->u,
-                                                    .slide = dot(arbiter->surface_vr, tangent),
-                                                    .remaining = remaining,
-                                                    .rolling = rolling_arm(arbiter)};
+        bearings->list[bearings->count++] = (Bearing){.point = point,
+                                                      .a = place_of(world, arbiter->body_a),
+                                                      .b = place_of(world, arbiter->body_b),
+                                                      .shapes = {arbiter->a->hashid, arbiter->b->hashid},
+                                                      .slop = slop_of(arbiter),
+                                                      .arm_a = point->r1,
+                                                      .arm_b = point->r2,
+                                                      .normal = arbiter->n,
+                                                      .friction = arbiter->u,
+                                                      .slide = dot(arbiter->surface_vr, tangent),
+                                                      .remaining = remaining,
+                                                      .rolling = rolling_arm(arbiter)};
     }
 }
 
@@ -105,26 +105,26 @@ static Members members_of(World *world) {
     return members;
 }
 
-static Touches touches_of_jointed(World *world) {
+static Bearings bearings_of_jointed(World *world) {
     Members members = members_of(world);
     int most = 0;
     for (int number = 0; number < members.count; number++) {
         most += point_count(world->bodies[members.places[number]].engine, INT32_MAX);
     }
-    Touches touches = {.list = TAKE(&world->own->arena, Bearing, most)};
+    Bearings bearings = {.list = TAKE(&world->own->arena, Bearing, most)};
     for (int number = 0; number < members.count; number++) {
         const cpBody *body = world->bodies[members.places[number]].engine;
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             // Each is in the lists of both its bodies.
             if (each->body_a == body || !members.marks[place_of(world, each->body_a)]) {
-                add_bearings(world, &touches, each);
+                add_bearings(world, &bearings, each);
             }
         }
     }
-    assert(touches.count <= most);
-    sort(touches.list, touches.count, sizeof(Bearing), compare_touches);
-    world->own->bearers = members.marks;
-    return touches;
+    assert(bearings.count <= most);
+    sort(bearings.list, bearings.count, sizeof(Bearing), compare_bearings);
+    world->own->now.bearers = members.marks;
+    return bearings;
 }
 
 static void unite_dynamic(const World *world, int *parents, int a, int b) {
@@ -163,7 +163,7 @@ static int island_of(const World *world, int *parents, const int *numbers, int a
 }
 
 // Return the islands, with their joints and contacts, in the order of their first joints.
-static Islands split(World *world, Touches touches) {
+static Islands split(World *world, Bearings bearings) {
     Arena *arena = &world->own->arena;
     int *parents = sets_of(world), *numbers = TAKE(arena, int, world->body_count);
     for (int number = 0; number < world->joint_count; number++) {
@@ -173,8 +173,8 @@ static Islands split(World *world, Touches touches) {
             unite_guides(world, parents, joint);
         }
     }
-    for (int number = 0; number < touches.count; number++) {
-        unite_dynamic(world, parents, touches.list[number].a, touches.list[number].b);
+    for (int number = 0; number < bearings.count; number++) {
+        unite_dynamic(world, parents, bearings.list[number].a, bearings.list[number].b);
     }
     Islands found = {.islands = TAKE(arena, Island, world->own->jointed_count)};
     for (int number = 0; number < world->joint_count; number++) {
@@ -189,18 +189,18 @@ static Islands split(World *world, Touches touches) {
             found.islands[numbers[root] - 1].joint_row_count += joint->row_count;
         }
     }
-    for (int number = 0; number < touches.count; number++) {
-        Bearing touch = touches.list[number];
-        Island *island = found.islands + island_of(world, parents, numbers, touch.a, touch.b);
-        island->touch_count++;
-        island->joint_row_count += touch.rolling > 0.0;
+    for (int number = 0; number < bearings.count; number++) {
+        Bearing bearing = bearings.list[number];
+        Island *island = found.islands + island_of(world, parents, numbers, bearing.a, bearing.b);
+        island->bearing_count++;
+        island->joint_row_count += bearing.rolling > 0.0;
     }
     for (int number = 0; number < found.count; number++) {
         Island *island = found.islands + number;
-        island->row_count = island->joint_row_count + 2 * island->touch_count;
-        island->joints = TAKE(arena, const Joint *, island->joint_count + island->touch_count);
-        island->touches = TAKE(arena, Bearing, island->touch_count);
-        island->joint_count = island->touch_count = 0;
+        island->row_count = island->joint_row_count + 2 * island->bearing_count;
+        island->joints = TAKE(arena, const Joint *, island->joint_count + island->bearing_count);
+        island->bearings = TAKE(arena, Bearing, island->bearing_count);
+        island->joint_count = island->bearing_count = 0;
     }
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
@@ -210,10 +210,10 @@ static Islands split(World *world, Touches touches) {
             island->joints[island->joint_count++] = joint;
         }
     }
-    for (int number = 0; number < touches.count; number++) {
-        Bearing touch = touches.list[number];
-        Island *island = found.islands + island_of(world, parents, numbers, touch.a, touch.b);
-        island->touches[island->touch_count++] = touch;
+    for (int number = 0; number < bearings.count; number++) {
+        Bearing bearing = bearings.list[number];
+        Island *island = found.islands + island_of(world, parents, numbers, bearing.a, bearing.b);
+        island->bearings[island->bearing_count++] = bearing;
     }
     return found;
 }
@@ -273,14 +273,14 @@ static void take_impulse(const World *world, Island *island, int row) {
 }
 
 // Add the row of the rolling resistance of a contact, as that of a bearing with friction: `rolling.c` has its law.
-static void add_roll(World *world, Island *island, int row, int joint, Bearing *touch) {
+static void add_roll(World *world, Island *island, int row, int joint, Bearing *bearing) {
     Arena *arena = &world->own->arena;
     Joint *of_row = TAKE(arena, Joint, 1);
     of_row->ratio = 1.0;
-    touch->roll = TAKE(arena, Row, 1);
-    *touch->roll = (Row){.kind = ROW_ANGLE, .law = LAW_FRICTION, .below = 1.0, .above = 1.0};
+    bearing->roll = TAKE(arena, Row, 1);
+    *bearing->roll = (Row){.kind = ROW_ANGLE, .law = LAW_FRICTION, .below = 1.0, .above = 1.0};
     island->joints[joint] = of_row;
-    island->rows[row] = touch->roll;
+    island->rows[row] = bearing->roll;
     island->joint_of_row[row] = joint;
     island->impulses[row] = TAKE(arena, double, 1);
     island->closing[row] = TAKE(arena, double, 1);
@@ -320,24 +320,24 @@ static void lay_out(World *world, Island *island, int *numbers) {
             island->groups[row] = group;
         }
     }
-    for (int number = 0, joint = island->joint_count; number < island->touch_count; number++) {
-        Bearing *touch = island->touches + number;
-        if (touch->rolling > 0.0) {
-            add_roll(world, island, row, joint++, touch);
-            island->ends[row] = (Ends){number_in(world, island, numbers, places, touch->a),
-                                       number_in(world, island, numbers, places, touch->b)};
+    for (int number = 0, joint = island->joint_count; number < island->bearing_count; number++) {
+        Bearing *bearing = island->bearings + number;
+        if (bearing->rolling > 0.0) {
+            add_roll(world, island, row, joint++, bearing);
+            island->ends[row] = (Ends){number_in(world, island, numbers, places, bearing->a),
+                                       number_in(world, island, numbers, places, bearing->b)};
             island->further[row] = link;
             island->groups[row++] = group++;
         }
     }
     for (int side = 0; side < 2; side++) {
-        for (int number = 0; number < island->touch_count; number++, row++) {
-            const Bearing *touch = island->touches + number;
-            bool same = number > 0 && touch->a == touch[-1].a && touch->b == touch[-1].b;
+        for (int number = 0; number < island->bearing_count; number++, row++) {
+            const Bearing *bearing = island->bearings + number;
+            bool same = number > 0 && bearing->a == bearing[-1].a && bearing->b == bearing[-1].b;
             group += same ? 0 : 1;
-            island->last[row] = side == 0 ? touch->point->jnAcc : touch->point->jtAcc;
-            island->ends[row] = (Ends){number_in(world, island, numbers, places, touch->a),
-                                       number_in(world, island, numbers, places, touch->b)};
+            island->last[row] = side == 0 ? bearing->point->jnAcc : bearing->point->jtAcc;
+            island->ends[row] = (Ends){number_in(world, island, numbers, places, bearing->a),
+                                       number_in(world, island, numbers, places, bearing->b)};
             island->further[row] = link;
             island->groups[row] = group;
         }
@@ -353,7 +353,7 @@ Islands joint_islands(World *world) {
     if (world->own->jointed_count == 0) {
         return (Islands){0};
     }
-    Islands found = split(world, touches_of_jointed(world));
+    Islands found = split(world, bearings_of_jointed(world));
     int *numbers = TAKE(&world->own->arena, int, world->body_count);
     for (int number = 0; number < found.count; number++) {
         lay_out(world, found.islands + number, numbers);

@@ -30,14 +30,14 @@ typedef struct Turn {
 
 // The rows of an island: those of joints and of rolling resistance, then normals of contacts, then tangents.
 typedef struct Island {
-    int joint_count, joint_row_count, touch_count, body_count, row_count;
+    int joint_count, joint_row_count, bearing_count, body_count, row_count;
     const Joint **joints; // then one for each row of rolling resistance
     const Row **rows;     // (joint_row_count)
     int *joint_of_row;
     double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
     double *last;      // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]
     double **closing;  // (joint_row_count): where those of the positions are stored [N s, N m s]
-    Bearing *touches;
+    Bearing *bearings;
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
     bool *jointed;   // (body_count)
     Inverse *inverses;

@@ -70,9 +70,9 @@ static Twist displacement(Pose from, Pose to) {
 static void take_pushes(Solve *solve) {
     const Island *island = solve->island;
     Twist *momenta = TAKE(solve->arena, Twist, island->body_count);
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         int row = island->joint_row_count + number;
-        add_momenta(solve->jacobians[row], island->ends[row], island->touches[number].point->jBias, momenta);
+        add_momenta(solve->jacobians[row], island->ends[row], island->bearings[number].point->jBias, momenta);
     }
     for (int body = 0; body < island->body_count; body++) {
         Inverse inverse = island->inverses[body];
@@ -102,8 +102,8 @@ static Displacement begin_displacement(Solve *solve) {
                          .jacobians = TAKE(arena, Jacobian, solve->system.link_count),
                          .gaps = TAKE(arena, double, island->joint_row_count),
                          .deferred = TAKE(arena, double, island->joint_row_count),
-                         .apart = TAKE(arena, double, island->touch_count),
-                         .distances = TAKE(arena, double, island->touch_count),
+                         .apart = TAKE(arena, double, island->bearing_count),
+                         .distances = TAKE(arena, double, island->bearing_count),
                          .impulses = TAKE(arena, double, island->row_count),
                          .guess = TAKE(arena, double, island->row_count)};
     memcpy(move.start, solve->poses, (size_t)island->body_count * sizeof(Pose));
@@ -118,11 +118,11 @@ static Displacement begin_displacement(Solve *solve) {
     }
     // Of an overlap Chipmunk's share of a step is pushed out; nothing gets deeper.
     double stays = pow(space->collisionBias, solve->dt);
-    for (int number = 0; number < island->touch_count; number++) {
-        const Bearing *touch = island->touches + number;
+    for (int number = 0; number < island->bearing_count; number++) {
+        const Bearing *bearing = island->bearings + number;
         Ends ends = island->ends[island->joint_row_count + number];
-        Vec a = add(move.start[ends.a].p, touch->arm_a), b = add(move.start[ends.b].p, touch->arm_b);
-        double apart = dot(sub(b, a), touch->normal) + touch->slop;
+        Vec a = add(move.start[ends.a].p, bearing->arm_a), b = add(move.start[ends.b].p, bearing->arm_b);
+        double apart = dot(sub(b, a), bearing->normal) + bearing->slop;
         move.apart[number] = apart - least(apart, 0.0) * stays;
         move.guess[island->joint_row_count + number] = -move.apart[number];
     }
@@ -138,7 +138,7 @@ static void measure_gaps(const Solve *solve, Displacement *move) {
         move->sum += fabs(move->gaps[row]);
         move->widest = greatest(move->widest, fabs(move->gaps[row]));
     }
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         int row = island->joint_row_count + number;
         Ends ends = island->ends[row];
         Twist displacements[2] = {displacement(move->start[ends.a], solve->poses[ends.a]),
@@ -162,7 +162,7 @@ static void keep_better(const Solve *solve, const Displacement *move, Best *best
 static Solution newton_step(Solve *solve, const Displacement *move) {
     const Island *island = solve->island;
     Arena *arena = solve->arena;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double *wanted = TAKE(arena, double, island->row_count), *soft = TAKE(arena, double, island->row_count);
     double *lower = TAKE(arena, double, island->row_count), *upper = TAKE(arena, double, island->row_count);
     Solution solution = solution_for(&solve->system, arena);
@@ -225,10 +225,10 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
         double sign = sign_of(island->rows[row], move->excess[row]);
         *island->closing[row] = impulses[row] * share / solve->dt / sign;
     }
-    for (int number = 0; number < island->touch_count; number++) {
-        Bearing *touch = island->touches + number;
-        touch->closing = impulses[island->joint_row_count + number] * share / solve->dt;
-        touch->point->jnAcc += touch->closing;
+    for (int number = 0; number < island->bearing_count; number++) {
+        Bearing *bearing = island->bearings + number;
+        bearing->closing = impulses[island->joint_row_count + number] * share / solve->dt;
+        bearing->point->jnAcc += bearing->closing;
     }
 }
 
@@ -281,6 +281,10 @@ void solve_positions(Solve *solve) {
     bool has_steps = false;
     for (int number = 0; number <= MOST_STEPS; number++) {
         measure_gaps(solve, &move);
+        if (number == 0) {
+            // Where no sum is a number, bodies stay.
+            memcpy(best.poses, solve->poses, (size_t)island->body_count * sizeof(Pose));
+        }
         if (number > 0 && move.widest <= closed) {
             best.sum = INFINITY;
         }

@@ -4,7 +4,7 @@
 #ifndef PHYSSIM_JOINT_POSITIONS_H
 #define PHYSSIM_JOINT_POSITIONS_H
 
-#include "joint_solve.h"
+#include "island_solve.h"
 
 // Solve the positions of an island.
 void solve_positions(Solve *solve);

@@ -95,13 +95,13 @@ static Vec pull_of(const World *world, const Joint *joint, const Part *part, Vec
     return is_linear(part) ? scaled(impulse, reported_share(a, b, impulse)) : impulse;
 }
 
-void clear_totals(World *world) {
+void clear_joint_reports(World *world) {
     for (int number = 0; number < world->part_count; number++) {
         world->parts[number].total = vec(0.0, 0.0);
     }
 }
 
-void add_impulses(World *world) {
+void report_joint_impulses(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
         for (Part *part = world->parts + joint->first_part, *end = part + joint->part_count; part < end; part++) {
@@ -111,7 +111,7 @@ void add_impulses(World *world) {
     }
 }
 
-void add_closings(World *world) {
+void report_joint_closings(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
         for (Part *part = world->parts + joint->first_part, *end = part + joint->part_count; part < end; part++) {
@@ -163,7 +163,7 @@ static double apart_by(const World *world, const Joint *joint) {
     return most;
 }
 
-void find_gaps(World *world) {
+void measure_drawn_joints(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         Joint *joint = world->joints + number;
         double apart = joint->unstepped ? apart_by(world, joint) : 0.0;

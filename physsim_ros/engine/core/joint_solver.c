@@ -63,8 +63,8 @@ static void correct_island(World *world, Solve *solve) {
 
 void find_joint_islands(World *world) {
     if (has_stage(world, STAGE_JOINTS)) {
-        world->own->joint_islands = TAKE(&world->own->arena, Islands, 1);
-        *world->own->joint_islands = joint_islands(world);
+        world->own->now.joint_islands = TAKE(&world->own->arena, Islands, 1);
+        *world->own->now.joint_islands = joint_islands(world);
     }
 }
 
@@ -96,7 +96,7 @@ void solve_joints(World *world) {
         return;
     }
     Private *own = world->own;
-    Islands *found = own->joint_islands;
+    Islands *found = own->now.joint_islands;
     if (!have_systems(own, found)) {
         make_systems(own, found);
     }
@@ -104,22 +104,22 @@ void solve_joints(World *world) {
     for (int number = 0; number < found->count; number++) {
         const Island *island = found->islands + number;
         begin_system(own->systems + number, island->inverses);
-        found->solves[number] = joint_solve(world, island, own->systems + number);
+        found->solves[number] = island_solve(world, island, own->systems + number);
         solve_velocities(found->solves + number);
     }
 }
 
 void correct_joint_positions(World *world) {
-    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->joint_islands->count; number++) {
-        correct_island(world, world->own->joint_islands->solves + number);
+    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->now.joint_islands->count; number++) {
+        correct_island(world, world->own->now.joint_islands->solves + number);
     }
 }
 
 void remove_closing_impulses(World *world) {
-    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->joint_islands->count; number++) {
-        const Island *island = world->own->joint_islands->islands + number;
-        for (const Bearing *touch = island->touches; touch < island->touches + island->touch_count; touch++) {
-            touch->point->jnAcc -= touch->closing;
+    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->now.joint_islands->count; number++) {
+        const Island *island = world->own->now.joint_islands->islands + number;
+        for (const Bearing *bearing = island->bearings; bearing < island->bearings + island->bearing_count; bearing++) {
+            bearing->point->jnAcc -= bearing->closing;
         }
     }
 }

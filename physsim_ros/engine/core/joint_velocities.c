@@ -100,13 +100,13 @@ static Jacobian edge_jacobian(Jacobian normal, Jacobian tangent, double share) {
 // Velocities without the impulses that Chipmunk gave to the rows.
 static void take_back(const Solve *solve, Twist *without) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     for (int row = 0; row < normal; row++) {
         double impulse = *island->impulses[row] * sign_of(island->rows[row], solve->excess[row]);
         add_row_momenta(&solve->system, solve->jacobians, row, -impulse, without);
     }
-    for (int number = 0; number < island->touch_count; number++) {
-        const cpContact *point = island->touches[number].point;
+    for (int number = 0; number < island->bearing_count; number++) {
+        const cpContact *point = island->bearings[number].point;
         Ends ends = island->ends[normal + number];
         add_momenta(solve->jacobians[normal + number], ends, -point->jnAcc, without);
         add_momenta(solve->jacobians[tangent + number], ends, -point->jtAcc, without);
@@ -121,14 +121,14 @@ static void take_back(const Solve *solve, Twist *without) {
 // λ of the step before.
 static double *last_impulses(const Solve *solve) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double *last = TAKE(solve->arena, double, island->row_count);
     for (int row = 0; row < normal; row++) {
         last[row] = island->last[row] * sign_of(island->rows[row], solve->excess[row]);
     }
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         double along = island->last[normal + number], across = island->last[tangent + number];
-        Edges edges = edges_of(island->touches[number].friction, along, across);
+        Edges edges = edges_of(island->bearings[number].friction, along, across);
         last[normal + number] = edges.left;
         last[tangent + number] = edges.right;
     }
@@ -150,28 +150,28 @@ static void begin_joints(const Solve *solve, VelocityRows *rows, double *soft) {
 // it is found.
 static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft, double *prior, const Twist *without) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
-    for (int number = 0; number < island->touch_count; number++) {
-        const Bearing *touch = island->touches + number;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
+    for (int number = 0; number < island->bearing_count; number++) {
+        const Bearing *bearing = island->bearings + number;
         int left = normal + number, right = tangent + number;
         Ends ends = island->ends[left];
         Jacobian along = solve->jacobians[left], across = solve->jacobians[right];
-        rows->jacobians[left] = edge_jacobian(along, across, touch->friction);
-        rows->jacobians[right] = edge_jacobian(along, across, -touch->friction);
-        rows->upper[left] = is_deferred(touch->point) ? 0.0 : INFINITY;
-        rows->upper[right] = touch->friction > 0.0 ? rows->upper[left] : 0.0;
+        rows->jacobians[left] = edge_jacobian(along, across, bearing->friction);
+        rows->jacobians[right] = edge_jacobian(along, across, -bearing->friction);
+        rows->upper[left] = is_deferred(bearing->point) ? 0.0 : INFINITY;
+        rows->upper[right] = bearing->friction > 0.0 ? rows->upper[left] : 0.0;
         soft[left] = soft[right] = contact_softness;
         prior[left] = rows->last[left];
         prior[right] = rows->last[right];
-        rows->free_slips[number] = rate(across, ends, without) + touch->slide;
+        rows->free_slips[number] = rate(across, ends, without) + bearing->slide;
         Twist begun[] = {body_of(island->engine[ends.a])->scratch.twist,
                          body_of(island->engine[ends.b])->scratch.twist};
         // Restitution is of approaches. Chipmunk permits bodies that part to approach by e times that velocity, so that
         // an elastic contact under a load trembles.
-        rows->bounce[number] = greatest(-touch->point->bounce, 0.0);
+        rows->bounce[number] = greatest(-bearing->point->bounce, 0.0);
         double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
-        double stopped = unit * touch->friction * (prior[left] + prior[right]);
-        rows->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
+        double stopped = unit * bearing->friction * (prior[left] + prior[right]);
+        rows->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + bearing->slide) - stopped, 0.0);
     }
 }
 
@@ -184,9 +184,9 @@ static VelocityRows velocity_rows(Solve *solve, const Twist *without) {
                          .upper = TAKE(arena, double, island->row_count),
                          .rates = TAKE(arena, double, island->row_count),
                          .last = last_impulses(solve),
-                         .bounce = TAKE(arena, double, island->touch_count),
-                         .free_slips = TAKE(arena, double, island->touch_count),
-                         .slips = TAKE(arena, double, island->touch_count)};
+                         .bounce = TAKE(arena, double, island->bearing_count),
+                         .free_slips = TAKE(arena, double, island->bearing_count),
+                         .slips = TAKE(arena, double, island->bearing_count)};
     double *soft = TAKE(arena, double, island->row_count), *prior = TAKE(arena, double, island->row_count);
     begin_joints(solve, &rows, soft);
     begin_contacts(solve, &rows, soft, prior, without);
@@ -200,16 +200,16 @@ static VelocityRows velocity_rows(Solve *solve, const Twist *without) {
 // Aim at the targets of joints, and at those of contacts that slide by `slips`.
 static void set_targets(const Solve *solve, VelocityRows *rows, const double *bounce) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     for (int row = 0; row < normal; row++) {
         const Row *of_joint = island->rows[row];
         double pull = solve->springs[row] ? of_joint->stiffness * solve->excess[row] / damping_of(solve, row) : 0.0;
         rows->wanted[row] = bound_rate(of_joint) - pull - rows->rates[row];
     }
-    for (int number = 0; number < island->touch_count; number++) {
-        const Bearing *touch = island->touches + number;
-        double least_rate = bounce[number] - touch->friction * rows->slips[number];
-        double slide = touch->friction * touch->slide;
+    for (int number = 0; number < island->bearing_count; number++) {
+        const Bearing *bearing = island->bearings + number;
+        double least_rate = bounce[number] - bearing->friction * rows->slips[number];
+        double slide = bearing->friction * bearing->slide;
         rows->wanted[normal + number] = least_rate - slide - rows->rates[normal + number];
         rows->wanted[tangent + number] = least_rate + slide - rows->rates[tangent + number];
     }
@@ -218,9 +218,9 @@ static void set_targets(const Solve *solve, VelocityRows *rows, const double *bo
 // Take slips from a solution; return whether targets change by it.
 static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
-    int tangent = island->joint_row_count + island->touch_count;
+    int tangent = island->joint_row_count + island->bearing_count;
     bool changed = false;
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         Ends ends = island->ends[tangent + number];
         double change = rate(solve->jacobians[tangent + number], ends, solution->changes);
         double slip = fabs(rows->free_slips[number] + change);
@@ -235,14 +235,14 @@ static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution 
 // a body that rattles on a machine touches it in every other step.
 static void guess_sides(const Solve *solve, const VelocityRows *rows, int8_t *sides) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     for (int row = 0; row < normal; row++) {
         sides[row] = side_by_guess(rows->last[row], rows->lower[row], rows->upper[row]);
     }
-    for (int number = 0; number < island->touch_count; number++) {
-        const Bearing *touch = island->touches + number;
+    for (int number = 0; number < island->bearing_count; number++) {
+        const Bearing *bearing = island->bearings + number;
         int left = normal + number, right = tangent + number;
-        Edges edges = edges_of(touch->friction, touch->point->jnAcc, touch->point->jtAcc);
+        Edges edges = edges_of(bearing->friction, bearing->point->jnAcc, bearing->point->jtAcc);
         sides[left] = side_by_guess(edges.left, rows->lower[left], rows->upper[left]);
         sides[right] = side_by_guess(edges.right, rows->lower[right], rows->upper[right]);
     }
@@ -258,7 +258,7 @@ static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double
         set_targets(solve, rows, bounce);
         solve_again(&solve->system, &rows->problem, &solution, solve->arena);
     }
-    for (int number = 0; number < (solve->island->touch_count > 0 ? REFINEMENTS : 0); number++) {
+    for (int number = 0; number < (solve->island->bearing_count > 0 ? REFINEMENTS : 0); number++) {
         refine(&solve->system, &rows->problem, &solution, solve->arena);
     }
     return solution;
@@ -270,7 +270,7 @@ static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double
 // Chipmunk measures the approach before gravity and springs act on it, so that it may have been as fast as `bounce`.
 static double work_of(const Solve *solve, const VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double work = 0.0;
     for (int row = 0; row < normal; row++) {
         double before = rows->rates[row];
@@ -279,9 +279,9 @@ static double work_of(const Solve *solve, const VelocityRows *rows, const Soluti
         bool bounds = island->rows[row]->law == LAW_BOUNDS;
         work += bounds ? solution->impulses[row] * (before + after) / 2.0 : 0.0;
     }
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         int left = normal + number, right = tangent + number;
-        double friction = island->touches[number].friction;
+        double friction = island->bearings[number].friction;
         double along = solution->impulses[left] + solution->impulses[right];
         double across = friction * (solution->impulses[left] - solution->impulses[right]);
         double before = (rows->rates[left] + rows->rates[right]) / 2.0;
@@ -324,7 +324,7 @@ static void mix(const Solve *solve, VelocityRows *rows, Solution *elastic, const
 
 // Whether a contact is an impact after which its bodies part.
 static bool bounces_off(const Island *island, const VelocityRows *rows, int number) {
-    return island->touches[number].remaining > 0.0 && rows->bounce[number] > 0.0;
+    return island->bearings[number].remaining > 0.0 && rows->bounce[number] > 0.0;
 }
 
 // Whether a row is driven by a force that has a bound.
@@ -335,7 +335,7 @@ static bool is_bounded_drive(const Row *row) {
 // Whether there are both impacts and bounded drives.
 static bool is_driven_in_impact(const Island *island, const VelocityRows *rows) {
     bool bounces = false, driven = false;
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         bounces = bounces || bounces_off(island, rows, number);
     }
     for (int row = 0; row < island->joint_row_count; row++) {
@@ -348,10 +348,10 @@ static bool is_driven_in_impact(const Island *island, const VelocityRows *rows) 
 static VelocityRows copy_of(const Solve *solve, const VelocityRows *rows) {
     const Island *island = solve->island;
     VelocityRows copy = *rows;
-    copy.slips = TAKE(solve->arena, double, island->touch_count);
+    copy.slips = TAKE(solve->arena, double, island->bearing_count);
     copy.lower = TAKE(solve->arena, double, island->row_count);
     copy.upper = TAKE(solve->arena, double, island->row_count);
-    memcpy(copy.slips, rows->slips, (size_t)island->touch_count * sizeof(double));
+    memcpy(copy.slips, rows->slips, (size_t)island->bearing_count * sizeof(double));
     memcpy(copy.lower, rows->lower, (size_t)island->row_count * sizeof(double));
     memcpy(copy.upper, rows->upper, (size_t)island->row_count * sizeof(double));
     copy.problem.lower = copy.lower;
@@ -366,7 +366,7 @@ static VelocityRows copy_of(const Solve *solve, const VelocityRows *rows) {
 // impulses. A light finger that a motor presses on a body would bounce without end.
 static void press_on(Solve *solve, VelocityRows *rows) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     if (!is_driven_in_impact(island, rows)) {
         return;
     }
@@ -377,7 +377,7 @@ static void press_on(Solve *solve, VelocityRows *rows) {
         }
     }
     Solution impact = solve_with_bounce(solve, &hit, rows->bounce);
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         if (bounces_off(island, rows, number)) {
             int left = normal + number, right = tangent + number;
             after.lower[left] = after.upper[left] = impact.impulses[left];
@@ -385,12 +385,12 @@ static void press_on(Solve *solve, VelocityRows *rows) {
         }
     }
     Solution pressed = solve_with_bounce(solve, &after, rows->bounce);
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         if (bounces_off(island, rows, number)) {
             Jacobian jacobian = solve->jacobians[normal + number];
             Ends ends = island->ends[normal + number];
             double gained = rate(jacobian, ends, pressed.changes) - rate(jacobian, ends, impact.changes);
-            double share = island->touches[number].remaining / solve->dt + 0.5;
+            double share = island->bearings[number].remaining / solve->dt + 0.5;
             rows->bounce[number] = greatest(rows->bounce[number] + gained * share, 0.0);
         }
     }
@@ -401,8 +401,8 @@ static Solution solve_bounces(Solve *solve, VelocityRows *rows) {
     press_on(solve, rows);
     Solution solution = solve_with_bounce(solve, rows, rows->bounce);
     bool bounces = false;
-    double *none = TAKE(solve->arena, double, solve->island->touch_count);
-    for (int number = 0; number < solve->island->touch_count; number++) {
+    double *none = TAKE(solve->arena, double, solve->island->bearing_count);
+    for (int number = 0; number < solve->island->bearing_count; number++) {
         bounces = bounces || rows->bounce[number] > 0.0;
     }
     double gained = bounces ? work_of(solve, rows, &solution) : 0.0;
@@ -467,11 +467,11 @@ static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *ve
 static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solution *solution,
                               const Twist *velocities) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double *wanted = TAKE(solve->arena, double, island->row_count);
     bool late = false;
-    for (int number = 0; number < island->touch_count; number++) {
-        double remaining = island->touches[number].remaining;
+    for (int number = 0; number < island->bearing_count; number++) {
+        double remaining = island->bearings[number].remaining;
         Ends ends = island->ends[normal + number];
         Twist displacements[] = {
             displacement_gained(body_of(island->engine[ends.a]), velocities[ends.a], remaining, solve->dt),
@@ -490,14 +490,14 @@ static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solu
 
 static void write_impulses(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     for (int row = 0; row < normal; row++) {
         *island->impulses[row] = solution->impulses[row] / sign_of(island->rows[row], solve->excess[row]);
     }
-    for (int number = 0; number < island->touch_count; number++) {
+    for (int number = 0; number < island->bearing_count; number++) {
         double left = solution->impulses[normal + number], right = solution->impulses[tangent + number];
-        island->touches[number].point->jnAcc = left + right;
-        island->touches[number].point->jtAcc = island->touches[number].friction * (left - right);
+        island->bearings[number].point->jnAcc = left + right;
+        island->bearings[number].point->jtAcc = island->bearings[number].friction * (left - right);
     }
 }
 

@@ -4,7 +4,7 @@
 #ifndef PHYSSIM_JOINT_VELOCITIES_H
 #define PHYSSIM_JOINT_VELOCITIES_H
 
-#include "joint_solve.h"
+#include "island_solve.h"
 
 // Solve the velocities of an island.
 void solve_velocities(Solve *solve);

@@ -39,19 +39,19 @@ static bool has_load(const cpArbiter *arbiter) {
 
 void find_loaded(World *world) {
     int count = world->own->has_one_way ? arbiter_count(world) : 0;
-    world->own->loaded = TAKE(&world->own->arena, Pair, count);
-    world->own->loaded_count = 0;
+    world->own->now.loaded = TAKE(&world->own->arena, Pair, count);
+    world->own->now.loaded_count = 0;
     for (int number = 0; number < count; number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         if (is_of_one_way(arbiter) && has_load(arbiter)) {
-            world->own->loaded[world->own->loaded_count++] = pair_of(arbiter->a->hashid, arbiter->b->hashid);
+            world->own->now.loaded[world->own->now.loaded_count++] = pair_of(arbiter->a->hashid, arbiter->b->hashid);
         }
     }
-    sort_pairs(world->own->loaded, world->own->loaded_count);
+    sort_pairs(world->own->now.loaded, world->own->now.loaded_count);
 }
 
 bool was_loaded(const World *world, const cpShape *a, const cpShape *b) {
-    return has_pair(world->own->loaded, world->own->loaded_count, pair_of(a->hashid, b->hashid));
+    return has_pair(world->own->now.loaded, world->own->now.loaded_count, pair_of(a->hashid, b->hashid));
 }
 
 // How far a normal leads in the direction in which others pass a body; 1 is along it.
@@ -100,15 +100,15 @@ static bool is_where_bodies_pass(const World *world, const cpArbiter *arbiter) {
 void find_passing(World *world) {
     Private *own = world->own;
     int count = own->has_one_way ? arbiter_count(world) : 0;
-    own->passing = TAKE(&own->arena, Pair, count);
-    own->passing_count = 0;
+    own->now.passing = TAKE(&own->arena, Pair, count);
+    own->now.passing_count = 0;
     for (int number = 0; number < count; number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         if (is_of_one_way(arbiter) && !carries_load(world, arbiter) && is_where_bodies_pass(world, arbiter)) {
-            own->passing[own->passing_count++] = bodies_of(world, arbiter);
+            own->now.passing[own->now.passing_count++] = bodies_of(world, arbiter);
         }
     }
-    sort_pairs(own->passing, own->passing_count);
+    sort_pairs(own->now.passing, own->now.passing_count);
 }
 
 bool passes(const World *world, const cpArbiter *arbiter) {
@@ -116,6 +116,6 @@ bool passes(const World *world, const cpArbiter *arbiter) {
     if (!own->has_one_way || !is_of_one_way(arbiter)) {
         return false;
     }
-    return !are_closed_at(arbiter) ||
-           (!carries_load(world, arbiter) && has_pair(own->passing, own->passing_count, bodies_of(world, arbiter)));
+    return !are_closed_at(arbiter) || (!carries_load(world, arbiter) &&
+                                       has_pair(own->now.passing, own->now.passing_count, bodies_of(world, arbiter)));
 }

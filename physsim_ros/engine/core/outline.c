@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "outline.h"
+#include <stddef.h>
 
 Corner corner_in_world(const cpShape *shape, int number) {
     switch (kind_of(shape)) {
@@ -54,4 +55,14 @@ bool covers(const cpShape *shape, Vec point) {
         }
     }
     return true;
+}
+
+bool body_covers(const cpBody *body, Pose pose, Vec point) {
+    Vec local = rotated_back(sub(point, pose.p), rotation(pose.yaw));
+    for (const cpShape *shape = body->shapeList; shape != NULL; shape = shape->next) {
+        if (covers(shape, local)) {
+            return true;
+        }
+    }
+    return false;
 }

@@ -53,4 +53,7 @@ Corner corner_on_body(const cpShape *shape, int number);
 // Whether a point of the frame of the body lies in a shape, edge included.
 bool covers(const cpShape *shape, Vec point);
 
+// Whether a point of the world lies in a shape of a body at a pose, edge included.
+bool body_covers(const cpBody *body, Pose pose, Vec point);
+
 #endif

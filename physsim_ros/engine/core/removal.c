@@ -22,7 +22,7 @@ typedef struct Removal {
 } Removal;
 
 static int by_address(const void *one, const void *other) {
-    uintptr_t x = (uintptr_t)*(cpBody *const *)one, y = (uintptr_t)*(cpBody *const *)other;
+    uintptr_t x = (uintptr_t) * (cpBody *const *)one, y = (uintptr_t) * (cpBody *const *)other;
     return (x > y) - (x < y);
 }
 
@@ -82,11 +82,12 @@ static void remove_shapes(World *world, cpBody **bodies, int count, const cpShap
 
 void core_remove_shapes(World *world, cpBody **bodies, int32_t count) {
     cpSpace *space = world->space;
-    arena_reset(&world->own->arena);
+    reset_memory(world);
     Removal removal = {TAKE(&world->own->arena, cpBody *, count), count, bodies[0]->shapeList};
     for (int number = 0; number < count; number++) {
         removal.bodies[number] = bodies[number];
     }
+    assert(count > 0 && removal.last != NULL);
     sort((void *)removal.bodies, count, sizeof(cpBody *), by_address);
     for (int number = 0; number < count; number++) {
         release_around(world, bodies[number]);

@@ -93,8 +93,8 @@ void time_impacts(World *world) {
     if (!has_stage(world, STAGE_REST_OF_STEP)) {
         return;
     }
-    for (int number = 0; number < world->own->begun_count; number++) {
-        const Touch *touch = world->own->begun + number;
+    for (int number = 0; number < world->own->now.begun_count; number++) {
+        const Touch *touch = world->own->now.begun + number;
         double approach = approach_of(touch->arbiter);
         if (approach <= slowest_impact) {
             continue;

@@ -40,8 +40,8 @@ double rolling_arm(const cpArbiter *arbiter) {
 static void resist(cpConstraint *hook, double dt) {
     (void)dt;
     const World *world = hook->userData;
-    for (int number = 0; number < world->own->roll_count; number++) {
-        Roll *roll = world->own->rolls + number;
+    for (int number = 0; number < world->own->now.roll_count; number++) {
+        Roll *roll = world->own->now.rolls + number;
         const cpArbiter *arbiter = roll->arbiter;
         double load = 0.0;
         for (int point = 0; point < arbiter->count; point++) {
@@ -57,20 +57,20 @@ static void resist(cpConstraint *hook, double dt) {
 
 // Whether the joint solver has the row of a contact.
 static bool has_joint_row(const World *world, const cpArbiter *arbiter) {
-    const bool *bearers = world->own->bearers;
+    const bool *bearers = world->own->now.bearers;
     return bearers != NULL && (bearers[place_of(world, arbiter->body_a)] || bearers[place_of(world, arbiter->body_b)]);
 }
 
 void find_rolls(World *world) {
     Private *own = world->own;
     int count = own->has_rolling ? arbiter_count(world) : 0;
-    own->rolls = TAKE(&own->arena, Roll, count);
-    own->roll_count = 0;
+    own->now.rolls = TAKE(&own->arena, Roll, count);
+    own->now.roll_count = 0;
     for (int number = 0; number < count; number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         double arm = rolling_arm(arbiter), inverse = arbiter->body_a->i_inv + arbiter->body_b->i_inv;
         if (arm > 0.0 && !has_joint_row(world, arbiter)) {
-            own->rolls[own->roll_count++] = (Roll){arbiter, arm, inverse, 0.0};
+            own->now.rolls[own->now.roll_count++] = (Roll){arbiter, arm, inverse, 0.0};
         }
     }
 }
@@ -86,8 +86,6 @@ void begin_rolling(World *world) {
     world->own->rolling_class =
         (cpConstraintClass){prepare_nothing, resist, resist, world->own->hook_class->getImpulse};
     world->own->hook->klass = &world->own->rolling_class;
-    world->own->roll_count = 0;
-    world->own->bearers = NULL;
 }
 
 void end_rolling(World *world) {

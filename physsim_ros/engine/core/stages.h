@@ -34,19 +34,20 @@ void begin_actors(World *world);
 bool choose_velocity(World *world);
 void move_actors(World *world);
 
-// Wheels, odometry and batteries of robots (`drives.c`).
+// Wheels (`drives.c`), odometry (`odometry.c`) and batteries (`batteries.c`) of robots.
 void roll_wheels(World *world);
 void reckon_odometry(World *world);
 void use_batteries(World *world);
 
 // The floor under bodies, and how contacts and joints have pushed what it carries (`floor.c`).
 void apply_floor(World *world);
-void find_pushes(World *world);
+void find_floor_pushes(World *world);
 
 // Contacts of one-way bodies that carry a load (`one_way.c`).
 void find_loaded(World *world);
 
-// Fast bodies end their step where they first hit something (`continuous.c`), and keep small boxes (`tight_boxes.c`).
+// Fast bodies end their step where they first hit something (`continuous.c`), and move on after that
+// (`rest_of_step.c`); they keep small boxes (`tight_boxes.c`).
 void clamp_moves(World *world);
 void finish_moves(World *world);
 void tighten_boxes(World *world);
@@ -61,8 +62,8 @@ void begin_rolling(World *world);
 double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
-// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that roll
-// (`rolling.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`), rounds of the
+// Between narrow phase and solver: contacts that begin (`first_touch.c`), surfaces that move along their outlines
+// (`belts.c`), contacts that roll (`rolling.c`), the first of two points (`contact_order.c`), rounds of the
 // solver (`steep_friction.c`), the greatest load (`impact_loads.c`), contacts next to an impact
 // (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
@@ -88,11 +89,11 @@ void correct_joint_positions(World *world);
 // (`impact_loads.c`).
 void remove_closing_impulses(World *world);
 void remove_impact_impulses(World *world);
-void clear_totals(World *world);
-void find_gaps(World *world);
+void clear_joint_reports(World *world);
+void measure_drawn_joints(World *world);
 // Add to what joints report: their impulses, and those by which gaps were closed.
-void add_impulses(World *world);
-void add_closings(World *world);
+void report_joint_impulses(World *world);
+void report_joint_closings(World *world);
 void find_broken(World *world);
 
 // Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).

@@ -32,7 +32,8 @@ static void begin_sleepers(Body *const *bodies, int count) {
     }
 }
 
-static void save_twists(World *world) {
+// Note the velocities that the sub-step begins with, and what requests did to bodies before it.
+static void save_start(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->scratch.twist = twist_of(body->engine);
@@ -62,8 +63,8 @@ static void find_lost(World *world) {
 static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
-    move_belts(world);
     correct_first_touches(world);
+    move_belts(world);
     order_points(world);
     damp_steep_friction(world);
     bound_loads(world);
@@ -89,8 +90,8 @@ static Body **step_chipmunk(World *world, int *count) {
     return awake;
 }
 
-static void step(World *world) {
-    arena_reset(&world->own->arena);
+static void make_sub_step(World *world) {
+    reset_memory(world);
     begin_fields(world);
     begin_half_step(world);
     begin_bodies(world);
@@ -104,22 +105,22 @@ static void step(World *world) {
     tighten_boxes(world);
     prepare_parts(world);
     command_motors(world);
-    save_twists(world);
+    save_start(world);
     int awake_count = 0;
     Body **awake = step_chipmunk(world, &awake_count);
     keep_fields(world);
     find_leads(world, world->has_fields);
     ignore_jitter(world);
     solve_joints(world);
-    add_impulses(world);
+    report_joint_impulses(world);
     find_loaded(world);
     finish_moves(world);
     correct_joint_positions(world);
-    add_closings(world);
-    find_pushes(world);
+    report_joint_closings(world);
+    find_floor_pushes(world);
     reckon_odometry(world);
     use_batteries(world);
-    if (world->reports_contacts) {
+    if (world->own->reports) {
         report_contacts(world);
     } else {
         forget_contacts(world);
@@ -144,7 +145,7 @@ typedef struct {
     double ended; // its last part [s]
 } CallTime;
 
-// End a part; whether another one as long as this would end too late. So it would where the clock was set back.
+// End a part; whether another one as long as this would end too late. A clock that was set back ends the call, too.
 static bool end_part(const World *world, CallTime *time) {
     double now = wall_clock(), part = now - time->ended, took = now - time->began;
     time->ended = now;
@@ -155,10 +156,10 @@ static bool end_part(const World *world, CallTime *time) {
 static bool begin_step(World *world, CallTime *time) {
     Private *own = world->own;
     if (!own->choosing) {
-        arena_reset(&own->arena);
+        reset_memory(world);
         damp_resting(world);
-        clear_totals(world);
-        find_gaps(world);
+        clear_joint_reports(world);
+        measure_drawn_joints(world);
         begin_actors(world);
     }
     own->choosing = true;
@@ -169,7 +170,8 @@ static bool begin_step(World *world, CallTime *time) {
     }
     own->choosing = false;
     move_actors(world);
-    world->frame_steps += world->reports_contacts;
+    own->reports = world->reports_contacts;
+    world->frame_steps += own->reports;
     return true;
 }
 
@@ -196,7 +198,7 @@ int32_t core_step(World *world, int32_t count) {
             world->within_step = true;
             break;
         }
-        step(world);
+        make_sub_step(world);
         own->all_active = false;
         own->sub_step = (own->sub_step + 1) % SUB_STEPS;
         world->within_step = own->sub_step > 0;

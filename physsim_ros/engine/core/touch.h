@@ -43,7 +43,7 @@ static inline Vec velocity_on(const Touch *touch, int side, Vec point) {
 // How deep the other shape is behind a face of one [m].
 double face_depth(const Touch *touch, int side, int face);
 
-// Make effective masses, bias and bounce of a contact anew, as `cpArbiterPreStep` has made them of the old one; the
+// Make effective masses and bounce of a contact anew, as `cpArbiterPreStep` has made them of the old one; the
 // bounce is that of true velocities.
 void prepare_contact(cpArbiter *arbiter);
 

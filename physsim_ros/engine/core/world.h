@@ -11,12 +11,26 @@
 #include "vector.h"
 #include <stdbool.h>
 
+// What stages of a sub-step hand on to later ones, in the memory of the arena.
+typedef struct SubStep {
+    struct Roll *rolls;
+    int roll_count;
+    // Pairs of shapes, one of a one-way body, that carry a load; pairs of bodies that pass each other.
+    struct Pair *loaded, *passing;
+    int loaded_count, passing_count;
+    struct Touch *begun; // contacts that begin
+    int begun_count;
+    struct Load *loads; // of contacts
+    int load_count;
+    struct Islands *joint_islands;
+    bool *bearers; // (body_count): bodies all of whose contacts are rows of these; NULL without any
+} SubStep;
+
 typedef struct Private {
     Arena arena;
+    SubStep now;
     cpConstraint *hook;
     cpConstraintClass *hook_class, rolling_class; // its own class, and that within a step (`rolling.c`)
-    struct Roll *rolls;                           // of this step
-    int roll_count;
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
@@ -26,21 +40,13 @@ typedef struct Private {
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
     struct Statics *statics;
-    // Pairs of shapes, one of a one-way body, that carried a load in the last sub-step; of bodies that pass each other.
-    struct Pair *loaded, *passing;
-    int loaded_count, passing_count;
-    struct Touch *begun; // contacts that begin in this step
-    int begun_count;
-    struct Load *loads; // of the contacts of this step
-    int load_count;
-    struct Islands *joint_islands; // of this step
-    bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
     // Systems of the islands of the last sub-step, whose patterns the next one takes; and memory for those, by turns.
     struct System *systems;
     int system_count;
     Arena system_arenas[2];
     int system_turn;
     int call_step;   // number of the step in this call
+    bool reports;    // contacts of this step are reported
     bool all_active; // requests may have changed any body since the last sub-step
     // Whether there is a body on which a floor acts; one-way, with a belt, with rolling resistance; a sensor.
     bool has_floor, has_one_way, has_belt, has_rolling, has_sensor;
@@ -51,6 +57,12 @@ typedef struct Private {
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
 } Private;
+
+// Give back the memory of a sub-step, with what it holds.
+static inline void reset_memory(World *world) {
+    arena_reset(&world->own->arena);
+    world->own->now = (SubStep){0};
+}
 
 // Memory that outlives a step, all bits 0.
 void *allocated(size_t count, size_t size);

@@ -46,6 +46,10 @@ class JointSet:
     :param bodies: the bodies of the space by name
     :param core: of the space
     :param dt: length of a sub-step [s]
+
+    :ivar by_name: the joints, by name, in the order in which they were made
+    :ivar commands: the last command of each motor, by the name of its joint, and its step
+    :ivar coming: commands that motors do not obey yet, by the names of their joints
     """
 
     def __init__(
@@ -71,7 +75,6 @@ class JointSet:
         self._unstepped: set[str] = set()
         # The impulses of each joint in the step before, by name, from the same table.
         self._totals: dict[str, Floats] = {}
-        # The last command of each motor, by the name of its joint, and its step.
         self.commands: dict[str, TimedCommand] = {}
         self.coming: ComingCommands[TimedCommand] = ComingCommands()
         # The bounds of the rows of each joint that has one which moves, by name, likewise.

@@ -16,7 +16,11 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import FASTEST, Within
+from physsim_ros.model.checks import (
+    FASTEST,
+    FRICTION,
+    Within,
+)
 from physsim_ros.model.declarations import Checked, OfKind
 from physsim_ros.model.latency import COMMAND_RATE, delays
 from physsim_ros.model.shapes import LARGEST, SMALLEST
@@ -48,9 +52,7 @@ class Drive(Checked, ABC):
     acceleration: Annotated[
         float, Within(0.0, _STRONGEST, 'm/s²'), 'greatest acceleration of the rim of a wheel'
     ] = 2.0
-    traction: Annotated[
-        float, Within(0.0, 10.0), 'coefficient of friction between wheels and floor'
-    ] = 0.8
+    traction: Annotated[float, FRICTION, 'coefficient of friction between wheels and floor'] = 0.8
     timeout: Annotated[
         float,
         Within(0.0, _LONGEST, 's'),

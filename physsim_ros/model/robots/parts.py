@@ -12,7 +12,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Self
 
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST, OfClass, point_list, Within
+from physsim_ros.model.checks import (
+    DENSITY,
+    ELASTICITY,
+    FRICTION,
+    MASS,
+    OfClass,
+    point_list,
+    Within,
+)
 from physsim_ros.model.colors import Color, color_value
 from physsim_ros.model.declarations import check_key, Checked, entry_of
 from physsim_ros.model.errors import BadProperty
@@ -25,7 +33,6 @@ from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 # Kinds of joints that a link hangs on, which have a place in its description.
 TREE_KINDS = (JointKind.PIN, JointKind.AXLE, JointKind.MOTOR, JointKind.SLIDER)
-_MASS = Within(LIGHTEST, HEAVIEST, 'kg')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,9 +49,7 @@ class Towed(Checked):
     track: Annotated[
         float, Within(SMALLEST, LARGEST, 'm'), 'distance of the left and the right wheel'
     ] = 0.2
-    traction: Annotated[
-        float, Within(0.0, 10.0), 'coefficient of friction between wheels and floor'
-    ] = 0.8
+    traction: Annotated[float, FRICTION, 'coefficient of friction between wheels and floor'] = 0.8
 
     @property
     def lever(self) -> float:
@@ -69,10 +74,10 @@ class Link(Checked):
     color: Annotated[Color | None, color_value, 'as of a body; by default that of the robot'] = (
         None
     )
-    mass: Annotated[float | None, _MASS, 'not together with `density`'] = None
-    density: Annotated[float | None, Within(LIGHTEST, HEAVIEST, 'kg/m²'), 'as of a body'] = None
-    friction: Annotated[float | None, Within(0.0, 10.0), 'as of a body'] = None
-    elasticity: Annotated[float | None, Within(0.0, 1.0), 'as of a body'] = None
+    mass: Annotated[float | None, MASS, 'not together with `density`'] = None
+    density: Annotated[float | None, DENSITY, 'as of a body'] = None
+    friction: Annotated[float | None, FRICTION, 'as of a body'] = None
+    elasticity: Annotated[float | None, ELASTICITY, 'as of a body'] = None
     towed: Annotated[Towed | None, Towed.from_value, 'a mapping, as of a body'] = None
 
     @classmethod

@@ -65,7 +65,8 @@ LONGEST_TEXT = 10_000
 # Memory of a marker without points as rclpy decodes it, and of each of its points and colours
 # [bytes]: measured with tracemalloc, 1,660, and 112 to 178.
 _MARKER, _ELEMENT = 2000, 180
-# Namespace of the walls of a map, and their greatest number.
+# Namespace of the walls of a map, and their greatest number: as many bodies as a world has by
+# default, whatever `max_bodies` is.
 _WALLS, _MOST_WALLS = 'walls', WorldSettings().max_bodies
 # Occupancy from which on a cell is a wall [percent], as map_server's `occupied_thresh` is.
 OCCUPIED = 65

@@ -27,8 +27,12 @@ def amend(
     past: Past, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
 ) -> Generator[None, None, list[Answer | Refusal]]:
     """
-    Replace the requests of earlier gestures, in slices; see `_Amendment`.
+    Replace the requests of earlier gestures, and simulate again up to this moment, in slices.
 
+    :param gestures: their numbers, at least one; those that changed nothing or are no longer kept
+        are ignored, and without any other the requests are applied now
+    :param requests: that replace theirs, at their first step
+    :param author: name of the person who did it; '' is nobody
     :return: for each request its answer, or its refusal
     :raises NotAlone: too much would be simulated again; nothing is changed
     """

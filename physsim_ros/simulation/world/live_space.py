@@ -36,6 +36,9 @@ from physsim_ros.model.slices import finish
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world.capacity import Capacity, check_state
 
+# Difference within which a number of steps, the product of a time and a rate, is whole [1], and
+# that within which a time is the same, by its size [1]: the rounding of doubles.
+_WHOLE, _ROUNDING = 1e-9, 1e-15
 # Greatest number of spaces that wait to be freed: as many as an impatient person replaces by undo
 # and redo in the time in which one is freed.
 _MOST_FREEING = 3
@@ -87,8 +90,8 @@ class LiveSpace:
             begun += steps_covering(seconds, rate)
         if command_rate > 0.0:
             # The first look at or after that step.
-            look = math.ceil(begun * command_rate / rate - 1e-9)
-            begun = math.ceil(look * rate / command_rate - 1e-9)
+            look = math.ceil(begun * command_rate / rate - _WHOLE)
+            begun = math.ceil(look * rate / command_rate - _WHOLE)
         return begun
 
     def step_after(self, seconds: float) -> int | None:
@@ -254,4 +257,4 @@ def steps_covering(seconds: float, physics_rate: float) -> int:
     :param physics_rate: of the world [Hz]
     """
     # Subtract a tolerance, so that 0.1 s at 240 Hz gives 24 steps, not 25.
-    return max(1, math.ceil(seconds * physics_rate * (1.0 - 1e-15) - 1e-9))
+    return max(1, math.ceil(seconds * physics_rate * (1.0 - _ROUNDING) - _WHOLE))

@@ -28,6 +28,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Answer, Contacts, Grip, NO_VECTORS, Snapshot
 from physsim_ros.model.texts import counted
+from physsim_ros.model.timeline import stamp_of
 from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,
@@ -160,7 +161,7 @@ class World(LiveSpace):
     @property
     def stamp(self) -> int:
         """Return the simulation time [ns]."""
-        return round(self.step_count * 1e9 / self.physics_rate)
+        return stamp_of(self.step_count, self.physics_rate)
 
     def snapshot(self) -> Snapshot:
         """Return the snapshot of this step."""

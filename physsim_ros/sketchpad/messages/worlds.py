@@ -169,10 +169,10 @@ def put_back(page: PageSession, origin: Origin, name: str) -> None:
 @message('forget', 'page')
 def forget(page: PageSession, origin: Origin) -> None:
     """Delete the unsaved world of the last start."""
-    _manage(page, origin, page.shared.autosave.forget_unsaved)
+    _manage(page, origin, page.shared.autosave.forget_unsaved, 'the unsaved world')
 
 
-def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: str = '') -> None:
+def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: str) -> None:
     """Change the files of own worlds, and send all pages the list."""
 
     def manage() -> str:

@@ -42,8 +42,12 @@ export class Words {
     });
   }
 
-  /** @param {string} name of what an answer is about; one that was free may be used again */
-  knows(name) {
+  /**
+   * @param {{message: string, subject: string}} answer
+   * @returns {boolean} whether there is a word for what it is about; a name that was free may be used again
+   */
+  knows({message, subject}) {
+    const name = subject || /^redid spawn ([^\s,]+)/.exec(message)?.[1] || '';
     return !isDrawn(name) || this.known[0].has(name);
   }
 

@@ -50,7 +50,7 @@ export class Notes {
       this.expected = () => {};
       this.showMessage(`${who}${who && ': '}${this.parts.words.tell(answer)}`, {ok, quiet: !own});
     };
-    if (this.parts.words.knows(answer.subject)) tell();
+    if (this.parts.words.knows(answer)) tell();
     else {
       this.expected = tell;
       setTimeout(() => this.expected === tell && tell(), SCENE_LATER);

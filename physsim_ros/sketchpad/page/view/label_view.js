@@ -18,6 +18,7 @@ import {rotated} from '../vectors.js';
 /** @typedef {[number, number, number, number]} Box left, top, right, bottom [px] */
 
 const SMALLEST = 11, LARGEST = 28; // px: size of letters
+const DIGIT = 0.65; // em: width of a digit
 const LINE = 1.25, MARGIN = 1.2; // em: height of a line, left free in a body beside and above the text
 const REMEMBERED = 500; // texts whose sizes are known
 
@@ -195,12 +196,14 @@ export function drawGrid({ctx, camera, palette}) {
 /** @param {SceneView} view at whose insets the rulers lie, on top of bodies; a bar covers no number */
 export function drawRulers(view) {
   const {camera, palette, insets} = view, step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
-  const [unit, metres] = step < 1000 ? ['m', 1] : ['km', 1000];
   const [left, top] = camera.toWorld(insets.left, insets.top), [right, bottom] = camera.toWorld(camera.width - insets.right, camera.height - insets.bottom);
+  const textOf = (/** @type {number} */ value) => `${fixed(value, digits)} m`;
   const write = (/** @type {number} */ value, /** @type {Point} */ at, /** @type {CanvasTextAlign} */ align) =>
-    view.write(`${fixed(value / metres, digits)} ${unit}`, at, palette.faint, align, SMALLEST);
+    view.write(textOf(value), at, palette.faint, align, SMALLEST);
   const low = camera.height - insets.bottom;
-  for (const value of multiplesOf(step, left, right)) {
+  // Far out numbers are long: only some lines have room for one.
+  const wide = SMALLEST * (1 + DIGIT * Math.max(textOf(left).length, textOf(right).length));
+  for (const value of multiplesOf(step * Math.ceil(wide / (step * camera.scale)), left, right)) {
     const [x] = camera.toPage(value, 0);
     if (x > insets.left + 40 && x < camera.width - insets.right - 20) write(value, [x, low - 6], 'center');
   }

@@ -1,8 +1,8 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-#ifndef PHYSSIM_JOINT_SOLVE_H
-#define PHYSSIM_JOINT_SOLVE_H
+#ifndef PHYSSIM_ISLAND_SOLVE_H
+#define PHYSSIM_ISLAND_SOLVE_H
 
 #include "joint_islands.h"
 
@@ -27,7 +27,7 @@ typedef struct Solve {
 Layout layout_of(const Island *island);
 
 // Begin to solve an island.
-Solve joint_solve(World *world, const Island *island, const System *system);
+Solve island_solve(World *world, const Island *island, const System *system);
 
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);

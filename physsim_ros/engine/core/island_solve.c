@@ -3,7 +3,7 @@
 
 // One island in one step: what the solvers of velocities and of positions share.
 
-#include "joint_solve.h"
+#include "island_solve.h"
 
 // Return the length of the path of a rope, and the Jacobians of its links.
 static double read_path(const Island *island, int row, const Pose *poses, Jacobian *jacobians) {
@@ -79,7 +79,7 @@ Layout layout_of(const Island *island) {
                     .groups = island->groups};
 }
 
-Solve joint_solve(World *world, const Island *island, const System *system) {
+Solve island_solve(World *world, const Island *island, const System *system) {
     Arena *arena = &world->own->arena;
     Solve solve = {.arena = arena, .space = world->space, .dt = world->dt, .island = island, .system = *system};
     solve.velocities = island->velocities;
@@ -97,14 +97,14 @@ Solve joint_solve(World *world, const Island *island, const System *system) {
         solve.springs[row] = island->rows[row]->law == LAW_SPRING;
     }
     read_rows(island, island->poses, solve.excess, solve.jacobians);
-    int normal = island->joint_row_count, tangent = normal + island->touch_count;
-    for (int number = 0; number < island->touch_count; number++) {
-        const Bearing *touch = island->touches + number;
-        Vec against = negated(touch->normal);
-        solve.jacobians[normal + number] = along(against, touch->arm_a, touch->arm_b);
-        solve.jacobians[tangent + number] = along(perpendicular(against), touch->arm_a, touch->arm_b);
-        if (touch->roll != NULL) {
-            touch->roll->most = touch->rolling * greatest(touch->point->jnAcc, 0.0);
+    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
+    for (int number = 0; number < island->bearing_count; number++) {
+        const Bearing *bearing = island->bearings + number;
+        Vec against = negated(bearing->normal);
+        solve.jacobians[normal + number] = along(against, bearing->arm_a, bearing->arm_b);
+        solve.jacobians[tangent + number] = along(perpendicular(against), bearing->arm_a, bearing->arm_b);
+        if (bearing->roll != NULL) {
+            bearing->roll->most = bearing->rolling * greatest(bearing->point->jnAcc, 0.0);
         }
     }
     return solve;
