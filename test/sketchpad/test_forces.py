@@ -234,6 +234,7 @@ bodies:
     told = sheet.page.evaluate('window.texts.filter((text) => text.endsWith("N m s"))')
     # It lies in the air for less than a frame.
     assert float(told[0].split()[0]) == pytest.approx(torque * time, rel=0.05)
+    sheet.close()
     program.interrupt()
 
 
@@ -252,4 +253,5 @@ def test_each_strand_of_a_rope_bears_its_share_of_a_load(
     assert [e['size'] for e in strands] == ['98.1 N'] * 4
     assert all(e['force'] == pytest.approx((0.0, 10.0 * G), abs=0.05) for e in strands)
     assert numbers_on(sheet, 'load/0')['sum'] == '0 N'
+    sheet.close()
     program.interrupt()

@@ -45,6 +45,7 @@ def sheet(open_sheet: OpenSheet, outside: Outside, tmp_path: Path) -> Iterator[S
     program, address = started_world(outside, world_dir=tmp_path)
     sheet = open_sheet(address).begin()
     yield sheet
+    sheet.close()
     program.interrupt()
 
 

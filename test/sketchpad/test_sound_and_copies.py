@@ -31,6 +31,7 @@ def sheet(open_sheet: OpenSheet, outside: Outside) -> Iterator[Sheet]:
     program, address = started_world(outside, world=WORLD)
     sheet = open_sheet(address).begin(2)
     yield sheet
+    sheet.close()
     program.interrupt()
 
 

@@ -29,6 +29,7 @@ def sheet(open_sheet: OpenSheet, outside: Outside) -> Iterator[Sheet]:
     program, address = started_world(outside)
     sheet = open_sheet(address).begin()
     yield sheet
+    sheet.close()
     program.interrupt()
 
 
@@ -243,4 +244,5 @@ def test_a_machine_that_is_too_slow_says_how_slow(open_sheet: OpenSheet, outside
     with sheet.dragging((0.0, 0.5), (1.0, 3.0)):
         told = re.compile(r'Speed (0\.\d+)×, slower than 1×')
         sheet.until(lambda: told.fullmatch(speed.get_attribute('aria-label')), 'the pace')
+    sheet.close()
     program.interrupt()
