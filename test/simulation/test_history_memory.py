@@ -158,9 +158,9 @@ def along_points(number: int) -> Request:
 
 ACTS: dict[str, tuple[int, Callable[[Simulation, int], object]]] = {
     'commands': (100, lambda sim, number: (command(sim, number), sim.apply_requests())),
-    'discs': (100, lambda sim, n: spawn_again(sim, Disc(radius=0.2 + 1e-6 * n))),
-    'boxes': (100, lambda sim, n: spawn_again(sim, Box(width=0.2 + 1e-6 * n, height=0.2))),
-    'polygons': (100, lambda sim, n: spawn_again(sim, Polygon(outline=corners(1 + 1e-6 * n)))),
+    'discs': (300, lambda sim, n: spawn_again(sim, Disc(radius=0.2 + 1e-6 * n))),
+    'boxes': (300, lambda sim, n: spawn_again(sim, Box(width=0.2 + 1e-6 * n, height=0.2))),
+    'polygons': (300, lambda sim, n: spawn_again(sim, Polygon(outline=corners(1 + 1e-6 * n)))),
     'frames': (300, lambda sim, _: sim.advance_frame()),
     'checkpoints': (100, lambda sim, _: (sim.advance_frame(), sim.past.cursor.add_keyframe())),
     'branches': (10, throw),

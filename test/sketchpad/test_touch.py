@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -41,8 +40,8 @@ def before_a_circle(open_sheet: OpenSheet) -> tuple[Sheet, set[str], list[tuple[
     return sheet, sheet.names(), [sheet.place(*point) for point in circle(1.0, 5.0, 0.8)]
 
 
-def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> None:
-    sheet, before, places = before_a_circle(chromium, address)
+def test_a_finger_draws_and_two_fingers_zoom(open_sheet: OpenSheet) -> None:
+    sheet, before, places = before_a_circle(open_sheet)
     fingers = Fingers(sheet)
     fingers.put(places[0])
     for place in places[1:]:
@@ -63,9 +62,9 @@ def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> Non
 
 @pytest.mark.parametrize('ends', [Fingers.lift, Fingers.cancel])
 def test_a_palm_does_not_end_the_stroke_of_a_stylus(
-    chromium: Any, address: str, ends: Callable[[Fingers], None]
+    open_sheet: OpenSheet, ends: Callable[[Fingers], None]
 ) -> None:
-    sheet, before, places = before_a_circle(chromium, address)
+    sheet, before, places = before_a_circle(open_sheet)
     stylus, palm = Stylus(sheet), Fingers(sheet)
     corner = sheet.place(0.0, 0.0)
     stylus.put(places[0])
@@ -141,9 +140,9 @@ def test_a_stroke_is_drawn_to_its_end_whatever_happens_meanwhile(
 
 @pytest.mark.parametrize('end', ['cancel', 'lost'])
 def test_the_stroke_of_a_stylus_whose_end_is_not_told_ends_where_it_was(
-    chromium: Any, address: str, end: str
+    open_sheet: OpenSheet, end: str
 ) -> None:
-    sheet, before, places = before_a_circle(chromium, address)
+    sheet, before, places = before_a_circle(open_sheet)
     down, *moves = [['move', *place] for place in places]
     sheet.page.evaluate(POINTER, ['pen', 1, 9, [['down', *down[1:]], *moves]])
     last = ['cancel', 0, 0] if end == 'cancel' else ['move', 900, 600]
