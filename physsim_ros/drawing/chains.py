@@ -16,9 +16,9 @@ import math
 
 import numpy as np
 from physsim_ros.drawing import new_bodies
+from physsim_ros.drawing.geometry import path_length, point_of, spaced
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.geometry import path_length, point_of, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize
 from physsim_ros.model.joints import JointKind

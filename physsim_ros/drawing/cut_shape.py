@@ -23,7 +23,7 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.joining import connected
+from physsim_ros.drawing.geometry import connected
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import BadSize, WorldFull
 from physsim_ros.model.shapes import (

@@ -22,9 +22,8 @@ from typing import Any
 import numpy as np
 from physsim_ros.drawing import copies
 from physsim_ros.drawing.cut_shape import check_count, cut_shape
+from physsim_ros.drawing.geometry import nearest_points, point_of
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.bodies_under import nearest_points
-from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties

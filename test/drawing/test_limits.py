@@ -152,7 +152,8 @@ RESOLUTION = {
     'chains._FINE', 'chains._STEEL', 'cut_shape._AT_ONCE', 'cut_shape._CORNERS',
     'cut_shape._ON_LINE', 'cut_shape._ROUNDING', 'knife._SAME_AREA', 'tools._CIRCLE_CORNERS',
 }  # fmt: skip
-CONSTANTS = constants(FOLDER.glob('*.py'))
+# Those of the geometry are tested with the strokes.
+CONSTANTS = constants(set(FOLDER.glob('*.py')) - {FOLDER / 'geometry.py'})
 DECIDED = sorted({name for needed, *_ in LIMITS.values() for name in needed.split()})
 
 

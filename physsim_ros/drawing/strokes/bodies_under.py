@@ -10,17 +10,17 @@ that the stroke only crosses is not covered.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 import math
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.drawing.geometry import few_points, middle_half, nearest_points, point_of, towards
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.strokes.geometry import few_points, middle_half, point_of
 from physsim_ros.drawing.strokes.stages import Context, End
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
+from physsim_ros.model.shapes import Chain, Disc
 from physsim_ros.model.transform import dots, norms, Point
 
 # The least change of direction of a rope that runs around a wheel [rad].
@@ -81,7 +81,7 @@ def hangs_from(name: str, last: tuple[Point, Point], scene: SceneQuery, snap: fl
     :param last: a point of the line before its end, and its end, beside the body [m]
     """
     before, end = last
-    above = _towards(end, before, snap)
+    above = towards(end, before, snap)
     falls = _downward(above, nearest_on_surface(above, name, scene), scene)
     return name in scene.bodies_at(end, snap) and min(falls, _downward(*last, scene)) > SLOPE
 
@@ -175,35 +175,6 @@ def nearest_on_surface(point: Point, name: str, scene: SceneQuery) -> Point:
     pieces = scene.body(name).shape.form.pieces
     nearest = (near for piece in pieces for near in nearest_points(piece, local))
     return scene.in_world(name, min(nearest, key=lambda each: math.dist(each, local)))
-
-
-def nearest_points(piece: Piece, point: Point) -> Iterator[Point]:
-    """Yield points of a piece, the one nearest to a point outside it among them."""
-    match piece:
-        case Circle(center, radius):
-            yield _towards(center, point, radius)
-        case Capsule(start, end, radius):
-            yield _towards(_nearest_on_segment(start, end, point), point, radius)
-        case Convex(vertices):
-            for start, end in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
-                yield _nearest_on_segment(start, end, point)
-
-
-def _towards(start: Point, end: Point, length: float) -> Point:
-    """Return the point at a distance from `start` towards `end`; along x if they are one [m]."""
-    distance = math.dist(start, end)
-    if not distance:
-        return start[0] + length, start[1]
-    share = length / distance
-    return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
-
-
-def _nearest_on_segment(start: Point, end: Point, point: Point) -> Point:
-    """Return the point of a segment that is nearest to another point [m]."""
-    along = end[0] - start[0], end[1] - start[1]
-    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
-    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
-    return start[0] + share * along[0], start[1] + share * along[1]
 
 
 def covered_bodies(points: Floats, crossed: Crossed, scene: SceneQuery) -> tuple[str, ...]:

@@ -16,11 +16,11 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import circle_outline, point_of, size_of
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes import outcomes
 from physsim_ros.drawing.strokes.bodies_under import nearest_on_surface
 from physsim_ros.drawing.strokes.evidence import Limit
-from physsim_ros.drawing.strokes.geometry import circle_outline, point_of, size_of
 from physsim_ros.drawing.strokes.stages import (
     Context,
     DISC,

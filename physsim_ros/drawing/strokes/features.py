@@ -16,8 +16,7 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.evidence import Limit
-from physsim_ros.drawing.strokes.geometry import (
+from physsim_ros.drawing.geometry import (
     ARM,
     COUNT,
     Crossing,
@@ -26,6 +25,7 @@ from physsim_ros.drawing.strokes.geometry import (
     smoothed,
     turns,
 )
+from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, norms

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.geometry import (
+from physsim_ros.drawing.geometry import (
     COUNT,
     principal_axis,
     quarter_heading,

@@ -20,15 +20,14 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import connected, few_points, size_of
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.figure import ARROWS, Figure, ON_SOLID
 from physsim_ros.drawing.strokes.forms import sign_forms
-from physsim_ros.drawing.strokes.geometry import few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
     are_sides,
-    connected,
     joined_arrow,
     joined_strokes,
     touch,

@@ -16,7 +16,7 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.geometry import (
+from physsim_ros.drawing.geometry import (
     angles,
     ARM,
     convex_hull,
@@ -188,23 +188,6 @@ def touching(strokes: Sequence[Floats], snap: float) -> Flags:
         size = max(sizes[one], sizes[other])
         touching[one, other] = touch(paths[one], paths[other], size, snap)
     return touching | touching.T
-
-
-def connected(touching: Flags) -> list[list[int]]:
-    """
-    Return the connected components of a graph, as sorted lists of indices.
-
-    :param touching: (n, n) bool: whether two touch each other, symmetric
-    """
-    left = np.ones(len(touching), np.bool_)
-    groups = []
-    while left.any():
-        reached = np.arange(len(left)) == int(left.argmax())
-        while (further := touching[reached].any(axis=0) & ~reached).any():
-            reached |= further
-        left &= ~reached
-        groups.append(np.flatnonzero(reached).tolist())
-    return groups
 
 
 def touch(one: Floats, other: Floats, size: float, snap: float) -> bool:

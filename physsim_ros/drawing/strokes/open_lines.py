@@ -15,11 +15,11 @@ from functools import partial
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import ARM, COUNT, path_length, point_of
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import LEAST
 from physsim_ros.drawing.strokes.features import Features, FEWEST, TREMOR
-from physsim_ros.drawing.strokes.geometry import ARM, COUNT, path_length, point_of
 from physsim_ros.drawing.strokes.stages import BETWEEN, Context, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties

@@ -14,9 +14,9 @@ import math
 
 import numpy as np
 from physsim_ros.drawing import chains, new_bodies
+from physsim_ros.drawing.geometry import circle_outline, point_of
 from physsim_ros.drawing.strokes import bodies_under, regularisation
 from physsim_ros.drawing.strokes.fitting import simplified
-from physsim_ros.drawing.strokes.geometry import circle_outline, point_of
 from physsim_ros.drawing.strokes.stages import Context, End, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import loop_roundness, size_of, widened
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.drawing.strokes.corner_detection import (
     bends_of,
@@ -24,7 +25,6 @@ from physsim_ros.drawing.strokes.corner_detection import (
 from physsim_ros.drawing.strokes.evidence import evidence, LEAST, Limit, probabilities
 from physsim_ros.drawing.strokes.features import Features, TREMOR
 from physsim_ros.drawing.strokes.fitting import Ellipse, traced
-from physsim_ros.drawing.strokes.geometry import loop_roundness, size_of, widened
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
 from physsim_ros.drawing.strokes.stages import DISC, Form, LINE, OVAL, POLYGON, RECTANGLE
 from physsim_ros.model.arrays import Floats

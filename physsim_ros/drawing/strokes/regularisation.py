@@ -13,8 +13,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import headings, meeting_point, quarter_heading
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.geometry import headings, meeting_point, quarter_heading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself
 from physsim_ros.model.transform import cross, dots, next_vertices, norms, Pose

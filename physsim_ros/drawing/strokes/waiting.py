@@ -21,12 +21,12 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import few_points, middle_half, point_of
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
 from physsim_ros.drawing.strokes.choice import is_likely, reading_of
 from physsim_ros.drawing.strokes.figure import Figure
-from physsim_ros.drawing.strokes.geometry import few_points, middle_half, point_of
 from physsim_ros.drawing.strokes.grouping import arrow_in, crossing_in, pause_between, SLOWLY
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.marks import lies_within, mark_reading

@@ -6,9 +6,9 @@
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import spaced
 from physsim_ros.drawing.strokes.features import features_of, swings_of
 from physsim_ros.drawing.strokes.forms import forms_of
-from physsim_ros.drawing.strokes.geometry import spaced
 from physsim_ros.drawing.strokes.stages import Form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats

@@ -21,10 +21,10 @@ from physsim_ros.drawing import (
     SceneQuery,
     submit_reading,
 )
+from physsim_ros.drawing.geometry import path_length, unit_vector
 from physsim_ros.drawing.strokes.choice import group_confidence
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.forms import forms_of
-from physsim_ros.drawing.strokes.geometry import path_length, unit_vector
 from physsim_ros.drawing.strokes.joining import joined_arrow
 from physsim_ros.drawing.strokes.plain_forms import fits_of
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
@@ -818,7 +818,7 @@ RESOLUTION = {
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',
     'stages.MOST_GUESSES', 'grouping.MOST_TIME',
 }  # fmt: skip
-CONSTANTS = constants((FOLDER / 'strokes').rglob('*.py'))
+CONSTANTS = constants([*(FOLDER / 'strokes').rglob('*.py'), FOLDER / 'geometry.py'])
 
 
 def rows_of(constant: str) -> list[str]:

@@ -7,9 +7,9 @@ from itertools import pairwise
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import COUNT, widened
 from physsim_ros.drawing.strokes.corner_detection import bends_of, corners, vertices
 from physsim_ros.drawing.strokes.fitting import simplified
-from physsim_ros.drawing.strokes.geometry import COUNT, widened
 from physsim_ros.drawing.strokes.stroke import clean_samples, GRAIN, resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize, Malformed

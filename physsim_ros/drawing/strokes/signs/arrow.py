@@ -10,9 +10,9 @@ from functools import partial
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import point_of
 from physsim_ros.drawing.strokes import regularisation
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.drawing.strokes.stages import (
     Candidate,
     Context,

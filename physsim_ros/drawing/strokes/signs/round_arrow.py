@@ -10,9 +10,9 @@ from functools import partial
 import math
 
 import numpy as np
+from physsim_ros.drawing.geometry import angles, least_squares, point_of, smoothed
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.geometry import angles, least_squares, point_of, smoothed
 from physsim_ros.drawing.strokes.stages import (
     Candidate,
     Context,

@@ -9,9 +9,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 import math
 
-from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.geometry import (
+from physsim_ros.drawing.geometry import (
     Crossing,
     few_points,
     intersections,
@@ -20,6 +18,8 @@ from physsim_ros.drawing.strokes.geometry import (
     point_of,
     straightness,
 )
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.stages import (
     Candidate,
     Context,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Plane geometry: angles, principal axes, small systems of equations; polylines, (n, 2) float64 [m].
+Plane geometry: angles, axes, small systems of equations, graphs; polylines, (n, 2) float64 [m].
 
 Laws: the same bits on every x86-64 processor with FMA. BLAS and LAPACK (`@`, `dot`, `linalg`,
 `convolve`) choose kernels by processor, and so do NumPy's loops for arctan2, exp, log and powers
@@ -12,13 +12,14 @@ array, and leaves its arguments as they are.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 import math
 from typing import Literal, TypeVar
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.transform import cross, dots, next_vertices, norms, Point
 
 # Rows of an array: points, or flags of points.
@@ -298,3 +299,49 @@ def inside(points: Floats, outline: Floats) -> Flags:
     at = start[:, 0] + (y - start[:, 1]) / height * (end[:, 0] - start[:, 0])
     inside: Flags = np.count_nonzero(passes & (x < at), axis=1) % 2 == 1
     return inside
+
+
+def nearest_points(piece: Piece, point: Point) -> Iterator[Point]:
+    """Yield points of a piece, the one nearest to a point outside it among them."""
+    match piece:
+        case Circle(center, radius):
+            yield towards(center, point, radius)
+        case Capsule(start, end, radius):
+            yield towards(_nearest_on_segment(start, end, point), point, radius)
+        case Convex(vertices):
+            for start, end in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
+                yield _nearest_on_segment(start, end, point)
+
+
+def towards(start: Point, end: Point, length: float) -> Point:
+    """Return the point at a distance from `start` towards `end`; along x if they are one [m]."""
+    distance = math.dist(start, end)
+    if not distance:
+        return start[0] + length, start[1]
+    share = length / distance
+    return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
+
+
+def _nearest_on_segment(start: Point, end: Point, point: Point) -> Point:
+    """Return the point of a segment that is nearest to another point [m]."""
+    along = end[0] - start[0], end[1] - start[1]
+    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
+    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
+    return start[0] + share * along[0], start[1] + share * along[1]
+
+
+def connected(touching: Flags) -> list[list[int]]:
+    """
+    Return the connected components of a graph, as sorted lists of indices.
+
+    :param touching: (n, n) bool: whether two touch each other, symmetric
+    """
+    left = np.ones(len(touching), np.bool_)
+    groups = []
+    while left.any():
+        reached = np.arange(len(left)) == int(left.argmax())
+        while (further := touching[reached].any(axis=0) & ~reached).any():
+            reached |= further
+        left &= ~reached
+        groups.append(np.flatnonzero(reached).tolist())
+    return groups
