@@ -11,7 +11,7 @@ axle joins at the same place holds both on the background, and stays.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.model.joints import JointKind
@@ -34,24 +34,28 @@ def requests_with_waiting_joints(
 
     :param snap: the greatest distance of axles that are at one place [m]
     """
-    spawned = [each for each in requests if isinstance(each, Spawn) and _moves(each)]
-    return (*requests, *(join for body in spawned for join in _joins_of(body, scene, snap)))
-
-
-def _joins_of(body: Spawn, scene: SceneQuery, snap: float) -> Iterator[Join]:
     waiting = [
         joint
         for joint in scene.joints
         if joint.b == WORLD
         and (joint.kind.schema.along_line or joint.kind in _AT_POINT)
         and split_name(joint.name)[0] == DRAWN
-        and not _holds_two(joint, scene, snap)
     ]
+    spawned = [each for each in requests if isinstance(each, Spawn) and _moves(each)]
+    joins = (join for body in spawned for join in _joins_of(body, waiting, scene, snap))
+    return (*requests, *joins)
+
+
+def _joins_of(
+    body: Spawn, waiting: Sequence[Joint], scene: SceneQuery, snap: float
+) -> Iterator[Join]:
+    """Yield the requests that join a body to those of some joints that it covers the end of."""
     for joint in waiting:
         end = joint.seat.bx, joint.seat.by
         # The wheel of an axle may stand half below its chassis.
         slack = snap if joint.kind is JointKind.AXLE else 0.0
-        if not contains(body.shape.form.pieces, *world_to_local(end, body.pose), slack):
+        covers = contains(body.shape.form.pieces, *world_to_local(end, body.pose), slack)
+        if not covers or _holds_two(joint, scene, snap):
             continue
         yield Join(
             name=joint.name,

@@ -13,7 +13,9 @@ import tracemalloc
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, knife
 from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.strokes.bodies_under import joint_ends, wheels_passed
 from physsim_ros.drawing.strokes.grouping import MOST_STROKES, MOST_TIME
+from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_description import new_body
 from physsim_ros.model.body_properties import Properties
@@ -230,3 +232,40 @@ def test_a_joint_of_a_body_that_is_cut_is_compared_with_the_pieces_beside_it() -
 
     # Of some 180 pieces, the circles of all.
     assert jointed(120) - jointed(60) < 60 * 2 * 1_000
+
+
+def axle(number: int) -> Joint:
+    """Return an axle that was drawn on the body of a number and on the background."""
+    return Joint(
+        name=f'drawn/{number}',
+        kind=JointKind.AXLE,
+        seat=Seat(0.0, 0.0, 0.5 * number, 0.5, 0.0, 0.0, 0.0, 0.0),
+        properties=JointProperties(),
+        a=f'b/{number}',
+        b='world',
+    )
+
+
+def test_bodies_beside_twice_as_many_waiting_axles_are_twice_the_work() -> None:
+    def spawned(count: int) -> int:
+        query = query_of(
+            [(BOX, (0.5 * number, 0.5, 0.0)) for number in range(count)],
+            tuple(axle(number) for number in range(count)),
+        )
+        links = tuple(Spawn(name=f'c/{each}', shape=DISC, pose=(0, -9, 0)) for each in range(100))
+        return calls_of(lambda: requests_with_waiting_joints(links, query, 0.1))
+
+    assert spawned(100) <= TWICE * spawned(50)
+
+
+def test_a_rope_among_twice_as_many_wheels_is_twice_the_work() -> None:
+    def drawn(count: int) -> int:
+        ends = [(BOX, (-1.0, 0.0, 0.0)), (BOX, (0.5 * count, 2.0, 0.0))]
+        wheels = [(Disc(radius=0.1), (0.5 * number, 1.0, 0.0)) for number in range(count)]
+        query = query_of([*wheels, *ends], tuple(axle(number) for number in range(count)))
+        points = np.linspace((-1.0, 0.0), (0.5 * count, 2.0), 64)
+        joints = joint_ends(points, query, 0.1)
+        assert joints is not None
+        return calls_of(lambda: wheels_passed(points, joints, query, 0.1))
+
+    assert drawn(200) <= TWICE * drawn(100)

@@ -107,12 +107,13 @@ def wheels_passed(
     :param ends: of the rope
     """
     at_ends = {end.body for end in ends}
+    jointed = {body for joint in scene.joints for body in (joint.a, joint.b)}
     low, high, centers = points.min(axis=0), points.max(axis=0), scene.snapshot.centers
     within = ((centers > low) & (centers < high)).all(axis=1)
     found: list[tuple[int, str]] = []
     for row in np.flatnonzero(within).tolist():
         body, name = scene.snapshot.scene.bodies[row], scene.names[row]
-        held = isinstance(body.shape, Disc) and (body.anchored or _is_jointed(name, scene))
+        held = isinstance(body.shape, Disc) and (body.anchored or name in jointed)
         if not held or name in at_ends:
             continue
         away, radius = points - centers[row], body.shape.form.outer
@@ -128,10 +129,6 @@ def wheels_passed(
         if abs(angles[-1] - angles[0]) > bend > _BEND:
             found.append((int(beside[len(beside) // 2]), name))
     return [(name, point_of(points[at])) for at, name in sorted(found)]
-
-
-def _is_jointed(name: str, scene: SceneQuery) -> bool:
-    return any(name in (joint.a, joint.b) for joint in scene.joints)
 
 
 def hatched_body(points: Floats, scene: SceneQuery) -> str | None:

@@ -154,7 +154,7 @@ class Sign:
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Guess:
     """
-    A meaning that a stroke may have.
+    One of the likeliest meanings of a stroke, with the confidence in it.
 
     :param meaning: name of it, as `~/events` reports it: `disc`, `anchor` and so on
     :param confidence: in the meaning: the share of such guesses that are right, 0 .. 1

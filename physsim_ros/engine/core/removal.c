@@ -22,7 +22,7 @@ typedef struct Removal {
 } Removal;
 
 static int by_address(const void *one, const void *other) {
-    uintptr_t x = (uintptr_t) * (cpBody *const *)one, y = (uintptr_t) * (cpBody *const *)other;
+    uintptr_t x = (uintptr_t)*(cpBody *const *)one, y = (uintptr_t)*(cpBody *const *)other;
     return (x > y) - (x < y);
 }
 
