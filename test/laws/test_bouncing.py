@@ -69,6 +69,20 @@ def test_what_bounces_off_its_like_turns_round_where_their_outlines_meet(report,
     report.check(21, 'bounce at 3 m/s, place 2.5 m later', place, -0.5, 1e-10, 'm')
 
 
+@pytest.mark.parametrize('speed', [60.0, 120.0])
+@pytest.mark.parametrize('side', [1.0, -1.0])
+def test_a_fast_ball_keeps_its_energy_above_a_floor_and_below_a_ceiling(report, side, speed):
+    """Below a ceiling nothing bounds a loss, as a gain is above a floor."""
+    sim = simulation(gravity=(0.0, -side * G), elasticity=1.0, friction=0.0)
+    floor(sim)
+    spawn(sim, 'ball/0', Disc(radius=0.05), (0.0, 3.0, 0.0), velocity=(0.0, -speed))
+    before = sim.world.snapshot()
+
+    share = energy(run(sim, 0.3)) / energy(before) - 1.0
+
+    report.check(21, 'fast elastic ball, energy', share, 0.0, 1e-5, '–')
+
+
 # Outlines that stand on y = 0.
 FLAT = {
     'upright': ((-0.25, 0.0), (0.25, 0.0), (0.25, 1.0), (-0.25, 1.0)),

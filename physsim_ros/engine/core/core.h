@@ -36,7 +36,7 @@ typedef struct BodyState {
     uint8_t released; // something that it touched was removed or moved since the last step
     uint8_t thrown;   // its velocity was set since the last step
     uint8_t fresh;    // its lead by fields is to be found as the next step begins
-    Twist lead;       // half a step of gravity and all forces: the lead of its velocity in free flight
+    Twist lead;       // half a sub-step of gravity and all forces: the lead of its velocity in free flight
     Twist field;      // the part of fields (`fields.c`) in that lead
     Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
 } BodyState;
@@ -44,19 +44,19 @@ typedef struct BodyState {
 // What stages tell each other of a body; that of a sleeping body stays until it wakes. No checkpoint has it.
 typedef struct BodyScratch {
     uint8_t slides;             // on a floor that does not carry it along
-    Pose begin;                 // as the step begins
+    Pose begin;                 // as the sub-step begins
     Twist twist;                // with which Chipmunk begins
     Twist under;                // mean velocity of the floor under it
     Twist without_contacts;     // velocity after the sub-step without contacts, on a floor
-    double remaining;           // of the step after continuous collision has stopped it [s]
+    double remaining;           // of the sub-step after continuous collision has stopped it [s]
     Twist carried;              // displacement with what has stopped it, in that time [m, rad]
     double since;               // time from its first impact to the end of its motion [s]
     Twist remaining_move;       // displacement that remains after its impact [m, rad]
     uint8_t has_remaining_move; // that displacement has been found
     uint8_t bounces;            // its impact throws it off, so gravity acts on the new velocity
     uint8_t thrown;             // its velocity was set before this sub-step
-    double idle;                // for which it has been at rest as the step begins; < 0 while it sleeps [s]
-    Twist field;                // half of what fields change its velocity by in this step
+    double idle;                // for which it has been at rest as the sub-step begins; < 0 while it sleeps [s]
+    Twist field;                // half of what fields change its velocity by in this sub-step
     uint8_t afloat;             // the surface of a medium crosses it
     uint8_t stirred;            // fields act on it that change while it rests
     uint8_t lost;               // it has left the range of numbers
@@ -77,7 +77,7 @@ typedef struct Body {
     cpVect offset;         // the engine's origin in the body's frame [m]
     double reach;          // greatest distance of a point of it from the centre of mass [m]
     double half_width;     // of its thinnest piece [m]
-    double safe_depth;     // how far it may be entered in a step unseen [m]
+    double safe_depth;     // how far it may be entered in a sub-step unseen [m]
     double slop;           // how far it may overlap others at rest [m]
     double turning_radius; // how far out its turning counts for continuous collision [m]
     double corners;        // of its pieces, the cost of continuous collision
@@ -383,8 +383,8 @@ enum {
 
 enum { SUB_STEPS = 4 };
 
-// Of each body, safe depths in its inner radius: two that approach by less than the lesser safe depth in a step need no
-// time of impact, since each keeps its centre well on the side it came from.
+// Of each body, safe depths in its inner radius: two that approach by less than the lesser safe depth in a sub-step
+// need no time of impact, since each keeps its centre well on the side it came from.
 enum { SAFE_DEPTHS = 4 };
 
 // Corners of a polygon whose time of impact costs as much as that of a round shape, most of which does not depend on

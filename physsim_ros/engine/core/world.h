@@ -55,7 +55,7 @@ typedef struct Private {
     bool choosing;               // velocities of actors are being chosen, before the first sub-step
     struct Surroundings *around; // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
-    struct Pull *pulls; // of media on bodies, in this step
+    struct Pull *pulls; // of media on bodies, in this sub-step
 } Private;
 
 // Give back the memory of a sub-step, with what it holds.
