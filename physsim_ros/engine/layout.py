@@ -136,6 +136,9 @@ def check_layout(kinds: Mapping[type, tuple[str, dict[str, str]]] = KINDS) -> No
     told: list[_Contact] = []
     body.each_arbiter(lambda each: told.append(_Contact(each)))
     _compare(arbiter, told[0], _ARBITER)
+    # A contact that has begun stays one that begins until the next step.
+    begun = SimpleNamespace(state=0, stamp=pm_space.stamp)
+    _compare(arbiter, begun, {'state': 'state', 'stamp': 'stamp'})
 
 
 def _compare(struct: Any, it: object, fields: Mapping[str, str]) -> None:

@@ -74,15 +74,20 @@ class Sketchpad:
         self._autosave = Autosave(
             directory, self._lock, self._file_work, self._world_text, self._named_people
         )
-        self._server = Server(
-            address=address,
-            port=port,
-            own_worlds=own_worlds,
-            autosave=self._autosave,
-            results=results,
-            inbox=self._inbox,
-            boundary=self._boundary,
-        )
+        try:
+            self._server = Server(
+                address=address,
+                port=port,
+                own_worlds=own_worlds,
+                autosave=self._autosave,
+                results=results,
+                inbox=self._inbox,
+                boundary=self._boundary,
+            )
+        except Exception:
+            # Where it cannot listen, the next one is to have the directory.
+            self._lock.release()
+            raise
         self._shared = Shared(
             world,
             self._server.send,

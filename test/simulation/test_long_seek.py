@@ -3,6 +3,7 @@
 
 """A long way through the past is made bit by bit, and leads to the same bits."""
 
+from physsim_ros.engine import checkpoint
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
 from physsim_ros.model.snapshot import Answer, Frame
@@ -281,7 +282,8 @@ def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_
     assert again.snapshot.scene.names == ('disc/0', 'disc/1')
 
 
-def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits():
+def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits(monkeypatch):
+    monkeypatch.setattr(checkpoint, '_SLICE', 20)
     many = Simulation(settings=FLOOR)
     for number in range(200):
         place = (0.9 * (number % 30), 1.0 + number // 30, 0.0)

@@ -25,7 +25,7 @@
 // Without it laws 8 (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of
 // energy laws 6 (oblique impacts) and 34 (random crowds).
 
-#include "impact_propagation.h"
+#include "contact.h"
 #include "lcp.h"
 #include "stages.h"
 #include "touch.h"
@@ -262,18 +262,18 @@ static void list_points(const Cluster *cluster, Velocities *velocities, Point *p
     for (int number = 0; number < cluster->count; number++) {
         cpArbiter *each = cluster->contact_points[number].arbiter;
         cpContact *contact = cluster->contact_points[number].contact;
-        bool begins = each->state == ARBITER_FIRST_COLLISION;
+        bool is_first = begins(each);
         points[number] = (Point){contact,
                                  each->body_a,
                                  each->body_b,
                                  velocity_of(velocities, each->body_a),
                                  velocity_of(velocities, each->body_b),
                                  each->n,
-                                 begins,
+                                 is_first,
                                  each->u,
                                  each->surface_vr,
-                                 begins ? contact->jnAcc : 0.0,
-                                 begins ? contact->jtAcc : 0.0};
+                                 is_first ? contact->jnAcc : 0.0,
+                                 is_first ? contact->jtAcc : 0.0};
     }
 }
 
@@ -283,7 +283,7 @@ static void take_out_inner(const Cluster *cluster) {
     for (int number = 0; number < cluster->body_count; number++) {
         const cpBody *body = cluster->bodies[number];
         for (cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
-            for (int point = 0; point < each->count && each->state != ARBITER_FIRST_COLLISION; point++) {
+            for (int point = 0; point < each->count && !begins(each); point++) {
                 cpContact *contact = each->contacts + point;
                 if (!has_point(cluster, contact)) {
                     contact->jnAcc = contact->jtAcc = 0.0;

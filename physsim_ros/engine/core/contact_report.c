@@ -11,6 +11,7 @@
 // that at which a sensor is met, else that of the impact, within the step.
 // Cost: 15 ns a contact and step.
 
+#include "contact.h"
 #include "stages.h"
 #include <stdlib.h>
 #include <string.h>
@@ -173,8 +174,7 @@ static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) 
 // Sensors, and kinematic bodies among themselves, overlap without points; Chipmunk lists them only here.
 static void add_overlap(cpArbiter *arbiter, void *data) {
     World *world = data;
-    bool ignored = arbiter->data != NULL;
-    if (arbiter->count == 0 && arbiter->stamp == world->space->stamp && !ignored) {
+    if (arbiter->count == 0 && arbiter->stamp == world->space->stamp && !is_ignored(arbiter)) {
         add_arbiter(world, report_of(world), arbiter);
     }
 }
@@ -232,7 +232,7 @@ void report_contacts(World *world) {
     }
     for (int number = 0; number < arbiter_count(world); number++) {
         // A contact that Chipmunk ignores is none.
-        if (arbiter_at(world, number)->data == NULL) {
+        if (!is_ignored(arbiter_at(world, number))) {
             add_arbiter(world, report, arbiter_at(world, number));
         }
     }

@@ -31,7 +31,7 @@
 // impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over seams
 // (`test/engine/stages/test_internal_edges.py`). Part 1 can go when GJK is exact.
 
-#include "impact_propagation.h"
+#include "contact.h"
 #include "one_way.h"
 #include "stages.h"
 #include "touch_stages.h"
@@ -39,9 +39,9 @@
 // The greatest overlap of faces that have met by rounding [m]: their bodies lie on others to 1e-10 rad.
 static const double rounding_of_faces = 1e-8;
 
-// Whether a contact begins in this step, or was ignored in the step before.
-static bool begins(const cpArbiter *arbiter) {
-    return arbiter->state == ARBITER_FIRST_COLLISION || arbiter->data != NULL;
+// Whether a contact begins in this sub-step, or was ignored in the one before.
+static bool is_new(const cpArbiter *arbiter) {
+    return begins(arbiter) || is_ignored(arbiter);
 }
 
 static Vec middle_of(const cpShape *shape) {
@@ -127,9 +127,9 @@ void correct_first_touches(World *world) {
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         if (passes(world, arbiter) || (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter)) ||
-            (begins(arbiter) && meets_next(world, arbiter))) {
+            (is_new(arbiter) && meets_next(world, arbiter))) {
             ignore(arbiter);
-        } else if (begins(arbiter)) {
+        } else if (is_new(arbiter)) {
             arbiter->data = NULL;
             arbiter->state = ARBITER_FIRST_COLLISION;
             touches[count++] = touch_of(arbiter);
@@ -164,7 +164,7 @@ void correct_first_touches(World *world) {
     world->own->now.begun_count = begun;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (arbiter->state == ARBITER_FIRST_COLLISION) {
+        if (begins(arbiter)) {
             prepare_contact(arbiter);
         }
         set_bias(arbiter, world->own->push);

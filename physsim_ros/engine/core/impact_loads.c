@@ -16,7 +16,7 @@
 // Without it clay rises from a light plate (law 44), and boxes that meet head on without restitution part again (law
 // 3).
 
-#include "impact_propagation.h"
+#include "contact.h"
 #include "one_way.h"
 #include "stages.h"
 #include <float.h>
@@ -40,13 +40,12 @@ void bound_loads(World *world) {
     world->own->now.loads = TAKE(&world->own->arena, Load, points);
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *each = arbiter_at(world, number);
-        bool begins = each->state == ARBITER_FIRST_COLLISION;
         double least_load = is_of_one_way(each) ? DBL_MIN : 0.0;
         for (int point = 0; point < each->count; point++) {
             cpContact *contact = each->contacts + point;
             double most = growth * greatest(contact->jnAcc, 0.0) + slowest_impact * contact->nMass;
             assert(world->own->now.load_count < points);
-            world->own->now.loads[world->own->now.load_count++] = (Load){contact, begins ? least_load : most};
+            world->own->now.loads[world->own->now.load_count++] = (Load){contact, begins(each) ? least_load : most};
         }
     }
 }

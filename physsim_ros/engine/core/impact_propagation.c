@@ -19,7 +19,7 @@
 // Limits: a contact that is deferred sinks by a step of the impact. Elastic piles overlap for another reason: four
 // iterations in a sub-step do not carry an impact through a column (`docs/physics.md`, Piles).
 
-#include "impact_propagation.h"
+#include "contact.h"
 #include "joint_rows.h"
 #include "stages.h"
 

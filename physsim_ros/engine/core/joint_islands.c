@@ -13,6 +13,7 @@
 // Cost: that of `joint_solver.c`.
 
 #include "joint_islands.h"
+#include "contact.h"
 #include "joint_parts.h"
 #include "stages.h"
 
@@ -48,8 +49,7 @@ static int compare_bearings(const void *one, const void *other) {
 
 static void add_bearings(World *world, Bearings *bearings, const cpArbiter *arbiter) {
     Vec tangent = perpendicular(arbiter->n);
-    bool begins = arbiter->state == ARBITER_FIRST_COLLISION;
-    double remaining = begins ? remaining_time(body_of(arbiter->body_a), body_of(arbiter->body_b)) : 0.0;
+    double remaining = begins(arbiter) ? remaining_time(body_of(arbiter->body_a), body_of(arbiter->body_b)) : 0.0;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         bearings->list[bearings->count++] = (Bearing){.point = point,

@@ -41,8 +41,8 @@ typedef struct Displacement {
     Jacobian *jacobians;  // (link_count): of joints there
     double *gaps;         // (joint_row_count): C, less what is not closed in this step
     double *deferred;     // (joint_row_count): parts of gaps that are too wide to be closed in one step
-    double *apart;        // (touch_count): distance by which contacts may approach at the start [m]
-    double *distances;    // (touch_count): the same now, < 0 where they overlap
+    double *apart;        // (bearing_count): distance by which contacts may approach at the start [m]
+    double *distances;    // (bearing_count): the same now, < 0 where they overlap
     double *impulses;     // (row_count): λ [kg m, kg m²]
     double *guess;        // (row_count): numbers of the signs of λ; of contacts first their overlaps
     double sum, widest;   // of gaps and overlaps: sum, and the greatest [m, rad]

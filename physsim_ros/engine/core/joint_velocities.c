@@ -26,7 +26,7 @@
 // Cost: that of `joint_solver.c`.
 
 #include "joint_velocities.h"
-#include "impact_propagation.h"
+#include "contact.h"
 #include "mixed_lcp.h"
 #include "stages.h"
 #include <string.h>
@@ -62,9 +62,9 @@ typedef struct VelocityRows {
     double *wanted, *lower, *upper; // of the problem
     double *rates;                  // (row_count): J v without impulses
     double *last;                   // (row_count): λ of the step before
-    double *bounce;                 // (touch_count): least velocity along the normal that Chipmunk seeks [m/s]
-    double *free_slips;             // (touch_count): velocity across the normal without impulses [m/s]
-    double *slips;                  // (touch_count): greatness of the same after the step
+    double *bounce;                 // (bearing_count): least velocity along the normal that Chipmunk seeks [m/s]
+    double *free_slips;             // (bearing_count): velocity across the normal without impulses [m/s]
+    double *slips;                  // (bearing_count): greatness of the same after the step
 } VelocityRows;
 
 static double damping_of(const Solve *solve, int row) {

@@ -18,8 +18,8 @@
 // Cost: 20 ns an impact; where bodies are fast, 2 µs for each pair that could meet.
 // Without it laws 7 (penetration), 45 (momentum in flight) and 46 (pressure of a gas) fail.
 
+#include "contact.h"
 #include "impact_islands.h"
-#include "impact_propagation.h"
 #include "stages.h"
 #include "touch.h"
 
@@ -76,7 +76,7 @@ static void time_throws(World *world) {
         cpArbiter *each = body->scratch.thrown && body->dynamic ? body->engine->arbiterList : NULL;
         for (; each != NULL; each = next_of(each, body->engine)) {
             double approach = true_approach(world, each);
-            if (each->state == ARBITER_FIRST_COLLISION || approach <= slowest_impact) {
+            if (begins(each) || approach <= slowest_impact) {
                 continue;
             }
             Touch touch = touch_of(each);

@@ -12,6 +12,7 @@
 // on something that moves are never touched, nor those that are faster than such an error can be.
 // Cost: one look at the contacts, 32 times a second of simulation.
 
+#include "contact.h"
 #include "stages.h"
 
 // Rate of the damping [Hz].
@@ -38,7 +39,7 @@ static bool is_slow(const Body *body) {
 // first touch the impulse is that of an impact.
 static bool sticks(const cpArbiter *arbiter) {
     bool carried = arbiter->surface_vr.x != 0.0 || arbiter->surface_vr.y != 0.0;
-    if (arbiter->count != 2 || carried || arbiter->state == ARBITER_FIRST_COLLISION) {
+    if (arbiter->count != 2 || carried || begins(arbiter)) {
         return false;
     }
     double along = fabs(arbiter->contacts[0].jnAcc + arbiter->contacts[1].jnAcc);

@@ -12,7 +12,7 @@
 // that approach slowly; and segments, of which Chipmunk knows the neighbours in a chain.
 // Cost, and what fails without it: `first_touch.c`.
 
-#include "impact_propagation.h"
+#include "contact.h"
 #include "touch_stages.h"
 
 // The slope up to which faces meet by two points [1]: by one, a box that falls flat on a stack would turn.
