@@ -73,7 +73,7 @@ class: $(BUILT)  ## start a world for each of PUPILS=20 pupils, open to the netw
 # A worker that a test takes down is replaced, but not without end.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4
 
-test: $(TOOLS)  ## run all tests but the slow ones: six minutes
+test: $(TOOLS)  ## run all tests but the slow ones: four minutes
 	$(PYTEST) -m 'not slow' $(ARGS)
 
 test-all: $(TOOLS)  ## run every test: a quarter of an hour

@@ -14,6 +14,8 @@ def test_bodies_are_copied_cut_pasted_and_all_selected_by_keys(sheet: Sheet) -> 
     keyboard, before = sheet.page.keyboard, sheet.names()
     sheet.press('Hand')
     sheet.tap(0.0, 0.5)
+    # The panel makes the world smaller.
+    sheet.page.locator('#panel h2').wait_for()
     keyboard.press('Control+c')
     sheet.page.mouse.move(*sheet.place(-2.0, 6.0))
     keyboard.press('Control+v')
