@@ -373,6 +373,8 @@ def test_forces_of_a_past_are_told_of_a_body_that_is_watched_after_it(browser: B
     physsim.run(1.0)
     page.send('watch', name='a/0', forces=True)
     page.send('show', contacts=True)
+    # Answered when those have been handled.
+    page.ask('drop')
     physsim.run(0.1)
     assert not page.of_type('past_forces')
     told = past_forces(page, 60)
