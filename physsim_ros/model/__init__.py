@@ -11,7 +11,7 @@ fronts. Start with `scene` and `requests`.
 - Shared by all values: `names`, `colors`, `transform`, `arrays`, `checks`, `errors`, `texts`.
 - Descriptions of a world: `shapes`, `body_properties`, `joints`, `robots`, `settings`, `scene`.
 - Changes of it: `requests`, and the body that one describes, `body_description`.
-- What of them acts: `actors`, `media`, `attraction`, `applied_forces`, `latency`, `noise`.
+- Parts of them that act: `actors`, `media`, `attraction`, `applied_forces`, `latency`, `noise`.
 - Tools: `error_boundary`, `slices`, `weak_cache`, `garbage_collection`, `declarations`, `sizes`.
 - States: `snapshot` is shown, `timeline` is its place in the past, `checkpoint` is saved.
 """

@@ -92,11 +92,7 @@ class WorldSettings(Checked):
         'walls around the world: xmin, ymin, xmax, ymax, each '
         f'{-LARGEST:g} .. {LARGEST:g} [m]; empty is no walls',
     ] = None
-    density: Annotated[
-        float,
-        DENSITY,
-        'density of new bodies, unless they have their own',
-    ] = 1.0
+    density: Annotated[float, DENSITY, 'density of new bodies, unless they have their own'] = 1.0
     friction: Annotated[
         float,
         FRICTION,

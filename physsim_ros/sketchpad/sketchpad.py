@@ -85,7 +85,7 @@ class Sketchpad:
                 boundary=self._boundary,
             )
         except Exception:
-            # Where it cannot listen, the next one is to have the directory.
+            # A server that cannot listen leaves the directory to the next one.
             self._lock.release()
             raise
         self._shared = Shared(

@@ -509,7 +509,7 @@ def test_results_stay_and_an_answer_that_was_right_is_not_lost(
     assert results() == []
     browser.physsim.node.destroy_node()
     finish_files()
-    # What is in the file counts when the lock is there.
+    # The file is read again once the lock is held.
     assert kept.note('Anna', 'Lever', '1', right=True, visitor='Page 1')['tries'] == 1
 
 

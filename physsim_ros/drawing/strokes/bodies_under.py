@@ -142,7 +142,6 @@ def hatched_body(points: Floats, scene: SceneQuery) -> str | None:
 def wall_end(point: Point, context: Context) -> Point:
     """Return the snapped end of a wall: an end of another wall, or a point on a body [m]."""
     scene, snap = context.scene, context.settings.snap
-    near = scene.bodies_near(point, snap)
     for name in scene.bodies_at(point, snap):
         shape = scene.body(name).shape
         if isinstance(shape, Chain):
@@ -150,8 +149,10 @@ def wall_end(point: Point, context: Context) -> Point:
                 there = scene.in_world(name, end)
                 if math.dist(there, point) <= snap:
                     return there
-    covering = scene.bodies_at(point)
-    return point if covering or not near else nearest_on_surface(point, near[0], scene)
+    if scene.bodies_at(point):
+        return point
+    near = scene.bodies_near(point, snap)
+    return nearest_on_surface(point, near[0], scene) if near else point
 
 
 def _snapped(point: Point, name: str, scene: SceneQuery, snap: float) -> Point:

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the stages of reading a stroke return; `reading` has their order."""
+"""The results of the stages of reading a stroke; `reading` has the order of these."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// What joints report of a step: the impulses of their parts, how far apart they still are, and which broke.
+// Reports of joints on a step: the impulses of their parts, how far apart they still are, and which broke.
 
 #include "joint_parts.h"
 #include "joint_rows.h"

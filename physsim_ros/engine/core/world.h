@@ -11,7 +11,7 @@
 #include "vector.h"
 #include <stdbool.h>
 
-// What stages of a sub-step hand on to later ones, in the memory of the arena.
+// The results of stages that later stages of the same sub-step use, in the memory of the arena.
 typedef struct SubStep {
     struct Roll *rolls;
     int roll_count;

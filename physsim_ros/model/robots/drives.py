@@ -16,11 +16,7 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import (
-    FASTEST,
-    FRICTION,
-    Within,
-)
+from physsim_ros.model.checks import FASTEST, FRICTION, Within
 from physsim_ros.model.declarations import Checked, OfKind
 from physsim_ros.model.latency import COMMAND_RATE, delays
 from physsim_ros.model.shapes import LARGEST, SMALLEST
