@@ -9,7 +9,7 @@ import math
 
 import pytest
 
-from .chromium import circle, OpenSheet, started_world
+from .chromium import circle, OpenSheet, started_world, WORLD
 from ..outside import Outside
 
 BACKGROUND = """name => getComputedStyle(
@@ -293,12 +293,13 @@ def test_on_a_telephone_words_and_choices_are_whole(
 
 
 def test_the_words_of_a_panel_are_whole(open_sheet: OpenSheet, outside: Outside) -> None:
-    _, address = started_world(outside)
+    world = WORLD.replace('radius: 0.5}, at: [0, 0.5]', 'radius: 1}, at: [0, 3]')
+    _, address = started_world(outside, world=world, speed=0.0)
     sheet = open_sheet(address, size=(1280, 800), unfolded=False, locale='de-DE')
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
     sheet.press('Hand')
-    sheet.tap(0.0, 0.5)
-    sheet.page.locator('#panel').get_by_text('J', exact=False).first.wait_for()
+    sheet.tap(0.0, 3.0)
+    sheet.page.get_by_text('92,46 J').wait_for()
     assert sheet.page.evaluate(BROKEN, '#panel') == []
 
 
