@@ -189,13 +189,16 @@ static bool pair_sleeps(const World *world, const ReportedPair *pair) {
     return (sleeps(a) || sleeps(b)) && may_sleep(a) && may_sleep(b);
 }
 
-// Keep pairs of the step before that sleep now.
-static void add_sleeping(World *world, Report *report) {
+// Add the impulses of the step to the sums of pairs; one of the step before that sleeps now touches on.
+static void add_impulses(const World *world, Report *report) {
     for (int slot = 0; slot < report->room; slot++) {
         ReportedPair *pair = report->pairs + slot;
         if (pair->counts && pair->stamp == report->stamp - 1 && pair_sleeps(world, pair)) {
             pair->stamp = report->stamp;
             pair->in_frame = true;
+        }
+        if (pair->counts && pair->stamp == report->stamp) {
+            pair->sum = add(pair->sum, pair->impulse);
         }
     }
 }
@@ -238,13 +241,7 @@ void report_contacts(World *world) {
     }
     world->chipmunk.each_arbiter(world->space, add_overlap, world);
     find_crossings(world, add_crossing);
-    add_sleeping(world, report);
-    for (int slot = 0; slot < report->room; slot++) {
-        ReportedPair *pair = report->pairs + slot;
-        if (pair->counts && pair->stamp == report->stamp) {
-            pair->sum = add(pair->sum, pair->impulse);
-        }
-    }
+    add_impulses(world, report);
     report->follows = true;
 }
 
