@@ -165,7 +165,8 @@ static int island_of(const World *world, int *parents, const int *numbers, int a
     return number - 1;
 }
 
-// Whether a joint is at rest: springs alone fall asleep (`joint_solver.c`), with all that they and contacts tie together.
+// Whether a joint is at rest: springs alone fall asleep (`joint_solver.c`), with all that they and contacts tie
+// together.
 static bool rests(const World *world, const Joint *joint) {
     return sleeps(world->bodies + moved_by(world, joint));
 }
