@@ -5,8 +5,8 @@
 `make mutate`: forty mutations chosen at random, half of the core; a test has to notice each.
 
 `SEED=7 make mutate` chooses others, `COUNT=3` fewer, and `ONLY=10:20` tries a part of those.
-`make mutate ARGS=engine/core/floor` tries those of files whose path below `physsim_ros/` begins so,
-as after a change of them. The exit code is the number of mutations that no test noticed.
+`make mutate ARGS=engine/core/floor` tries those of files whose path below `physsim_ros/` begins
+so, as after a change of them. The exit code is the number of mutations that no test noticed.
 """
 
 from __future__ import annotations
