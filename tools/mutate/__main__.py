@@ -28,7 +28,10 @@ from .mutations import Mutation, mutations_of
 PACKAGE = Path('physsim_ros')
 CORE = PACKAGE / 'engine/core'
 # Folders of tests that are about parts of the package of another name.
-FURTHER = {'engine': ('laws', 'relations', 'sensing', 'simulation'), 'model': ('laws', 'simulation')}
+FURTHER = {
+    'engine': ('laws', 'relations', 'sensing', 'simulation'),
+    'model': ('laws', 'simulation'),
+}
 # Number of files that are run first, the likeliest, which notice most mutations.
 FIRST = 10
 # Many times what the fast tests of a folder take [s].
