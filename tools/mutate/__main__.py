@@ -119,7 +119,7 @@ def main(words: list[str]) -> int:
     every = candidates(words)
     chosen = choice(every, int(os.environ.get('COUNT') or 40), int(os.environ.get('SEED') or 0))
     begin, _, end = os.environ.get('ONLY', '').partition(':')
-    chosen = chosen[int(begin or 0) : int(end or len(chosen))]
+    chosen = chosen[slice(int(begin or 0), int(end or len(chosen)))]
     survivors = 0
     with TemporaryDirectory(prefix='mutate_') as place:
         tree = copy_source(Path(place) / 'source')
