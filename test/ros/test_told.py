@@ -129,7 +129,7 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
 ) -> None:
     client.ask(TOPICS[kind], kind())
     check_malformed(client, kind, data)
-    assert physsim.node.requests.undecodable == 1
+    assert physsim.node.request_topics.undecodable == 1
 
 
 @pytest.mark.parametrize('kind', LARGE)

@@ -24,7 +24,7 @@ from physsim_ros.model.errors import BadProperty, PhysSimError, UnknownProperty
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.ros.parameters.table import AUTO, NodeSettings, SPECS, Type
+from physsim_ros.ros.parameters.table import AUTO, FOR_NONE, NodeSettings, SPECS, Type
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -186,7 +186,9 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
         value = getattr(settings, name)
         if isinstance(value, tuple):
             value = list(value)
-        parameters.append(Parameter(name, SPECS[name].kind, [] if value is None else value))
+        elif value is None:
+            value = FOR_NONE[name]
+        parameters.append(Parameter(name, SPECS[name].kind, value))
     return parameters
 
 
@@ -204,6 +206,7 @@ def _draw_color(text: str) -> Color | None:
 
 
 def _setting(name: str, value: Any) -> Any:
-    if name in {'bounds', 'datum'} and len(value) == 0:
+    value = list(value) if isinstance(SPECS[name].default, list) else value
+    if name in FOR_NONE and value == FOR_NONE[name]:
         return None
-    return tuple(value) if isinstance(SPECS[name].default, list) else value
+    return tuple(value) if isinstance(value, list) else value

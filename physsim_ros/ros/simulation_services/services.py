@@ -15,10 +15,11 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
+from physsim_ros.ros.simulation_services.named_poses import NamedPoses
 from physsim_ros.ros.simulation_services.results import CodedRefusal, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
-from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
+from physsim_ros.ros.simulation_services.worlds import Worlds
 from physsim_ros.simulation.entries import Wait
 from rclpy.action import ActionServer
 from rclpy.node import Node
