@@ -72,7 +72,9 @@ class Worlds:
                     GetAvailableWorlds.Response.DEFAULT_SOURCES_FAILED,
                 )
         response.worlds = [
-            each for each in self._worlds() if passes_tags(set(each.tags), request.filter)
+            _resource(name, *found)
+            for name, found in sorted(self._files().items())
+            if passes_tags({found[0]}, request.filter)
         ]
         response.result.error_message = unknown
         return ''
@@ -126,27 +128,31 @@ class Worlds:
     def _current(self) -> WorldResource:
         uri = str(self._control.values['world_file'])
         name = Path(uri).stem
-        known = (each for each in self._worlds() if each.name == name)
-        return next(known, WorldResource(name=name, world_resource=Resource(uri=uri)))
+        # A path is that of another file, whatever worlds have its last name.
+        found = self._files().get(name) if uri in (name, f'{name}.yaml') else None
+        if found is None:
+            return WorldResource(name=name, world_resource=Resource(uri=uri))
+        return _resource(name, *found)
 
-    def _worlds(self) -> list[WorldResource]:
+    def _files(self) -> dict[str, tuple[str, Path]]:
+        """Return tag and file of each world by its name, as `find_world` finds them."""
         directories = (
             ('own', self._control.world_dir),
+            ('lesson', self._control.lesson_dir),
             ('shipped', shipped_worlds()),
             ('lesson', shipped_lessons()),
         )
-        # An own one comes before a shipped one of its name.
-        found = {
-            name: WorldResource(
-                name=name,
-                world_resource=Resource(uri=name),
-                description=title_of(path),
-                tags=[tag],
-            )
+        return {
+            name: (tag, path)
             for tag, directory in reversed(directories)
             for name, path in worlds_in(directory).items()
         }
-        return sorted(found.values(), key=lambda each: each.name)
+
+
+def _resource(name: str, tag: str, path: Path) -> WorldResource:
+    """Return the world of a file."""
+    uri = Resource(uri=name)
+    return WorldResource(name=name, world_resource=uri, description=title_of(path), tags=[tag])
 
 
 def unknown_sources(sources: list[str]) -> str:
