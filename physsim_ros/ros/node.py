@@ -153,7 +153,6 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.diagnostics = Diagnostics(self, simulation, outputs, topics, boundary)
         drawing = DrawingTopics(topics, simulation, self._session, frame_id=frame_id, loop=loop)
         self.control = control = NodeControl(
-            self,
             simulation,
             loop=loop,
             outputs=outputs,
@@ -165,7 +164,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         control.subscribe(topics)
         calls = ServiceCalls(simulation.requests, loop.make_call, boundary)
         create_services(self, control.services, calls, on_success=control.note_change)
-        self._parameter_services = ParameterServices(self, calls)
+        self._parameter_services = ParameterServices(self, self._live, calls)
         create_simulation_services(self, control, calls)
 
     def start(self) -> None:

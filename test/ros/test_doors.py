@@ -22,6 +22,7 @@ from physsim_ros.model.snapshot import Answer, Preview
 from physsim_ros.ros import parameters, world_files
 from physsim_ros.ros.encoders.preview import PreviewEncoder
 from physsim_ros.ros.encoders.streams import PosesEncoder
+from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.publishers import interactive_markers, status_publishers
 from physsim_ros.ros.publishers.status_publishers import TimelinePublisher
 from physsim_ros.ros.robots.drive_topic import DriveTopic
@@ -59,11 +60,11 @@ TOPICS = {
     '~/seek': Clock,
 }
 SERVICES: dict[str, tuple[object, str]] = {
-    'play': (parameters, 'set_value'),
-    'pause': (parameters, 'set_value'),
-    'rewind': (parameters, 'set_value'),
-    'fast_forward': (parameters, 'set_value'),
-    'fast_rewind': (parameters, 'set_value'),
+    'play': (LiveParameters, 'set_together'),
+    'pause': (LiveParameters, 'set_together'),
+    'rewind': (LiveParameters, 'set_together'),
+    'fast_forward': (LiveParameters, 'set_together'),
+    'fast_rewind': (LiveParameters, 'set_together'),
     'step': (Past, 'fit_memory'),
     'undo': (Past, 'undo'),
     'redo': (Past, 'redo'),
