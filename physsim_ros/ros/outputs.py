@@ -107,7 +107,7 @@ class Outputs:
         """Show the last frame to late subscribers; called at ticks without a new frame."""
         if self.frame is None:
             return
-        for stream in self.topics.streams:
+        for stream in (*self.topics.streams, self.topics.interactive_markers):
             with self._boundary.output(stream.name):
                 stream.show_late(self.frame)
 

@@ -77,6 +77,7 @@ class Publishers:
     :ivar preview: the stream of unfinished gestures and readings
     :ivar events: the publisher of `~/events`
     :ivar timeline: the publisher of `~/timeline`
+    :ivar interactive_markers: the publisher of `~/drag/update`
     :ivar streams: of states, of which late subscribers receive the last frame
     :ivar outputs: each with a method `show`, in the order in which they are shown a frame
     """
@@ -119,12 +120,12 @@ class Publishers:
             node.create_publisher(DiagnosticStatus, '~/events', EVENTS_DEPTH)
         )
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'), status)
-        self._markers = InteractiveMarkers(node, frame_id)
+        self.interactive_markers = InteractiveMarkers(node, frame_id)
         self.outputs: tuple[Output, ...] = (
             self.events,
             *self.streams,
             self.contacts,
-            self._markers,
+            self.interactive_markers,
             self.timeline,
         )
 
@@ -132,7 +133,7 @@ class Publishers:
     def is_read(self) -> bool:
         """Whether a topic of frames has subscribers."""
         streams = (each.is_read for each in (*self.streams, self.contacts))
-        return any((self._markers.is_read, self.timeline.is_read, *streams))
+        return any((self.interactive_markers.is_read, self.timeline.is_read, *streams))
 
 
 class Encoder(Protocol):
