@@ -6,7 +6,8 @@ Random histories of a simulation, each made of a seed.
 
 A history is a list of operations: requests, speeds, seeks, undo, redo, resets, courses, limits,
 saved worlds and moments. Each is the name of a method of `histories.Player` with its arguments.
-Names are few, so that requests meet. Some histories begin with a shipped world, and are about its bodies.
+Names are few, so that requests meet. Some histories begin with a shipped world, and are about its
+bodies.
 """
 
 from collections.abc import Callable, Iterator, Sequence

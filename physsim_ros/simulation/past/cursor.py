@@ -110,7 +110,7 @@ class Replay:
             tree.note_step(end)
             for name in lost:
                 self._report(
-                    'divergence', f'{name} left the range of numbers and was removed', name
+                    'body_lost', f'{name} left the range of numbers and was removed', name
                 )
             for name, force in broken:
                 self._report(
