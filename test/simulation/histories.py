@@ -459,6 +459,9 @@ class Player:
         step = self.moment.frame.snapshot.step
         self.line, self.courses = Line(1, self.moment, head=step), 1
         self.left, self.undone, self.resets = {}, [], []
+        frame = self.sim.frame
+        here = frame.course, frame.speed, frame.answers
+        self._check(here == (1, 0.0, ()), f'a restored frame has {here}')
         self._arrive((step, 0))
 
     def _beside(self) -> Simulation:

@@ -73,6 +73,7 @@ def test_lines_that_have_run_on_from_a_saved_moment_show_what_they_have_shown():
             ('redo',),
             ('drag', 'a/0', (1.0, 3.0), 3, False),
             ('save_moment', 3),
+            ('restore',),
         ]
     )
 
