@@ -107,6 +107,19 @@ def test_what_comes_to_rest_on_a_damped_spring_sleeps_there():
     assert pose(world, 'bob/0')[1] == pytest.approx(0.05, abs=1e-6)
 
 
+def test_a_spring_that_sleeps_is_not_solved():
+    world = on_spring(1.0, 100.0, 0.05, 6.0)
+    world.step(2400)
+    assert sleepers(world) == ['bob/0']
+    core = world.space.core
+    written = core.read_impulses() + 0.01
+
+    core.write_impulses(written)
+    world.step(1)
+
+    assert (core.read_impulses()[:, 0] == written[:, 0]).all()
+
+
 # If a sub-step of falling began the idle time anew, as in Chipmunk, each would take a second more.
 @pytest.mark.parametrize(('seed', 'seconds'), [(0, 2.0), (1, 1.75), (4, 3.25)])
 def test_a_pile_sleeps_though_a_contact_that_bears_nothing_is_lost_now_and_then(seed, seconds):
