@@ -145,9 +145,11 @@ class Player:
         self.resets: list[tuple[Line, dict[int, Line]]] = []
         self.saved: WorldState | None = None
         # The moment that was saved last. By the beginning of a line and its requests, the steps of
-        # those that were saved: there, the world moves into another space.
+        # those that were saved: there, the world moves into another space. Each has a key as long
+        # as these are there.
         self.moment: SavedMoment | None = None
         self.moves: dict[tuple[int, ...], list[int]] = {}
+        self.kept: list[list[object]] = []
 
     # Operations
 
@@ -347,7 +349,8 @@ class Player:
         self.courses += 1
         begun = before.state
         loads.insert(0, begun.loaded if isinstance(begun, SavedMoment) else begun)
-        self.line = Line(self.courses, loads[-1])
+        # Each beginning is another one, also of the same state.
+        self.line = Line(self.courses, replace(loads[-1]))
         self.left = {}
         self._arrive((0, 0))
 
@@ -443,6 +446,7 @@ class Player:
         self._check(grips == moment.checkpoint.grips, f'the frame of a saved moment has {grips}')
         steps = self.moves.setdefault(key_of(self.line.state, self.line.made), [])
         steps.append(self.sim.step)
+        self.kept.append([self.line.state, *self.line.made])
         self.moment, other = moment, self._beside()
         other.restore(moment)
         other.reports_contacts = self.sim.reports_contacts
@@ -457,7 +461,7 @@ class Player:
             return
         self.sim.restore(self.moment)
         step = self.moment.frame.snapshot.step
-        self.line, self.courses = Line(1, self.moment, head=step), 1
+        self.line, self.courses = Line(1, replace(self.moment), head=step), 1
         self.left, self.undone, self.resets = {}, [], []
         frame = self.sim.frame
         here = frame.course, frame.speed, frame.answers
