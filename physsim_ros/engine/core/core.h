@@ -390,9 +390,9 @@ enum { SAFE_DEPTHS = 4 };
 // the corners.
 enum { ROUND_COST = 4 };
 
-// A pair of bodies that touched during a frame; -1, always second, is the background.
+// A pair of bodies that touched during a frame.
 typedef struct Contact {
-    int64_t rows[2]; // of the two bodies, the lesser first; -1, always second, is the background
+    int64_t rows[2]; // places of the two bodies, the lesser first; -1, always second, is the background
     cpVect point;    // mean of the latest contact points [m]
     cpVect normal;   // from the first to the second body
     cpVect impulse;  // sum over the frame of what acts on the second body [N s]

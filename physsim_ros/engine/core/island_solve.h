@@ -9,11 +9,15 @@
 // Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
 static const double limit_slop = 1e-4;
 
+// The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a thrown one, and
+// joints that contradict each other move their bodies no further than that.
+static const double fastest_correction = 20.0;
+
 // One island in one step.
 typedef struct Solve {
     Arena *arena;
-    const cpSpace *space;
-    double dt; // [s]
+    double dt;           // [s]
+    double overlap_kept; // share of an overlap that is not pushed out in a sub-step
     const Island *island;
     System system;
     Twist *velocities;   // (body_count): of this step

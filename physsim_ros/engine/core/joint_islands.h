@@ -41,14 +41,21 @@ typedef struct Island {
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
     bool *jointed;   // (body_count)
     Inverse *inverses;
-    Pose *poses;
     Turn *turns;
-    Twist *velocities;
     const Guide *guides; // of all rows
     Ends *ends;          // (link_count)
     int *further;        // (row_count + 1): the first further link of each row (`saddle_point.h`)
     int *groups;         // (row_count): one for rows of a joint between the same bodies, and for a pair that touches
 } Island;
+
+// The rows of a bearing: along its normal, and across it.
+static inline int normal_row(const Island *island, int bearing) {
+    return island->joint_row_count + bearing;
+}
+
+static inline int tangent_row(const Island *island, int bearing) {
+    return island->joint_row_count + island->bearing_count + bearing;
+}
 
 typedef struct Islands {
     int count;

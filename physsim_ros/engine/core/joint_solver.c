@@ -44,14 +44,14 @@ static void move_bounds(World *world, const Solve *solve) {
 static void correct_island(World *world, Solve *solve) {
     const Island *island = solve->island;
     for (int body = 0; body < island->body_count; body++) {
-        island->poses[body] = pose_of(island->engine[body]);
+        solve->poses[body] = pose_of(island->engine[body]);
     }
     solve_positions(solve);
     move_bounds(world, solve);
     bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {
-            Pose now = pose_of(island->engine[body]), next = island->poses[body];
+            Pose now = pose_of(island->engine[body]), next = solve->poses[body];
             if (next.p.x != now.p.x || next.p.y != now.p.y || next.yaw != now.yaw) {
                 set_pose(island->engine[body], next);
             }

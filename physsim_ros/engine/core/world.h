@@ -34,9 +34,9 @@ typedef struct Private {
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
-    double kept;        // share of its velocity that a body keeps in a sub-step
-    double bias_rate;   // at which an overlap is pushed out [1/s]
-    double least_depth; // least safe depth of a body that is no sensor [m]
+    double kept;         // share of its velocity that a body keeps in a sub-step
+    double overlap_kept; // share of an overlap that it keeps, the rest is pushed out
+    double least_depth;  // least safe depth of a body that is no sensor [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
     struct Statics *statics;
