@@ -281,23 +281,23 @@ static int by_number(int64_t x, int64_t y) {
     return (x > y) - (x < y);
 }
 
-static int by_rows(const void *one, const void *other) {
-    const int64_t *x = ((const Contact *)one)->rows, *y = ((const Contact *)other)->rows;
+static int by_pair(const void *one, const void *other) {
+    const int64_t *x = ((const Contact *)one)->pair, *y = ((const Contact *)other)->pair;
     return x[0] != y[0] ? by_number(x[0], y[0]) : by_number(x[1], y[1]);
 }
 
-static int by_time_and_rows(const void *one, const void *other) {
+static int by_time_and_pair(const void *one, const void *other) {
     const Begun *x = one, *y = other;
     if (x->time != y->time) {
         return (x->time > y->time) - (x->time < y->time);
     }
-    return x->rows[0] != y->rows[0] ? by_number(x->rows[0], y->rows[0]) : by_number(x->rows[1], y->rows[1]);
+    return x->pair[0] != y->pair[0] ? by_number(x->pair[0], y->pair[0]) : by_number(x->pair[1], y->pair[1]);
 }
 
 static Contact contact_of(const World *world, const ReportedPair *pair) {
     double size = length(pair->normals), count = pair->points > 0 ? (double)pair->points : 1.0;
     bool directed = size > opposed * count;
-    return (Contact){.rows = {pair->a, pair->b == world->body_count - 1 ? -1 : pair->b},
+    return (Contact){.pair = {pair->a, pair->b == world->body_count - 1 ? -1 : pair->b},
                      .point = scaled(pair->positions, 1.0 / count),
                      .normal = directed ? scaled(pair->normals, 1.0 / size) : pair->highest,
                      .impulse = pair->sum,
@@ -315,11 +315,11 @@ void core_take_contacts(World *world) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }
     }
-    sort(world->contacts, world->contact_count, sizeof(Contact), by_rows);
-    sort(world->begun, world->begun_count, sizeof(Begun), by_time_and_rows);
+    sort(world->contacts, world->contact_count, sizeof(Contact), by_pair);
+    sort(world->begun, world->begun_count, sizeof(Begun), by_time_and_pair);
     for (int number = 0; number < world->begun_count; number++) {
         Begun *begun = world->begun + number;
-        begun->rows[1] = begun->rows[1] == world->body_count - 1 ? -1 : begun->rows[1];
+        begun->pair[1] = begun->pair[1] == world->body_count - 1 ? -1 : begun->pair[1];
     }
 }
 
@@ -354,7 +354,7 @@ void rename_contacts(World *world, const int32_t *former, int count) {
     int begun = 0;
     for (int number = 0; number < world->begun_count; number++) {
         Begun each = world->begun[number];
-        int a = places[each.rows[0]], b = places[each.rows[1]];
+        int a = places[each.pair[0]], b = places[each.pair[1]];
         if (a >= 0 && b >= 0) {
             world->begun[begun++] = (Begun){{a, b}, each.time};
         }

@@ -33,6 +33,10 @@ Layout layout_of(const Island *island);
 // Begin to solve an island.
 Solve island_solve(World *world, const Island *island, const System *system);
 
+// Solve the velocities of an island (`joint_velocities.c`), then its positions (`joint_positions.c`).
+void solve_velocities(Solve *solve);
+void solve_positions(Solve *solve);
+
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);
 

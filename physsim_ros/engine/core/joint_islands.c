@@ -313,7 +313,7 @@ static void add_joint_rows(Numbering *numbering) {
     for (int number = 0; number < island->joint_count; number++, numbering->group++) {
         const Joint *joint = island->joints[number];
         for (int each = 0; each < joint->row_count; each++) {
-            const Row *row = numbering->world->rows + joint->first_row + each;
+            Row *row = numbering->world->rows + joint->first_row + each;
             island->rows[numbering->row] = row;
             island->joint_of_row[numbering->row] = number;
             take_impulse(numbering->world, island, numbering->row);
@@ -353,7 +353,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
     island->jointed = TAKE(arena, bool, most);
     island->inverses = TAKE(arena, Inverse, most);
     island->turns = TAKE(arena, Turn, most);
-    island->rows = TAKE(arena, const Row *, island->joint_row_count);
+    island->rows = TAKE(arena, Row *, island->joint_row_count);
     island->joint_of_row = TAKE(arena, int, island->joint_row_count);
     island->impulses = TAKE(arena, double *, island->joint_row_count);
     island->last = TAKE(arena, double, island->row_count);

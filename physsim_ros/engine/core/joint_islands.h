@@ -32,7 +32,7 @@ typedef struct Turn {
 typedef struct Island {
     int joint_count, joint_row_count, bearing_count, body_count, row_count;
     const Joint **joints; // then one for each row of rolling resistance
-    const Row **rows;     // (joint_row_count)
+    Row **rows;           // (joint_row_count)
     int *joint_of_row;
     double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
     double *last;      // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]

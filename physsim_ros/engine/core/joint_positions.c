@@ -15,7 +15,7 @@
 // each other they are of any size and cancel in these poses alone; a step that started from them after a turn of its
 // bodies would gain the difference.
 
-#include "joint_positions.h"
+#include "island_solve.h"
 #include "mixed_lcp.h"
 #include <string.h>
 

@@ -23,10 +23,14 @@
 // the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
 // pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that holds, as a taut
 // rope does, also gets the curvature term if that loads it more.
+//
+// Springs: those with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the
+// impulse of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the
+// damper; Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
 // Cost: that of `joint_solver.c`.
 
-#include "joint_velocities.h"
 #include "contact.h"
+#include "island_solve.h"
 #include "mixed_lcp.h"
 #include "stages.h"
 #include <string.h>
@@ -49,10 +53,6 @@ static const double slip_error = 1e-4, slip_share = 1e-3;
 // Share of its rate that a damper takes in a step, at least: the row of a spring without one is soft by this, and
 // swings on for a million seconds.
 static const double least_damping = 1e-9;
-
-// Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse
-// of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper;
-// Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
 
 // The rows of an island in velocities: those of joints, then the two edges of the friction cone of each contact. The
 // impulse along an edge, λ >= 0, is one along the normal and μ times as much across it, to one side or the other.

@@ -103,6 +103,11 @@ static inline Body *active_at(const World *world, int number) {
     return world->own->all_active ? world->bodies + number : body_of(world->space->dynamicBodies->arr[number]);
 }
 
+// Whether two bodies are of one group, and pass through each other.
+static inline bool share_group(const Body *a, const Body *b) {
+    return a->group != 0 && a->group == b->group;
+}
+
 static inline Pose pose_of(const cpBody *body) {
     return (Pose){body->p, body->a};
 }
@@ -129,6 +134,11 @@ void set_pose(cpBody *body, Pose pose);
 // A pose after a displacement.
 static inline Pose moved(Pose pose, Twist displacement, double share) {
     return (Pose){add(pose.p, scaled(displacement.v, share)), pose.yaw + displacement.w * share};
+}
+
+// Where Chipmunk moves a body to in a time [s].
+static inline Pose pose_after(const cpBody *body, double lapse) {
+    return moved(pose_of(body), twist_of(body), lapse);
 }
 
 // The next contact in the list of a body.

@@ -230,7 +230,7 @@ int call_join_impacts(int pair_count) {
         double side = number % 2 == 0 ? -1.0 : 1.0;
         div_t pair = div(number / 2, 100);
         engine.p = vec(10.0 * pair.rem + 0.6 * side, 10.0 * pair.quot);
-        sweep.movers[number] = mover_of(&body, (Twist){{-side, 0.0}, 0.0});
+        sweep.movers[number] = mover_of(&body, pose_of(&engine), (Twist){{-side, 0.0}, 0.0});
         sweep.movers[number].island = fast[number] = number;
         boxes[number] = sweep.movers[number].box;
     }
