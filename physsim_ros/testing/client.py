@@ -65,10 +65,16 @@ class SettlingExecutor:
         self._executor.add_node(node)
 
     def shutdown(self) -> None:
-        """Remove all nodes, and shut the executor down."""
+        """
+        Remove and destroy all nodes, and shut the executor down.
+
+        The participant of a context, with its threads and sockets, ends with its last node.
+        """
         for node in self._nodes:
             self._executor.remove_node(node)
         self._executor.shutdown()
+        for node in reversed(self._nodes):
+            node.destroy_node()
 
     def settle(self) -> None:
         """

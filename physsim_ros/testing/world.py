@@ -49,15 +49,13 @@ class PhysSim(ChangedWorld):
         with ExitStack() as closing:
             node = PhysSimNode(context=context, parameter_overrides=overrides)
             closing.callback(node.destroy_node)
-            own = NodeWithoutQosEvents('physsim_test', context=context)
-            closing.callback(own.destroy_node)
             self._executor = SettlingExecutor(context)
-            # The executor goes before its nodes, whose waitables it has.
             closing.callback(self._executor.shutdown)
             # `contacts` reads them from the frame, where no message is needed.
             node.outputs.records_contacts = True
             self._executor.add_node(node)
             node.boundary.on_error = self._executor.errors.append
+            own = NodeWithoutQosEvents('physsim_test', context=context)
             super().__init__(node, RequestClient(own, node, self._executor))
             self._closing = closing.pop_all()
         self.context = context
