@@ -10,6 +10,7 @@ The client publishes the requests of a test and receives the answers.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 import time
 from typing import Any
 
@@ -19,6 +20,7 @@ from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.testing.values import Refused
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import MultiDOFJointState
@@ -74,7 +76,9 @@ class SettlingExecutor:
             self._executor.remove_node(node)
         self._executor.shutdown()
         for node in reversed(self._nodes):
-            node.destroy_node()
+            # One that the test has destroyed may not be able to end twice.
+            with suppress(InvalidHandle):
+                node.destroy_node()
 
     def settle(self) -> None:
         """
