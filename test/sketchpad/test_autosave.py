@@ -359,6 +359,23 @@ def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(
     assert [each.name for each in tmp_path.iterdir()] == ['.lock']
 
 
+def test_a_save_by_name_leaves_what_another_start_has_not_saved(
+    tmp_path: Path, lock: DirectoryLock
+) -> None:
+    other = DirectoryLock(tmp_path)
+    other.acquire()
+    (tmp_path / '.autosave.yaml').write_text('drawn before')
+    simulation = Simulation()
+    autosave = autosave_in(tmp_path, lock, empty)
+    other.release()
+    # As answers to lessons do.
+    lock.acquire()
+    drawn(simulation, autosave, 'a/0')
+    autosave.note_saved(simulation.world.scene)
+    finish_files()
+    assert (tmp_path / '.autosave.yaml').read_text() == 'drawn before'
+
+
 def test_no_request_waits_for_a_save_and_one_is_under_way(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -209,7 +209,7 @@ static void move_actor(const World *world, const Actor *actor) {
 void begin_actors(World *world) {
     start_actors(world);
     world->own->next_actor = 0;
-    world->own->around = NULL;
+    world->own->surroundings = NULL;
 }
 
 bool choose_velocity(World *world) {
@@ -227,11 +227,11 @@ bool choose_velocity(World *world) {
         actor->chosen = follow_path(world, actor, dt);
         return true;
     }
-    if (own->around == NULL) {
-        own->around = TAKE(&own->arena, Surroundings, 1);
-        *own->around = surroundings_of(world);
+    if (own->surroundings == NULL) {
+        own->surroundings = TAKE(&own->arena, Surroundings, 1);
+        *own->surroundings = surroundings_of(world);
     }
-    actor->chosen.v = walk(world, own->around, actor, dt);
+    actor->chosen.v = walk(world, own->surroundings, actor, dt);
     return true;
 }
 

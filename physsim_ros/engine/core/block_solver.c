@@ -12,11 +12,7 @@
 // `b2ContactSolver::SolveVelocityConstraints` in Box2D 2.4, "block solver"). Chipmunk's own solver begins with these
 // impulses. Friction and what it changes of the normal impulses are found by rounds of sequential impulses over the
 // same points, as Chipmunk makes them.
-// Scope: two bodies that hit each other, or one that hits what forces do not move, in any number of points, with all
-// contacts of these bodies and of those that they touch in turn: the ground that carries a body which is hit, a short
-// stack below it. Of two bodies the outermost points of each face count: the others can add nothing to them, whatever
-// pieces the bodies consist of. Impacts in piles of more than `CLUSTER_POINTS` are left to Chipmunk: impulses from a
-// part of a pile throw its light bodies out.
+// Scope: that of `impact_clusters.c`.
 // Energy: Newton's law of restitution can create energy, with several points at once as where a light body is
 // pinched between a heavy one and the ground, with one where friction turns the slip round (T. R. Kane and D. A.
 // Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest share of its restitution
@@ -26,36 +22,22 @@
 // energy laws 6 (oblique impacts) and 34 (random crowds).
 
 #include "contact.h"
-#include "lcp.h"
+#include "impact_clusters.h"
 #include "stages.h"
 #include "touch.h"
 
-// Points that are solved together, at most: of four boxes on each other and the ground, eight are.
-enum { CLUSTER_POINTS = LCP_ROWS };
-// Bodies that move, at most: two that meet, and each further one brings a point.
-enum { CLUSTER_BODIES = CLUSTER_POINTS + 1 };
+// Most rounds of sequential impulses over the points of an impact.
+enum { SEQUENTIAL_ROUNDS = 200 };
+// Change of velocity below which a round is the last one [m/s].
+static const double settled = 1e-12;
 
-// A contact that is an impact (`is_impact`), whether it begins or not.
-typedef struct Hit {
-    cpArbiter *contact;
-    int a, b; // places of its bodies, the lesser first; those that forces do not move are one: `body_count`
-} Hit;
+// Energy of an impact below which it is rounding, as a share of what its impulses exchange.
+static const double rounding_of_gain = 1e-9;
+// Guesses at the share of its restitution with which an impact gains no energy, at most, and how well it is found.
+enum { GUESSES = 24 };
+static const double share_error = 1e-9;
 
-// A point of a contact.
-typedef struct ContactPoint {
-    cpArbiter *arbiter;
-    cpContact *contact;
-} ContactPoint;
-
-// Two bodies that hit each other, those that they reach through contacts, and the outermost points of these.
-typedef struct Cluster {
-    const cpBody *bodies[CLUSTER_BODIES];
-    ContactPoint contact_points[CLUSTER_POINTS];
-    int body_count, count;
-    bool too_many;
-} Cluster;
-
-// A point of a contact, and the velocities at which its bodies part.
+// A point of a cluster, as it is solved.
 typedef struct Point {
     cpContact *contact;
     cpBody *a, *b;
@@ -67,153 +49,28 @@ typedef struct Point {
     double added, added_t; // impulse that an impact next to it has given it in this step [N s]
 } Point;
 
-static bool is_movable(const cpBody *body) {
-    return body->m_inv > 0.0;
-}
-
-static bool has_body(const Cluster *cluster, const cpBody *body) {
-    for (int number = 0; number < cluster->body_count; number++) {
-        if (cluster->bodies[number] == body) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static bool has_point(const Cluster *cluster, const cpContact *contact) {
-    for (int number = 0; number < cluster->count; number++) {
-        if (cluster->contact_points[number].contact == contact) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Whether two bodies are the same, or both such that forces do not move them.
-static bool are_one(const cpBody *one, const cpBody *other) {
-    return one == other || !(is_movable(one) || is_movable(other));
-}
-
-// Whether two contacts are of the same face of the same two bodies.
-static bool share_face(const cpArbiter *one, const cpArbiter *other) {
-    bool same = are_one(one->body_a, other->body_a) && are_one(one->body_b, other->body_b);
-    bool turned = are_one(one->body_a, other->body_b) && are_one(one->body_b, other->body_a);
-    Vec normal = same ? other->n : negated(other->n);
-    return (same || turned) && length(sub(one->n, normal)) <= same_normal;
-}
-
-// Where a point lies along the face of a contact [m].
-static double position_along(const cpArbiter *face, ContactPoint point) {
-    const cpBody *body = is_movable(face->body_a) ? face->body_a : face->body_b;
-    Vec arm = body == point.arbiter->body_a ? point.contact->r1 : point.contact->r2;
-    return cross(face->n, arm);
-}
-
-// Add a point to a cluster, unless it lies between two of the same face.
-static void add_point(Cluster *cluster, ContactPoint point) {
-    ContactPoint *ends[2];
-    int count = 0;
-    for (int number = 0; number < cluster->count && count < 2; number++) {
-        if (share_face(point.arbiter, cluster->contact_points[number].arbiter)) {
-            ends[count++] = cluster->contact_points + number;
-        }
-    }
-    if (count < 2) {
-        cluster->too_many = cluster->count == CLUSTER_POINTS;
-        if (!cluster->too_many) {
-            cluster->contact_points[cluster->count++] = point;
-        }
-        return;
-    }
-    double position = position_along(point.arbiter, point), first = position_along(point.arbiter, *ends[0]),
-           second = position_along(point.arbiter, *ends[1]);
-    if (position < least(first, second)) {
-        *ends[first < second ? 0 : 1] = point;
-    } else if (position > greatest(first, second)) {
-        *ends[first > second ? 0 : 1] = point;
-    }
-}
-
-// Add the points of a contact to a cluster, and its bodies, unless it is deferred.
-static void add_contact(Cluster *cluster, cpArbiter *arbiter) {
-    // Far away a distance can be lost in rounding, and with it the direction.
-    bool has_normal = arbiter->n.x != 0.0 || arbiter->n.y != 0.0;
-    if (arbiter->count == 0 || !has_normal || is_deferred(arbiter->contacts)) {
-        return;
-    }
-    for (int number = 0; number < arbiter->count && !cluster->too_many; number++) {
-        ContactPoint point = {arbiter, arbiter->contacts + number};
-        if (!has_point(cluster, point.contact)) {
-            add_point(cluster, point);
-        }
-    }
-    const cpBody *bodies[2] = {arbiter->body_a, arbiter->body_b};
-    for (int end = 0; end < 2 && !cluster->too_many; end++) {
-        if (is_movable(bodies[end]) && !has_body(cluster, bodies[end])) {
-            assert(cluster->body_count < CLUSTER_BODIES);
-            cluster->bodies[cluster->body_count++] = bodies[end];
-        }
-    }
-}
-
-static int by_bodies(const void *one, const void *other) {
-    const Hit *x = one, *y = other;
-    if (x->a != y->a || x->b != y->b) {
-        return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->b > y->b) - (x->b < y->b);
-    }
-    uintptr_t first = x->contact->a->hashid, second = y->contact->a->hashid;
-    if (first == second) {
-        first = x->contact->b->hashid, second = y->contact->b->hashid;
-    }
-    return (first > second) - (first < second);
-}
-
-// List the contacts that are impacts, by bodies.
-static int list_hits(World *world, Hit *hits) {
-    int count = 0;
-    for (int number = 0; number < arbiter_count(world); number++) {
-        cpArbiter *each = arbiter_at(world, number);
-        if (is_impact(each) && !is_deferred(each->contacts)) {
-            int a = is_movable(each->body_a) ? place_of(world, each->body_a) : world->body_count;
-            int b = is_movable(each->body_b) ? place_of(world, each->body_b) : world->body_count;
-            hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a};
-        }
-    }
-    sort(hits, count, sizeof(Hit), by_bodies);
-    return count;
-}
-
-// Add all contacts of the bodies of a cluster, and the bodies that they reach.
-static void add_neighbours(Cluster *cluster) {
-    for (int number = 0; number < cluster->body_count; number++) {
-        const cpBody *body = cluster->bodies[number];
-        for (cpArbiter *each = body->arbiterList; each != NULL && !cluster->too_many; each = next_of(each, body)) {
-            add_contact(cluster, each);
-        }
-    }
-}
-
 // The velocity of a body at the end of the step without impulses.
 static Twist free_twist(const World *world, const cpBody *body) {
     Twist twist = twist_of(body);
     if (is_movable(body)) {
         double kept = world->own->kept, dt = world->dt;
-        Vec pull = add(world->space->gravity, scaled(body->f, body->m_inv));
-        twist = (Twist){add(scaled(twist.v, kept), scaled(pull, dt)), twist.w * kept + body->t * body->i_inv * dt};
+        Vec acceleration = add(world->space->gravity, scaled(body->f, body->m_inv));
+        twist =
+            (Twist){add(scaled(twist.v, kept), scaled(acceleration, dt)), twist.w * kept + body->t * body->i_inv * dt};
     }
     return twist;
 }
 
 // The velocity of the surfaces against each other in a point [m/s]: along the normal, and along the face.
 static Vec surface_velocity(const Point *point, Twist a, Twist b) {
-    Vec v = add(sub(velocity_at(b, point->contact->r2), velocity_at(a, point->contact->r1)), point->slip);
+    Vec v = add(parting_velocity(point->contact, a, b), point->slip);
     return vec(dot(v, point->normal), dot(v, perpendicular(point->normal)));
 }
 
 // The velocity at which the bodies part in a point, without impulses [m/s].
 static double parting(const World *world, const Point *point) {
-    Vec b = velocity_at(free_twist(world, point->b), point->contact->r2);
-    return dot(sub(b, velocity_at(free_twist(world, point->a), point->contact->r1)), point->normal);
+    Twist a = free_twist(world, point->a), b = free_twist(world, point->b);
+    return dot(parting_velocity(point->contact, a, b), point->normal);
 }
 
 // The change of the velocity in one point by an impulse of 1 in another one, through one body [1/kg].
@@ -260,8 +117,8 @@ static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
 
 static void list_points(const Cluster *cluster, Velocities *velocities, Point *points) {
     for (int number = 0; number < cluster->count; number++) {
-        cpArbiter *each = cluster->contact_points[number].arbiter;
-        cpContact *contact = cluster->contact_points[number].contact;
+        cpArbiter *each = cluster->points[number].arbiter;
+        cpContact *contact = cluster->points[number].contact;
         bool is_first = begins(each);
         points[number] = (Point){contact,
                                  each->body_a,
@@ -304,7 +161,7 @@ static void push_apart(const Point *point, Vec impulse) {
 // Make the impulse of a point better, as `cpArbiterApplyImpulse` does; return the change of velocity [m/s].
 static double improve(const Point *point) {
     cpContact *contact = point->contact;
-    Vec v = add(sub(velocity_at(*point->of_b, contact->r2), velocity_at(*point->of_a, contact->r1)), point->slip),
+    Vec v = add(parting_velocity(contact, *point->of_a, *point->of_b), point->slip),
         tangent = perpendicular(point->normal);
     double normal = contact->jnAcc, along = contact->jtAcc;
     contact->jnAcc = greatest(normal - (contact->bounce + dot(v, point->normal)) * contact->nMass, 0.0);
@@ -314,17 +171,6 @@ static double improve(const Point *point) {
     push_apart(point, add(scaled(point->normal, dn), scaled(tangent, dt)));
     return greatest(fabs(dn) / contact->nMass, fabs(dt) / contact->tMass);
 }
-
-// Most rounds of sequential impulses over the points of an impact.
-enum { SEQUENTIAL_ROUNDS = 200 };
-// Change of velocity below which a round is the last one [m/s].
-static const double settled = 1e-12;
-
-// Energy of an impact below which it is rounding, as a share of what its impulses exchange.
-static const double rounding_of_gain = 1e-9;
-// Guesses at the share of its restitution with which an impact gains no energy, at most, and how well it is found.
-enum { GUESSES = 24 };
-static const double share_error = 1e-9;
 
 static Vec impulse_at_point(const Point *point) {
     return vec(point->contact->jnAcc - point->added, point->contact->jtAcc - point->added_t);
@@ -456,21 +302,6 @@ static void solve_cluster(const World *world, const Cluster *cluster) {
     }
 }
 
-// Solve the contacts by which two bodies hit each other, with what they reach; mark the bodies that are then solved.
-static void solve_pair(const World *world, const Hit *hits, int count, bool *solved) {
-    Cluster cluster = {.count = 0};
-    for (int number = 0; number < count; number++) {
-        add_contact(&cluster, hits[number].contact);
-    }
-    add_neighbours(&cluster);
-    if (!cluster.too_many) {
-        solve_cluster(world, &cluster);
-        for (int number = 0; number < cluster.body_count; number++) {
-            solved[place_of(world, cluster.bodies[number])] = true;
-        }
-    }
-}
-
 void solve_impacts(World *world) {
     if (!has_stage(world, STAGE_BLOCK_SOLVER) || world->own->kept == 0.0) {
         return;
@@ -483,7 +314,13 @@ void solve_impacts(World *world) {
         for (last = first; last < count && hits[last].a == hits[first].a && hits[last].b == hits[first].b; last++) {
         }
         if (!solved[hits[first].a] && !solved[hits[first].b]) {
-            solve_pair(world, hits + first, last - first, solved);
+            Cluster cluster = cluster_of(hits + first, last - first);
+            if (!cluster.too_many) {
+                solve_cluster(world, &cluster);
+                for (int number = 0; number < cluster.body_count; number++) {
+                    solved[place_of(world, cluster.bodies[number])] = true;
+                }
+            }
         }
     }
 }

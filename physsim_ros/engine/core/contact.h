@@ -11,6 +11,7 @@
 // bounce: restitution times the velocity along the normal, < 0 where its bodies approach, by Chipmunk or
 //     `prepare_contact`; of an impact, for the moment of it (`rest_of_step.c`); INFINITY of one that is deferred
 //     (`impact_propagation.c`); a share of it where an impact would gain energy (`block_solver.c`).
+// bias: the velocity by which an overlap is pushed out, by the slop of its bodies (`overlap_bias.c`).
 // jnAcc, jtAcc: the impulses of the sub-step before, to start from, until the solvers replace them.
 
 #ifndef PHYSSIM_CONTACT_H
@@ -29,16 +30,25 @@ static inline bool is_ignored(const cpArbiter *arbiter) {
 // Approach velocity from which two bodies are in an impact [m/s]; bodies at rest tremble by less.
 static const double slowest_impact = 0.05;
 
+// The velocity at which two bodies part in a point, by their twists [m/s].
+static inline Vec parting_velocity(const cpContact *point, Twist a, Twist b) {
+    return sub(velocity_at(b, point->r2), velocity_at(a, point->r1));
+}
+
 // The greatest velocity at which the points of a contact approach along its normal [m/s].
 static inline double approach_of(const cpArbiter *arbiter) {
     double approach = -INFINITY;
     for (int number = 0; number < arbiter->count; number++) {
-        const cpContact *point = arbiter->contacts + number;
-        Vec a = velocity_at(twist_of(arbiter->body_a), point->r1),
-            b = velocity_at(twist_of(arbiter->body_b), point->r2);
-        approach = greatest(approach, dot(sub(a, b), arbiter->n));
+        Vec parting =
+            parting_velocity(arbiter->contacts + number, twist_of(arbiter->body_a), twist_of(arbiter->body_b));
+        approach = greatest(approach, -dot(parting, arbiter->n));
     }
     return approach;
+}
+
+// How far the bodies of a contact are from each other in a point, along its normal; < 0 where they overlap [m].
+static inline double gap_at(const cpArbiter *arbiter, const cpContact *point) {
+    return dot(sub(add(arbiter->body_b->p, point->r2), add(arbiter->body_a->p, point->r1)), arbiter->n);
 }
 
 static inline bool is_impact(const cpArbiter *arbiter) {

@@ -5,11 +5,10 @@
 //
 // Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its
 // impulses.
-// Method: a hash table of pairs by the places of their bodies, which each step updates. A pair has the mean of its
-// points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping bodies:
-// while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch is
-// that at which a sensor is met, else that of the impact, within the step.
-// Cost: 15 ns a contact and step.
+// Method: a list of pairs, with a hash table by the places of their bodies, which each step updates. A pair has the
+// mean of its points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping
+// bodies: while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch
+// is that at which a sensor is met, else that of the impact, within the step. Cost: 15 ns a contact and step.
 
 #include "contact.h"
 #include "stages.h"
@@ -33,15 +32,15 @@ typedef struct ReportedPair {
     Vec sum;       // of impulses in this frame [N s]
     int64_t stamp; // number of the last report in which they touched
     bool in_frame; // they touched in this frame
-    bool counts;   // the pair is one of this table, not a free slot
 } ReportedPair;
 
 // What the report keeps between steps.
 typedef struct Report {
-    ReportedPair *pairs; // a hash table with open addressing, of a power of two
-    int room, count;
-    int64_t stamp; // number of the last step that was reported
-    bool follows;  // the step before was reported, too
+    ReportedPair *pairs; // (count)
+    int *slots;          // (2 * room): a hash table with open addressing: numbers of pairs, counted from 1; 0 is free
+    int count, room;     // a power of two; 0 before the first pair
+    int64_t stamp;       // number of the last step that was reported
+    bool follows;        // the step before was reported, too
     int begun_room;
 } Report;
 
@@ -55,56 +54,60 @@ static Report *report_of(World *world) {
 void free_report(World *world) {
     if (world->own->report != NULL) {
         free(world->own->report->pairs);
+        free(world->own->report->slots);
         free(world->own->report);
     }
     free(world->contacts);
     free(world->begun);
 }
 
-// Where a pair is in the table, or belongs (Fibonacci hashing; Knuth, The Art of Computer Programming 3, 6.4).
-static ReportedPair *slot_of(const Report *report, int a, int b) {
+// The slot of a pair, or the free one where it belongs (Fibonacci hashing; Knuth, The Art of Computer Programming 3,
+// 6.4).
+static int *slot_of(const Report *report, int a, int b) {
     uint64_t key = ((uint64_t)(uint32_t)a << 32U) | (uint32_t)b;
-    uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = (uint64_t)report->room - 1U;
+    uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = 2U * (uint64_t)report->room - 1U;
     // A free slot ends the search.
-    assert(report->count < report->room && ((uint64_t)report->room & mask) == 0);
-    for (slot &= mask; report->pairs[slot].counts; slot = (slot + 1) & mask) {
-        if (report->pairs[slot].a == a && report->pairs[slot].b == b) {
+    assert(report->count <= report->room && ((uint64_t)report->room & ((uint64_t)report->room - 1U)) == 0);
+    for (slot &= mask; report->slots[slot] > 0; slot = (slot + 1U) & mask) {
+        const ReportedPair *pair = report->pairs + report->slots[slot] - 1;
+        if (pair->a == a && pair->b == b) {
             break;
         }
     }
-    return report->pairs + slot;
+    return report->slots + slot;
 }
 
-// Make the table anew, with room for twice the pairs that it has; without those whose last touch was before a stamp.
-static void make_room(Report *report, int64_t first) {
-    ReportedPair *old = report->pairs;
-    int old_room = report->room;
-    report->room = 64;
-    while (report->room < 4 * (report->count + 1)) {
-        report->room *= 2;
+// Move the pairs to memory with room for some more, and index them anew.
+static void make_room(Report *report) {
+    int room = 32;
+    while (room < 2 * report->count) {
+        room *= 2;
     }
-    report->pairs = allocated((size_t)report->room, sizeof(ReportedPair));
-    report->count = 0;
-    for (int slot = 0; slot < old_room; slot++) {
-        if (old[slot].counts && old[slot].stamp >= first) {
-            *slot_of(report, old[slot].a, old[slot].b) = old[slot];
-            report->count++;
-        }
+    ReportedPair *pairs = allocated((size_t)room, sizeof(ReportedPair));
+    if (report->count > 0) {
+        memcpy(pairs, report->pairs, (size_t)report->count * sizeof(ReportedPair));
     }
-    free(old);
+    free(report->pairs);
+    free(report->slots);
+    report->pairs = pairs;
+    report->slots = allocated(2 * (size_t)room, sizeof(int));
+    report->room = room;
+    for (int number = 0; number < report->count; number++) {
+        *slot_of(report, pairs[number].a, pairs[number].b) = number + 1;
+    }
 }
 
 static ReportedPair *reported_pair(Report *report, int a, int b) {
     assert(a >= 0 && a <= b);
-    if (report->room < 2 * (report->count + 1)) {
-        make_room(report, NEVER);
+    if (report->count == report->room) {
+        make_room(report);
     }
-    ReportedPair *pair = slot_of(report, a, b);
-    if (!pair->counts) {
-        *pair = (ReportedPair){.a = a, .b = b, .counts = true, .stamp = NEVER};
-        report->count++;
+    int *slot = slot_of(report, a, b);
+    if (*slot == 0) {
+        report->pairs[report->count++] = (ReportedPair){.a = a, .b = b, .stamp = NEVER};
+        *slot = report->count;
     }
-    return pair;
+    return report->pairs + *slot - 1;
 }
 
 // The time of the first touch of a pair within this sub-step, as a share of it (0 .. 1).
@@ -189,13 +192,15 @@ static bool pair_sleeps(const World *world, const ReportedPair *pair) {
     return (sleeps(a) || sleeps(b)) && may_sleep(a) && may_sleep(b);
 }
 
-// Keep pairs of the step before that sleep now.
-static void add_sleeping(World *world, Report *report) {
-    for (int slot = 0; slot < report->room; slot++) {
-        ReportedPair *pair = report->pairs + slot;
-        if (pair->counts && pair->stamp == report->stamp - 1 && pair_sleeps(world, pair)) {
+// Add the impulses of the step to the sums of pairs; one of the step before that sleeps now touches on.
+static void add_impulses(const World *world, Report *report) {
+    for (ReportedPair *pair = report->pairs, *end = pair + report->count; pair < end; pair++) {
+        if (pair->stamp == report->stamp - 1 && pair_sleeps(world, pair)) {
             pair->stamp = report->stamp;
             pair->in_frame = true;
+        }
+        if (pair->stamp == report->stamp) {
+            pair->sum = add(pair->sum, pair->impulse);
         }
     }
 }
@@ -238,27 +243,24 @@ void report_contacts(World *world) {
     }
     world->chipmunk.each_arbiter(world->space, add_overlap, world);
     find_crossings(world, add_crossing);
-    add_sleeping(world, report);
-    for (int slot = 0; slot < report->room; slot++) {
-        ReportedPair *pair = report->pairs + slot;
-        if (pair->counts && pair->stamp == report->stamp) {
-            pair->sum = add(pair->sum, pair->impulse);
-        }
-    }
+    add_impulses(world, report);
     report->follows = true;
 }
 
 void core_clear_contacts(World *world) {
     Report *report = report_of(world);
-    bool over = false;
-    for (int slot = 0; slot < report->room; slot++) {
-        ReportedPair *pair = report->pairs + slot;
-        pair->sum = vec(0.0, 0.0);
-        pair->in_frame = false;
-        over = over || (pair->counts && pair->stamp != report->stamp);
+    int kept = 0;
+    for (int number = 0; number < report->count; number++) {
+        ReportedPair pair = report->pairs[number];
+        if (pair.stamp == report->stamp) {
+            pair.sum = vec(0.0, 0.0);
+            pair.in_frame = false;
+            report->pairs[kept++] = pair;
+        }
     }
-    if (over) {
-        make_room(report, report->stamp);
+    if (kept < report->count) {
+        report->count = kept;
+        make_room(report);
     }
     world->frame_steps = world->begun_count = 0;
 }
@@ -266,10 +268,8 @@ void core_clear_contacts(World *world) {
 void forget_contacts(World *world) {
     Report *report = world->own->report;
     if (report != NULL && (report->follows || report->count > 0)) {
-        if (report->room > 0) {
-            memset(report->pairs, 0, (size_t)report->room * sizeof(ReportedPair));
-        }
         report->count = 0;
+        make_room(report);
         report->follows = false;
         world->frame_steps = world->begun_count = 0;
     }
@@ -307,10 +307,9 @@ void core_take_contacts(World *world) {
     free(world->contacts);
     world->contacts = allocated((size_t)report->count, sizeof(Contact));
     world->contact_count = 0;
-    for (int slot = 0; slot < report->room; slot++) {
-        const ReportedPair *pair = report->pairs + slot;
+    for (const ReportedPair *pair = report->pairs, *end = pair + report->count; pair < end; pair++) {
         // Pairs of the background with itself are left out.
-        if (pair->counts && pair->in_frame && pair->a < world->body_count - 1) {
+        if (pair->in_frame && pair->a < world->body_count - 1) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }
     }
@@ -337,21 +336,19 @@ void rename_contacts(World *world, const int32_t *former, int count) {
             places[former[place]] = place;
         }
     }
-    int old_room = report->room;
-    ReportedPair *old = report->pairs;
-    report->pairs = allocated((size_t)old_room, sizeof(ReportedPair));
-    report->count = 0;
-    for (int slot = 0; slot < old_room; slot++) {
-        ReportedPair pair = old[slot];
-        if (pair.counts && places[pair.a] >= 0 && places[pair.b] >= 0) {
+    int kept = 0;
+    for (int number = 0; number < report->count; number++) {
+        ReportedPair pair = report->pairs[number];
+        if (places[pair.a] >= 0 && places[pair.b] >= 0) {
             // The order of bodies stays, so that the lesser place is that of the same body.
             pair.a = places[pair.a];
             pair.b = places[pair.b];
             assert(pair.a <= pair.b);
-            *slot_of(report, pair.a, pair.b) = pair;
-            report->count++;
+            report->pairs[kept++] = pair;
         }
     }
+    report->count = kept;
+    make_room(report);
     int begun = 0;
     for (int number = 0; number < world->begun_count; number++) {
         Begun each = world->begun[number];
@@ -362,26 +359,27 @@ void rename_contacts(World *world, const int32_t *former, int count) {
     }
     world->begun_count = begun;
     free(places);
-    free(old);
 }
 
 void core_copy_contacts(World *world, const World *old) {
     Report *report = report_of(world);
     const Report *from = old->own->report;
     free(report->pairs);
+    free(report->slots);
     *report = (Report){0};
     free(world->begun);
     world->begun = NULL;
     world->begun_count = 0;
-    if (from == NULL || from->room == 0) {
+    if (from == NULL) {
         return;
     }
-    *report = *from;
-    report->begun_room = 0;
     // A world that resumes here does not know the step before, either.
-    report->follows = false;
-    report->pairs = allocated((size_t)from->room, sizeof(ReportedPair));
-    memcpy(report->pairs, from->pairs, (size_t)from->room * sizeof(ReportedPair));
+    *report = (Report){.stamp = from->stamp, .count = from->count};
+    if (from->count > 0) {
+        report->pairs = allocated((size_t)from->count, sizeof(ReportedPair));
+        memcpy(report->pairs, from->pairs, (size_t)from->count * sizeof(ReportedPair));
+        make_room(report);
+    }
     world->frame_steps = old->frame_steps;
     for (int number = 0; number < old->begun_count; number++) {
         add_begun(world, report, old->begun[number]);

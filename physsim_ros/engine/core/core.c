@@ -32,7 +32,7 @@ void core_free(World *world) {
     arena_free(world->own->system_arenas + 1);
     free_report(world);
     free(world->own->jointed);
-    free(world->own->pulls);
+    free(world->own->fluid_forces);
     free(world->own);
     free(world);
 }
@@ -46,8 +46,8 @@ void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *f
     Private *own = world->own;
     own->least_depth = INFINITY;
     own->has_floor = own->has_one_way = own->has_belt = own->has_rolling = own->has_sensor = false;
-    free(own->pulls);
-    own->pulls = NULL;
+    free(own->fluid_forces);
+    own->fluid_forces = NULL;
     for (int place = 0; place < count; place++) {
         Body *body = bodies + place;
         body->engine->userData = body;
@@ -73,48 +73,6 @@ static void list_jointed(World *world) {
     }
 }
 
-// Mark bodies that springs pull, and those in islands of joints that hang by a spring from something fixed, or that
-// motors hold there: such a body is not in free flight (`half_step.c`).
-static void mark_sprung(World *world) {
-    reset_memory(world);
-    int *parents = sets_of(world);
-    bool *hangs = TAKE(&world->own->arena, bool, world->body_count);
-    bool *swings = TAKE(&world->own->arena, bool, world->body_count);
-    bool *turns = TAKE(&world->own->arena, bool, world->body_count);
-    for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].on_spring = false;
-    }
-    for (int number = 0; number < world->joint_count; number++) {
-        const Joint *joint = world->joints + number;
-        if (world->bodies[joint->a].dynamic && world->bodies[joint->b].dynamic) {
-            unite(parents, joint->a, joint->b);
-        }
-    }
-    for (int number = 0; number < world->joint_count; number++) {
-        const Joint *joint = world->joints + number;
-        bool elastic = is_spring_joint(world, joint);
-        int ends[2] = {joint->a, joint->b};
-        for (int end = 0; end < 2; end++) {
-            Body *body = world->bodies + ends[end];
-            if (body->dynamic) {
-                int root = root_of(parents, ends[end]);
-                hangs[root] = hangs[root] || !world->bodies[ends[1 - end]].dynamic;
-                swings[root] = swings[root] || elastic;
-                body->on_spring = body->on_spring || elastic;
-            }
-        }
-    }
-    for (int number = 0; number < world->motor_count; number++) {
-        const Joint *joint = world->joints + world->motors[number].joint;
-        turns[root_of(parents, joint->a)] = turns[root_of(parents, joint->b)] = true;
-    }
-    for (int place = 0; place < world->body_count; place++) {
-        int root = root_of(parents, place);
-        world->bodies[place].sprung = hangs[root] && swings[root];
-        world->bodies[place].motored = hangs[root] && turns[root];
-    }
-}
-
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
                      int32_t row_count, Guide *guides, int32_t guide_count) {
     world->joints = joints;
@@ -126,7 +84,7 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
     world->guides = guides;
     world->guide_count = guide_count;
     for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].jointed = world->bodies[place].joined = false;
+        world->bodies[place].jointed = false;
     }
     int next_part = 0, next_row = 0;
     for (int number = 0; number < joint_count; number++) {
@@ -136,15 +94,13 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
         next_row += joints[number].row_count;
         Body *ends[2] = {world->bodies + joints[number].a, world->bodies + joints[number].b};
         for (int end = 0; end < 2; end++) {
-            ends[end]->joined = true;
             ends[end]->jointed = ends[end]->jointed || joints[number].row_count > 0;
         }
     }
     assert(next_part == part_count && next_row == row_count);
     for (int number = 0; number < guide_count; number++) {
-        world->bodies[guides[number].body].joined = world->bodies[guides[number].body].jointed = true;
+        world->bodies[guides[number].body].jointed = true;
     }
     list_jointed(world);
-    mark_sprung(world);
     prepare_springs(world);
 }

@@ -68,7 +68,6 @@ typedef struct Body {
     uint8_t dynamic;       // forces move it
     uint8_t anchored;      // it does not move at all
     uint8_t sensor;        // its contacts have no effect
-    uint8_t joined;        // a joint ends on it; the core sets it
     uint8_t jointed;       // a joint with rows ends on it; the core sets it
     uint8_t sprung;        // in an island that a spring holds to something fixed; the core sets it
     uint8_t motored;       // in one that a motor holds to something fixed; the core sets it
@@ -345,7 +344,7 @@ typedef struct Joint {
     int32_t first_part, part_count;
     int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring without damping
     // Of an unstepped one that is to be drawn together: how far its rows are out of their bounds, else 0 [m, rad].
-    double apart;
+    double excess;
 } Joint;
 
 // Functions of Chipmunk, from Pymunk's own library.

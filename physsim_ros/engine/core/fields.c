@@ -10,7 +10,7 @@
 // of a body in free flight has half of what they change its velocity by. Unlike gravity, that half depends on
 // velocities, and on other bodies; so it is state, and what a request sets is made into it as the next step begins: by
 // the force at the true velocity, over half a sub-step. True velocities do not jump where a field begins or ends.
-// Bodies that fields pull while they rest do not sleep where the field changes, nor before they float still.
+// Bodies that fields fluid while they rest do not sleep where the field changes, nor before they float still.
 //
 // Cost: none without fields.
 // Without it what floats gains energy, and orbits open.
@@ -23,12 +23,12 @@ static bool is_moved_by_fields(const Body *body) {
     return body->dynamic && !sleeps(body);
 }
 
-static Twist weight_of(const World *world, const cpBody *engine) {
+static Twist given_force(const World *world, const cpBody *engine) {
     return (Twist){add(engine->f, scaled(world->space->gravity, engine->m)), engine->t};
 }
 
 // Find the force of media on a body for the time between now and a later moment [s], at its middle.
-static void find_pull(World *world, const Media *media, Body *body, double ahead, double lapse) {
+static void find_fluid_force(World *world, const Media *media, Body *body, double ahead, double lapse) {
     const cpBody *engine = body->engine;
     Twist now = true_twist(engine), change = {0};
     if (body->state.free) {
@@ -37,8 +37,8 @@ static void find_pull(World *world, const Media *media, Body *body, double ahead
     }
     Pose pose = moved(pose_of(engine), twist_sum(now, change, ahead / world->dt), ahead);
     Flight flight = {body->state.free, ahead, now, twist_sum(now, change, 2.0 * ahead / world->dt),
-                     weight_of(world, engine)};
-    world->own->pulls[body - world->bodies] = pull_of_media(world, media, body, pose, &flight, lapse);
+                     given_force(world, engine)};
+    world->own->fluid_forces[body - world->bodies] = fluid_force(world, media, body, pose, &flight, lapse);
 }
 
 // Half of what a force changes a velocity by in a sub-step.
@@ -62,9 +62,9 @@ static Twist *attracted(World *world, double ahead) {
 
 // The mean force of all fields on a body in a time that begins with a twist; `attraction` is the part of attraction.
 static Twist force_of_fields(const World *world, const Body *body, Twist twist, Twist attraction) {
-    const Pull *pull = world->own->pulls + (body - world->bodies);
-    Twist others = twist_sum(weight_of(world, body->engine), attraction, 1.0);
-    return twist_sum(force_of_pull(pull, body->engine, twist, others), attraction, 1.0);
+    const FluidForce *fluid = world->own->fluid_forces + (body - world->bodies);
+    Twist others = twist_sum(given_force(world, body->engine), attraction, 1.0);
+    return twist_sum(mean_fluid_force(fluid, body->engine, twist, others), attraction, 1.0);
 }
 
 static bool has_fresh(const World *world) {
@@ -78,7 +78,7 @@ static bool has_fresh(const World *world) {
 
 static void begin_field(World *world, const Media *media, Body *body, Twist attraction) {
     if (world->region_count > 0) {
-        find_pull(world, media, body, 0.0, world->dt / 2.0);
+        find_fluid_force(world, media, body, 0.0, world->dt / 2.0);
     }
     Twist force = force_of_fields(world, body, true_twist(body->engine), attraction);
     Twist field = half_change(world, body->engine, force);
@@ -93,8 +93,8 @@ void begin_fields(World *world) {
     if (!have_fields(world) || world->own->sub_step > 0) {
         return;
     }
-    if (world->own->pulls == NULL) {
-        world->own->pulls = allocated((size_t)world->body_count, sizeof(Pull));
+    if (world->own->fluid_forces == NULL) {
+        world->own->fluid_forces = allocated((size_t)world->body_count, sizeof(FluidForce));
     }
     if (!has_fresh(world)) {
         return;
@@ -111,8 +111,8 @@ void begin_fields(World *world) {
     }
 }
 
-static bool lacks_pull(const World *world, int place) {
-    return is_moved_by_fields(world->bodies + place) && !world->own->pulls[place].found;
+static bool lacks_fluid_force(const World *world, int place) {
+    return is_moved_by_fields(world->bodies + place) && !world->own->fluid_forces[place].found;
 }
 
 static void wake_reached(World *world, const Media *media) {
@@ -124,11 +124,11 @@ static void wake_reached(World *world, const Media *media) {
 }
 
 // Find the forces of media for the step that begins; within it, those on bodies that have been woken since.
-static void find_pulls(World *world) {
+static void find_fluid_forces(World *world) {
     bool begins = world->own->sub_step == 0, lacks = begins;
     for (int place = 0; place < world->body_count; place++) {
-        world->own->pulls[place].found = world->own->pulls[place].found && !begins;
-        lacks = lacks || lacks_pull(world, place);
+        world->own->fluid_forces[place].found = world->own->fluid_forces[place].found && !begins;
+        lacks = lacks || lacks_fluid_force(world, place);
     }
     if (!lacks) {
         return;
@@ -140,8 +140,8 @@ static void find_pulls(World *world) {
         wake_reached(world, &media);
     }
     for (int place = 0; place < world->body_count; place++) {
-        if (lacks_pull(world, place)) {
-            find_pull(world, &media, world->bodies + place, ahead, world->dt);
+        if (lacks_fluid_force(world, place)) {
+            find_fluid_force(world, &media, world->bodies + place, ahead, world->dt);
         }
     }
 }
@@ -151,7 +151,7 @@ void apply_fields(World *world) {
         return;
     }
     if (world->region_count > 0) {
-        find_pulls(world);
+        find_fluid_forces(world);
     }
     const Twist *attraction = attracted(world, world->dt);
     for (int place = 0; place < world->body_count; place++) {

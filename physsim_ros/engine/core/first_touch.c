@@ -109,16 +109,6 @@ static void ignore(cpArbiter *arbiter) {
     arbiter->count = 0;
 }
 
-// The velocity at which an overlap is pushed out; Chipmunk has one slop for bodies of all sizes.
-static void set_bias(const cpArbiter *arbiter, double push) {
-    for (int number = 0; number < arbiter->count; number++) {
-        cpContact *point = arbiter->contacts + number;
-        Vec apart = sub(add(arbiter->body_b->p, point->r2), add(arbiter->body_a->p, point->r1));
-        point->bias = -push * least(dot(apart, arbiter->n) + slop_of(arbiter), 0.0);
-        point->jBias = 0.0;
-    }
-}
-
 void correct_first_touches(World *world) {
     Arena *arena = &world->own->arena;
     Touch *touches = TAKE(arena, Touch, arbiter_count(world));
@@ -158,15 +148,9 @@ void correct_first_touches(World *world) {
             slide_over_edge(touches + number);
         }
         write_touch(touches + number);
+        prepare_contact(touches[number].arbiter);
         touches[begun++] = touches[number];
     }
     world->own->now.begun = touches;
     world->own->now.begun_count = begun;
-    for (int number = 0; number < arbiter_count(world); number++) {
-        cpArbiter *arbiter = arbiter_at(world, number);
-        if (begins(arbiter)) {
-            prepare_contact(arbiter);
-        }
-        set_bias(arbiter, world->own->push);
-    }
 }

@@ -46,37 +46,37 @@ static const double least_push = 1e-11;
 enum { ITERATIONS = 8 };
 
 // The limit surface of a body, as changes of its velocity in a step.
-typedef struct Surface {
-    double lever;  // mean distance of the points that bear it [m]
-    double most;   // greatest change of velocity [m/s]
-    double around; // greatest change of the speed of a turn at the lever [m/s]
-} Surface;
+typedef struct LimitSurface {
+    double lever;        // mean distance of the points that bear it [m]
+    double most;         // greatest change of velocity [m/s]
+    double most_turning; // greatest change of the speed of a turn at the lever [m/s]
+} LimitSurface;
 
-static Surface surface_of(const World *world, const Body *body) {
+static LimitSurface surface_of(const World *world, const Body *body) {
     double most = body->braking * world->dt;
     double gyration = body->engine->i / body->engine->m;
-    return (Surface){body->lever, most, most * body->lever * body->lever / gyration};
+    return (LimitSurface){body->lever, most, most * body->lever * body->lever / gyration};
 }
 
 // The square of a change of velocity by the surface; on it, 1.
-static double square(Twist change, Surface surface) {
+static double square(Twist change, LimitSurface surface) {
     double x = change.v.x / surface.most, y = change.v.y / surface.most;
-    double turn = change.w * surface.lever / surface.around;
+    double turn = change.w * surface.lever / surface.most_turning;
     return x * x + y * y + turn * turn;
 }
 
 // The change of velocity by friction that a slip gets. The slip s that remains solves
-// (across / (s + most))² + (around / (s + most_around))² = 1, where turns count by the speed at the lever.
-static Twist friction(Twist slip, Surface surface) {
-    double across = length(slip.v), around = surface.lever * fabs(slip.w);
-    double remaining = greatest(greatest(across - surface.most, around - surface.around), 0.0);
+// (across / (s + most))² + (rim / (s + most_turning))² = 1, where turns count by the speed at the lever.
+static Twist friction(Twist slip, LimitSurface surface) {
+    double across = length(slip.v), rim = surface.lever * fabs(slip.w);
+    double remaining = greatest(greatest(across - surface.most, rim - surface.most_turning), 0.0);
     for (int number = 0; number < ITERATIONS; number++) {
-        double sliding = 1.0 / (remaining + surface.most), turning = 1.0 / (remaining + surface.around);
-        double a = across * sliding * across * sliding, b = around * turning * around * turning;
+        double sliding = 1.0 / (remaining + surface.most), turning = 1.0 / (remaining + surface.most_turning);
+        double a = across * sliding * across * sliding, b = rim * turning * rim * turning;
         remaining += (a + b) * (sqrt(a + b) - 1.0) / (a * sliding + b * turning);
     }
     return (Twist){scaled(slip.v, -surface.most / (remaining + surface.most)),
-                   -slip.w * surface.around / (remaining + surface.around)};
+                   -slip.w * surface.most_turning / (remaining + surface.most_turning)};
 }
 
 // The conveyors of a world, in the order of their bodies, and the boxes about them.
@@ -137,8 +137,8 @@ static Twist conveyed(const Conveyors *conveyors, const Body *body) {
     }
     const Body *conveyor = conveyors->list[under.last];
     Vec surface = rotated(conveyor->surface, rotation(conveyor->scratch.begin.yaw));
-    Vec around = sub(body->scratch.begin.p, conveyor->scratch.begin.p);
-    return (Twist){add(velocity_at(conveyor->scratch.twist, around), surface), conveyor->scratch.twist.w};
+    Vec arm = sub(body->scratch.begin.p, conveyor->scratch.begin.p);
+    return (Twist){add(velocity_at(conveyor->scratch.twist, arm), surface), conveyor->scratch.twist.w};
 }
 
 // The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
@@ -163,7 +163,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     // What the step brings without the floor: damping, gravity, forces of commands and hands.
     Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
                    before.w * kept + engine->t * angular};
-    Surface surface = surface_of(world, body);
+    LimitSurface surface = surface_of(world, body);
     bool moves = mean.v.x != 0.0 || mean.v.y != 0.0 || mean.w != 0.0;
     double share = moves ? 1.0 : relaxed;
     Twist expected = {scaled(body->state.push.v, share), body->state.push.w * share};

@@ -23,6 +23,7 @@
 //
 // Cost: a comparison of velocities before and after each step.
 
+#include "contact.h"
 #include "lost_support.h"
 #include "springs.h"
 #include "stages.h"
@@ -40,8 +41,7 @@ static bool keeps_contact(const Body *body) {
     for (const cpArbiter *each = body->engine->arbiterList; each != NULL; each = next_of(each, body->engine)) {
         Twist a = true_twist(each->body_a), b = true_twist(each->body_b);
         for (int number = 0; number < each->count && presses(each); number++) {
-            const cpContact *point = each->contacts + number;
-            double parting = dot(sub(velocity_at(b, point->r2), velocity_at(a, point->r1)), each->n);
+            double parting = dot(parting_velocity(each->contacts + number, a, b), each->n);
             if (parting <= length(body->state.lead.v)) {
                 return true;
             }

@@ -35,12 +35,12 @@ typedef struct Line {
 } Line;
 
 // A basin as seen from the centre of mass of a body, and the edges that the body may cross.
-typedef struct Around {
+typedef struct Clip {
     const Basin *basin;
     Vec origin;
     Line *lines;
     int line_count;
-} Around;
+} Clip;
 
 static Outline outline_of(int most, Arena *arena) {
     return (Outline){TAKE(arena, Vertex, most), 0, most};
@@ -136,13 +136,13 @@ static Outline clipped(Outline from, Line line, Arena *arena) {
 static void add_area(Immersion *wet, Vec a, Vec b, Vec c) {
     double area = cross(sub(b, a), sub(c, a)) / 2.0;
     wet->area += area;
-    wet->moment = add(wet->moment, scaled(add(a, add(b, c)), area / 3.0));
+    wet->first_moment = add(wet->first_moment, scaled(add(a, add(b, c)), area / 3.0));
 }
 
 // Clip a polygon at the edges of a basin that its body may cross; no basin leaves it whole.
-static Outline in_basin(Outline outline, const Around *around, Arena *arena) {
-    for (int number = 0; around != NULL && number < around->line_count && outline.count > 0; number++) {
-        outline = clipped(outline, around->lines[number], arena);
+static Outline in_basin(Outline outline, const Clip *clip, Arena *arena) {
+    for (int number = 0; clip != NULL && number < clip->line_count && outline.count > 0; number++) {
+        outline = clipped(outline, clip->lines[number], arena);
     }
     return outline;
 }
@@ -172,7 +172,7 @@ static void add_sector(Immersion *wet, Vec center, double radius, Vec a, Vec b) 
     double area = radius * radius * turn / 2.0, third = radius * radius * radius / 3.0;
     Vec moment = vec(third * (end.s - begin.s), third * (begin.c - end.c));
     wet->area += area;
-    wet->moment = add(wet->moment, add(scaled(center, area), moment));
+    wet->first_moment = add(wet->first_moment, add(scaled(center, area), moment));
     wet->bows[wet->bow_count++] = (Bow){center, radius, from, from + turn};
 }
 
@@ -185,7 +185,7 @@ static void add_disc_segment(Immersion *wet, Vec center, double radius, Vec norm
     double chord = radius * sin(half), area = radius * radius * half - ahead * chord;
     Vec moment = scaled(normal, -2.0 / 3.0 * chord * chord * chord);
     wet->area += area;
-    wet->moment = add(wet->moment, add(scaled(center, area), moment));
+    wet->first_moment = add(wet->first_moment, add(scaled(center, area), moment));
     wet->bows[wet->bow_count++] = (Bow){center, radius, down - half, down + half};
 }
 
@@ -215,20 +215,20 @@ static void add_disc(Immersion *wet, Vec center, double radius, const Outline *b
 }
 
 // All edges of a basin, as seen from the centre of mass of a body.
-static Outline basin_edges(const Around *around, Arena *arena) {
-    Outline edges = outline_of(around->basin->count, arena);
-    for (int number = 0; number < around->basin->count; number++) {
-        add_vertex(&edges, sub(around->basin->corners[number], around->origin), false);
+static Outline basin_edges(const Clip *clip, Arena *arena) {
+    Outline edges = outline_of(clip->basin->count, arena);
+    for (int number = 0; number < clip->basin->count; number++) {
+        add_vertex(&edges, sub(clip->basin->corners[number], clip->origin), false);
     }
     return edges;
 }
 
-static void add_disc_in_basin(Immersion *wet, Vec center, double radius, const Around *around, Arena *arena) {
-    if (around->line_count == 1) {
-        Line line = around->lines[0];
+static void add_disc_in_basin(Immersion *wet, Vec center, double radius, const Clip *clip, Arena *arena) {
+    if (clip->line_count == 1) {
+        Line line = clip->lines[0];
         add_disc_segment(wet, center, radius, line.normal, dot(line.normal, sub(center, line.corner)));
     } else {
-        Outline edges = basin_edges(around, arena);
+        Outline edges = basin_edges(clip, arena);
         add_disc(wet, center, radius, &edges);
     }
 }
@@ -272,52 +272,52 @@ static Outline bar_of(Vec a, Vec b, double radius, Arena *arena) {
 }
 
 // Add a segment: a bar, and at each end half a disc.
-static void add_segment(Immersion *wet, Vec a, Vec b, double radius, const Around *around, Arena *arena) {
-    Outline bar = in_basin(bar_of(a, b, radius, arena), around, arena);
+static void add_segment(Immersion *wet, Vec a, Vec b, double radius, const Clip *clip, Arena *arena) {
+    Outline bar = in_basin(bar_of(a, b, radius, arena), clip, arena);
     add_bulk(wet, bar);
     add_sides(wet, bar);
     Vec ends[2] = {b, a};
     for (int end = 0; end < 2; end++) {
         Vec away = sub(ends[end], ends[1 - end]);
-        if (around == NULL) {
+        if (clip == NULL) {
             add_whole_arc(wet, ends[end], radius, atan2(away.y, away.x) - pi / 2.0, pi);
         } else {
-            Outline beyond = clipped(basin_edges(around, arena), (Line){ends[end], negated(away)}, arena);
+            Outline beyond = clipped(basin_edges(clip, arena), (Line){ends[end], negated(away)}, arena);
             add_disc(wet, ends[end], radius, &beyond);
         }
     }
 }
 
-static void add_piece(Immersion *wet, const cpShape *shape, Rotation by, const Around *around, Arena *arena) {
+static void add_piece(Immersion *wet, const cpShape *shape, Rotation by, const Clip *clip, Arena *arena) {
     double radius = radius_of(shape);
     switch (kind_of(shape)) {
     case SHAPE_CIRCLE:
-        if (around == NULL) {
+        if (clip == NULL) {
             add_whole_arc(wet, corner_at(shape, 0, by), radius, 0.0, 2.0 * pi);
         } else {
-            add_disc_in_basin(wet, corner_at(shape, 0, by), radius, around, arena);
+            add_disc_in_basin(wet, corner_at(shape, 0, by), radius, clip, arena);
         }
         break;
     case SHAPE_SEGMENT:
-        add_segment(wet, corner_at(shape, 0, by), corner_at(shape, 1, by), radius, around, arena);
+        add_segment(wet, corner_at(shape, 0, by), corner_at(shape, 1, by), radius, clip, arena);
         break;
     default: {
-        Outline outline = in_basin(polygon_of(shape, by, arena), around, arena);
+        Outline outline = in_basin(polygon_of(shape, by, arena), clip, arena);
         add_bulk(wet, outline);
         add_sides(wet, outline);
     }
     }
 }
 
-static Around around_of(const Basin *basin, Vec origin, double reach, Arena *arena) {
-    Around around = {basin, origin, TAKE(arena, Line, basin->count), 0};
+static Clip clip_of(const Basin *basin, Vec origin, double reach, Arena *arena) {
+    Clip clip = {basin, origin, TAKE(arena, Line, basin->count), 0};
     for (int number = 0; number < basin->count; number++) {
         Line line = {sub(basin->corners[number], origin), basin->normals[number]};
         if (dot(line.normal, line.corner) < reach) {
-            around.lines[around.line_count++] = line;
+            clip.lines[clip.line_count++] = line;
         }
     }
-    return around;
+    return clip;
 }
 
 Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outlined, Arena *arena) {
@@ -327,8 +327,8 @@ Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outline
         return wet;
     }
     Rotation by = rotation(pose.yaw);
-    Around around = basin == NULL ? (Around){0} : around_of(basin, pose.p, body->reach, arena);
-    const Around *edges = basin == NULL ? NULL : &around;
+    Clip clip = basin == NULL ? (Clip){0} : clip_of(basin, pose.p, body->reach, arena);
+    const Clip *edges = basin == NULL ? NULL : &clip;
     for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
         // A polygon has a side an edge. Each edge of a basin makes two arcs at most; for each end of a segment the
         // basin is clipped, to twice its edges at most.
@@ -350,7 +350,7 @@ Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outline
     }
     if (basin == NULL) {
         wet.area = body->area;
-        wet.moment = (Vec){0};
+        wet.first_moment = (Vec){0};
     }
     if (body->hull_count > 0 && outlined) {
         wet.sides = TAKE(arena, Side, body->hull_count);

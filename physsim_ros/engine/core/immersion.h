@@ -35,8 +35,8 @@ typedef struct Bow {
 
 // What of a body is in a region; positions are from its centre of mass, in axes of the world.
 typedef struct Immersion {
-    double area; // [m²]
-    Vec moment;  // area times centroid [m³]
+    double area;      // [m²]
+    Vec first_moment; // area times centroid [m³]
     Side *sides;
     Bow *bows;
     int side_count, bow_count;

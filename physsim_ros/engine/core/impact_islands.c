@@ -44,7 +44,11 @@ static void add_impact(Impacts *impacts, Impact impact) {
     impacts->list[impacts->count++] = impact;
 }
 
-static bool are_joined_apart(const cpBody *a, const cpBody *b) {
+// Whether a joint of two bodies keeps them from colliding.
+static bool is_excluded_by_joint(const cpBody *a, const cpBody *b) {
+    if (b->constraintList == NULL) {
+        return false;
+    }
     const cpConstraint *each = a->constraintList;
     for (; each != NULL; each = each->a == a ? each->next_a : each->next_b) {
         if (!each->collideBodies && (each->a == b || each->b == b)) {
@@ -55,8 +59,7 @@ static bool are_joined_apart(const cpBody *a, const cpBody *b) {
 }
 
 bool may_meet(const Body *a, const Body *b) {
-    return (a->group == 0 || a->group != b->group) &&
-           !(a->joined && b->joined && are_joined_apart(a->engine, b->engine));
+    return (a->group == 0 || a->group != b->group) && !is_excluded_by_joint(a->engine, b->engine);
 }
 
 // The velocity of the centre of mass where a motion begins [m a step].

@@ -34,9 +34,7 @@ static const double load_share = 0.05;
 static double depth_of(const cpArbiter *arbiter) {
     double depth = -INFINITY;
     for (int number = 0; number < arbiter->count; number++) {
-        const cpContact *point = arbiter->contacts + number;
-        Vec a = add(arbiter->body_a->p, point->r1), b = add(arbiter->body_b->p, point->r2);
-        depth = greatest(depth, dot(sub(a, b), arbiter->n));
+        depth = greatest(depth, -gap_at(arbiter, arbiter->contacts + number));
     }
     return depth;
 }

@@ -5,32 +5,6 @@
 
 #include "island_solve.h"
 
-// Return the length of the path of a rope, and the Jacobians of its links.
-static double read_path(const Island *island, int row, const Pose *poses, Jacobian *jacobians) {
-    const Row *of_joint = island->rows[row];
-    Ends ends = island->ends[row];
-    double x = of_joint->offset;
-    x += span_at(of_joint, island->guides, 0, poses[ends.a], poses[ends.b], jacobians + row);
-    for (int first = island->further[row], link = first; link < island->further[row + 1]; link++) {
-        ends = island->ends[link];
-        x += span_at(of_joint, island->guides, link - first + 1, poses[ends.a], poses[ends.b], jacobians + link);
-    }
-    return x;
-}
-
-// Return x of the row of a number, and the Jacobians of its links; `anchors` are those of its joint.
-static double read_row(const Island *island, int row, const Anchors *anchors, const Pose *poses, Jacobian *jacobians) {
-    const Row *of_joint = island->rows[row];
-    const Joint *joint = island->joints[island->joint_of_row[row]];
-    Pose a = poses[island->ends[row].a], b = poses[island->ends[row].b];
-    double x = of_joint->offset + row_at(of_joint, joint, anchors, a, b, jacobians + row);
-    if (of_joint->guide_count > 0) {
-        int first = island->further[row];
-        x += carrier_at(joint, poses[island->ends[first].a], jacobians + first);
-    }
-    return x;
-}
-
 // Turn bodies to their poses: sines and cosines are a sixth of the cost of a chain.
 static void turn_bodies(const Island *island, const Pose *poses) {
     for (int body = 0; body < island->body_count; body++) {
@@ -45,17 +19,17 @@ void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian
     Anchors anchors = {0};
     for (int row = 0, joint = -1; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
-        bool is_path = of_joint->kind == ROW_PATH;
-        if (!is_path && island->joint_of_row[row] != joint) {
+        if (of_joint->kind != ROW_PATH && island->joint_of_row[row] != joint) {
             // Rows of a joint have the same anchors.
             joint = island->joint_of_row[row];
             Ends ends = island->ends[row];
             anchors = anchors_turned(island->joints[joint], poses[ends.a].p, island->turns[ends.a].by, poses[ends.b].p,
                                      island->turns[ends.b].by);
         }
+        Links links = {row, island->further[row], island->ends, poses};
         double x =
-            is_path ? read_path(island, row, poses, jacobians) : read_row(island, row, &anchors, poses, jacobians);
-        excess[row] = greatest(x - of_joint->upper, 0.0) + least(x - of_joint->lower, 0.0);
+            row_at(of_joint, island->joints[island->joint_of_row[row]], island->guides, &anchors, links, jacobians);
+        excess[row] = excess_of(of_joint, x);
     }
 }
 
@@ -101,8 +75,8 @@ Solve island_solve(World *world, const Island *island, const System *system) {
     for (int number = 0; number < island->bearing_count; number++) {
         const Bearing *bearing = island->bearings + number;
         Vec against = negated(bearing->normal);
-        solve.jacobians[normal + number] = along(against, bearing->arm_a, bearing->arm_b);
-        solve.jacobians[tangent + number] = along(perpendicular(against), bearing->arm_a, bearing->arm_b);
+        solve.jacobians[normal + number] = line_jacobian(against, bearing->arm_a, bearing->arm_b);
+        solve.jacobians[tangent + number] = line_jacobian(perpendicular(against), bearing->arm_a, bearing->arm_b);
         if (bearing->roll != NULL) {
             bearing->roll->most = bearing->rolling * greatest(bearing->point->jnAcc, 0.0);
         }

@@ -32,11 +32,6 @@ Solve island_solve(World *world, const Island *island, const System *system);
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);
 
-// The factor from the impulse that Chipmunk stores to λ of a row.
-static inline double sign_of(const Row *row, double excess) {
-    return excess < 0.0 ? row->below : row->above;
-}
-
 // Bounds of λ of a row of a joint, without its greatest force.
 static inline double lower_bound(const Row *row, bool holds, double excess) {
     bool pulls = row->law == LAW_BOUNDS ? row->lower == row->upper || excess > 0.0 : row->law != LAW_RISES;

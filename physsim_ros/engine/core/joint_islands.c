@@ -8,6 +8,7 @@
 // their fall).
 // Method: the contacts of jointed bodies are rows of their island, and so are those of what they touch. Islands are
 // found by union-find (`root_of` of `world.h`).
+// Scope: joints at rest, whose bodies sleep, are left as they are.
 // Law: contacts are sorted by bodies, shapes and points, so that an island does not depend on what Chipmunk finds
 // elsewhere, nor on the order in which it finds it.
 // Cost: that of `joint_solver.c`.
@@ -84,14 +85,16 @@ typedef struct Members {
 
 static Members members_of(World *world) {
     const Private *own = world->own;
-    Members members = {.places = TAKE(&world->own->arena, int, world->body_count), .count = own->jointed_count};
+    Members members = {.places = TAKE(&world->own->arena, int, world->body_count)};
     members.marks = TAKE(&world->own->arena, bool, world->body_count);
     for (int number = 0; number < own->jointed_count; number++) {
-        members.places[number] = own->jointed[number];
-        members.marks[own->jointed[number]] = true;
+        if (!sleeps(world->bodies + own->jointed[number])) {
+            members.places[members.count++] = own->jointed[number];
+            members.marks[own->jointed[number]] = true;
+        }
     }
-    for (int number = 0; number < own->jointed_count; number++) {
-        const cpBody *body = world->bodies[own->jointed[number]].engine;
+    for (int number = 0, count = members.count; number < count; number++) {
+        const cpBody *body = world->bodies[members.places[number]].engine;
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
             int place = place_of(world, other);
@@ -162,13 +165,20 @@ static int island_of(const World *world, int *parents, const int *numbers, int a
     return number - 1;
 }
 
+// Whether a joint is at rest: springs alone fall asleep (`joint_solver.c`), with all that they and contacts tie
+// together.
+static bool rests(const World *world, const Joint *joint) {
+    return sleeps(world->bodies + moved_by(world, joint));
+}
+
 // Return the islands, with their joints and contacts, in the order of their first joints.
 static Islands split(World *world, Bearings bearings) {
     Arena *arena = &world->own->arena;
-    int *parents = sets_of(world), *numbers = TAKE(arena, int, world->body_count);
-    for (int number = 0; number < world->joint_count; number++) {
-        const Joint *joint = world->joints + number;
-        if (joint->row_count > 0) {
+    int *parents = sets_of(world), *numbers = TAKE(arena, int, world->body_count), joint_count = 0;
+    const Joint **joints = TAKE(arena, const Joint *, world->joint_count);
+    for (const Joint *joint = world->joints, *end = joint + world->joint_count; joint < end; joint++) {
+        if (joint->row_count > 0 && !rests(world, joint)) {
+            joints[joint_count++] = joint;
             unite_dynamic(world, parents, joint->a, joint->b);
             unite_guides(world, parents, joint);
         }
@@ -177,17 +187,14 @@ static Islands split(World *world, Bearings bearings) {
         unite_dynamic(world, parents, bearings.list[number].a, bearings.list[number].b);
     }
     Islands found = {.islands = TAKE(arena, Island, world->own->jointed_count)};
-    for (int number = 0; number < world->joint_count; number++) {
-        const Joint *joint = world->joints + number;
-        if (joint->row_count > 0) {
-            int root = root_of(parents, moved_by(world, joint));
-            if (numbers[root] == 0) {
-                numbers[root] = ++found.count;
-            }
-            assert(found.count <= world->own->jointed_count);
-            found.islands[numbers[root] - 1].joint_count++;
-            found.islands[numbers[root] - 1].joint_row_count += joint->row_count;
+    for (int number = 0; number < joint_count; number++) {
+        int root = root_of(parents, moved_by(world, joints[number]));
+        if (numbers[root] == 0) {
+            numbers[root] = ++found.count;
         }
+        assert(found.count <= world->own->jointed_count);
+        found.islands[numbers[root] - 1].joint_count++;
+        found.islands[numbers[root] - 1].joint_row_count += joints[number]->row_count;
     }
     for (int number = 0; number < bearings.count; number++) {
         Bearing bearing = bearings.list[number];
@@ -202,13 +209,10 @@ static Islands split(World *world, Bearings bearings) {
         island->bearings = TAKE(arena, Bearing, island->bearing_count);
         island->joint_count = island->bearing_count = 0;
     }
-    for (int number = 0; number < world->joint_count; number++) {
-        const Joint *joint = world->joints + number;
-        if (joint->row_count > 0) {
-            int moved = moved_by(world, joint);
-            Island *island = found.islands + island_of(world, parents, numbers, moved, moved);
-            island->joints[island->joint_count++] = joint;
-        }
+    for (int number = 0; number < joint_count; number++) {
+        int moved = moved_by(world, joints[number]);
+        Island *island = found.islands + island_of(world, parents, numbers, moved, moved);
+        island->joints[island->joint_count++] = joints[number];
     }
     for (int number = 0; number < bearings.count; number++) {
         Bearing bearing = bearings.list[number];

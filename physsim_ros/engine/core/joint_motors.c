@@ -46,13 +46,9 @@ static double command_at(const Motor *motor, double time) {
 // The position of a joint where Chipmunk will move its bodies to [m, rad], 0 where they were joined: of an angle, that
 // of the first body.
 static double position_of(const World *world, const Motor *motor) {
-    const Joint *joint = world->joints + motor->joint;
     const Row *row = world->rows + motor->row;
-    const cpBody *first = world->bodies[joint->a].engine, *second = world->bodies[joint->b].engine;
-    Pose a = moved(pose_of(first), twist_of(first), world->dt), b = moved(pose_of(second), twist_of(second), world->dt);
-    Anchors anchors = anchors_at(joint, a, b);
     Jacobian jacobian;
-    double x = row_at(row, joint, &anchors, a, b, &jacobian) - motor->zero;
+    double x = row_after(world, world->joints + motor->joint, row, world->dt, &jacobian) - motor->zero;
     return row->kind == ROW_ANGLE ? -x : x;
 }
 

@@ -51,7 +51,7 @@ static void put_on_axis(const Joint *joint, const Anchors *anchors, cpSlideJoint
     Vec axis = vec(joint->axis[0], joint->axis[1]), across = perpendicular(axis);
     Vec second = vec(joint->anchor_b[0], joint->anchor_b[1]);
     double along = dot(axis, sub(limit->anchorA, second));
-    double beside = dot(across, rotated_back(anchors->apart, anchors->of_b));
+    double beside = dot(across, rotated_back(anchors->offset, anchors->of_b));
     limit->anchorA = add(second, add(scaled(axis, along), scaled(across, beside)));
 }
 
@@ -66,7 +66,7 @@ void prepare_parts(World *world) {
         Pose a = ahead(world->bodies[joint->a].engine, world->dt), b = ahead(world->bodies[joint->b].engine, world->dt);
         Anchors anchors = anchors_at(joint, a, b);
         Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
-        Vec beside = sub(add(anchors.arm_b, anchors.apart), scaled(across, across_arm));
+        Vec beside = sub(add(anchors.arm_b, anchors.offset), scaled(across, across_arm));
         pin->anchorA = rotated_back(beside, anchors.of_b);
         const Part *limit = world->parts + joint->first_part + LIMIT_PART;
         if (joint->part_count > LIMIT_PART && limit->kind == PART_SLIDE) {

@@ -41,7 +41,7 @@ typedef struct Displacement {
     Jacobian *jacobians;  // (link_count): of joints there
     double *gaps;         // (joint_row_count): C, less what is not closed in this step
     double *deferred;     // (joint_row_count): parts of gaps that are too wide to be closed in one step
-    double *apart;        // (bearing_count): distance by which contacts may approach at the start [m]
+    double *room;         // (bearing_count): distance by which contacts may approach at the start [m]
     double *distances;    // (bearing_count): the same now, < 0 where they overlap
     double *impulses;     // (row_count): λ [kg m, kg m²]
     double *guess;        // (row_count): numbers of the signs of λ; of contacts first their overlaps
@@ -102,7 +102,7 @@ static Displacement begin_displacement(Solve *solve) {
                          .jacobians = TAKE(arena, Jacobian, solve->system.link_count),
                          .gaps = TAKE(arena, double, island->joint_row_count),
                          .deferred = TAKE(arena, double, island->joint_row_count),
-                         .apart = TAKE(arena, double, island->bearing_count),
+                         .room = TAKE(arena, double, island->bearing_count),
                          .distances = TAKE(arena, double, island->bearing_count),
                          .impulses = TAKE(arena, double, island->row_count),
                          .guess = TAKE(arena, double, island->row_count)};
@@ -122,9 +122,9 @@ static Displacement begin_displacement(Solve *solve) {
         const Bearing *bearing = island->bearings + number;
         Ends ends = island->ends[island->joint_row_count + number];
         Vec a = add(move.start[ends.a].p, bearing->arm_a), b = add(move.start[ends.b].p, bearing->arm_b);
-        double apart = dot(sub(b, a), bearing->normal) + bearing->slop;
-        move.apart[number] = apart - least(apart, 0.0) * stays;
-        move.guess[island->joint_row_count + number] = -move.apart[number];
+        double room = dot(sub(b, a), bearing->normal) + bearing->slop;
+        move.room[number] = room - least(room, 0.0) * stays;
+        move.guess[island->joint_row_count + number] = -move.room[number];
     }
     return move;
 }
@@ -143,7 +143,7 @@ static void measure_gaps(const Solve *solve, Displacement *move) {
         Ends ends = island->ends[row];
         Twist displacements[2] = {displacement(move->start[ends.a], solve->poses[ends.a]),
                                   displacement(move->start[ends.b], solve->poses[ends.b])};
-        move->distances[number] = move->apart[number] + rate(solve->jacobians[row], (Ends){0, 1}, displacements);
+        move->distances[number] = move->room[number] + link_rate(solve->jacobians[row], (Ends){0, 1}, displacements);
         double overlap = greatest(-move->distances[number], 0.0);
         move->sum += overlap;
         move->widest = greatest(move->widest, overlap);
@@ -222,8 +222,8 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     double share = paid_share(lost, mass_product(&solve->system, changes, changes));
     change_velocities(solve, changes, share);
     for (int row = 0; row < island->joint_row_count; row++) {
-        double sign = sign_of(island->rows[row], move->excess[row]);
-        *island->closing[row] = impulses[row] * share / solve->dt / sign;
+        double factor = factor_of(island->rows[row], move->excess[row]);
+        *island->closing[row] = impulses[row] * share / solve->dt / factor;
     }
     for (int number = 0; number < island->bearing_count; number++) {
         Bearing *bearing = island->bearings + number;
@@ -235,7 +235,7 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
 // Whether a joint is being drawn together since it was made or changed.
 static bool any_drawn(const Island *island) {
     for (int number = 0; number < island->joint_count; number++) {
-        if (island->joints[number]->apart > 0.0) {
+        if (island->joints[number]->excess > 0.0) {
             return true;
         }
     }
@@ -261,7 +261,7 @@ static void turn_momenta(Solve *solve, const Displacement *move, const double *i
     }
     read_rows(island, ahead, excess, later);
     for (int row = 0; row < island->joint_row_count; row++) {
-        bool drawn = island->joints[island->joint_of_row[row]]->apart > 0.0;
+        bool drawn = island->joints[island->joint_of_row[row]]->excess > 0.0;
         double impulse = drawn ? impulses[row] / solve->dt : 0.0;
         add_row_momenta(&solve->system, move->jacobians, row, impulse, changes);
         add_row_momenta(&solve->system, later, row, -impulse, changes);

@@ -5,12 +5,11 @@
 
 #include "joint_parts.h"
 #include "joint_rows.h"
-#include "saddle_point.h"
 #include "stages.h"
 
 // An unstepped joint has come together where its rows are no more than this out of their bounds [m, rad]: ten times the
 // slop of limits.
-static const double drawn_apart = 1e-3;
+static const double drawn_slop = 1e-3;
 // The least speed at which it is drawn together [m/s, rad/s], a quarter of the greatest (`joint_positions.c`): a joint
 // that comes nearer more slowly is held apart by others.
 static const double drawn_least = 5.0;
@@ -23,65 +22,24 @@ static double joint_impulse(const World *world, const Joint *joint) {
     return most;
 }
 
-// The point of an anchor in the world [m].
-static Vec world_point(const cpBody *body, Vec anchor) {
-    return add(body->p, rotated(anchor, rotation(body->a)));
-}
-
-// The unit vector from the first anchor of a constraint to the second.
-static Vec between(const cpConstraint *constraint, Vec at_a, Vec at_b) {
-    Vec apart = sub(world_point(constraint->b, at_b), world_point(constraint->a, at_a));
-    double distance = length(apart);
-    return distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(0.0, 0.0);
-}
-
-// The unit vector along which a constraint about an axis acts on the second body of its joint.
-//
-// Pin and limit have the bodies of the joint the other way round, and their anchors are put anew in each step, so
-// that their lines are taken from the axis. Chipmunk turns the normal of a limit round at the lesser distance.
-static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
-    const cpBody *a = world->bodies[joint->a].engine, *b = world->bodies[joint->b].engine;
-    Vec axis = rotated(vec(joint->axis[0], joint->axis[1]), rotation(b->a));
-    if (part->kind == PART_PIN) {
-        return negated(perpendicular(axis));
-    }
-    if (part->kind == PART_DRIVE) {
-        return negated(axis);
-    }
-    const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
-    Vec at_a = world_point(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
-    // From the point beyond the upper limit, the anchor lies against the axis.
-    double distance = dot(sub(at_a, world_point(b, limit->anchorA)), axis);
-    bool at_lesser = 2.0 * fabs(distance) < limit->min + limit->max;
-    return at_lesser == (distance > 0.0) ? axis : negated(axis);
-}
-
 // Whether a part acts along a line: that of a rod, a rope, a spring, a limit or a drive.
 static bool is_axial(const Part *part) {
     return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING || part->kind == PART_ROPE ||
            part->kind == PART_DRIVE;
 }
 
-// The unit vector along which a rope with guides comes to its second end.
-static Vec by_path(const World *world, const Joint *joint) {
-    const Row *row = world->rows + joint->first_row + joint->row_count - 1;
-    int span = row->guide_count - 2;
-    const Guide *guide = world->guides + row->first_guide + span;
-    Pose a = pose_of(world->bodies[guide[0].body].engine), b = pose_of(world->bodies[guide[1].body].engine);
-    Jacobian jacobian;
-    span_at(row, world->guides, span, a, b, &jacobian);
-    return jacobian.b.v;
-}
-
-// The unit vector along which an axial part pushes the second body of its joint.
+// The vector by which the impulse that Chipmunk stores of an axial part acts on the second body of its joint.
 static Vec line_of(const World *world, const Joint *joint, const Part *part) {
-    if (part->kind == PART_ROPE) {
-        return by_path(world, joint);
+    // That of a spring which Chipmunk alone solves, and which has no row.
+    static const Row distance = {.kind = ROW_DISTANCE, .below = 1.0, .above = 1.0};
+    const Row *row = world->rows + joint->first_row, *end = row + joint->row_count;
+    while (row < end && row->part != part - world->parts) {
+        row++;
     }
-    // The anchors of all other kinds lie in the same place.
-    const cpPinJoint *axial = (cpPinJoint *)part->constraint;
-    bool by_line = joint->has_axis || part->kind == PART_DRIVE;
-    return by_line ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
+    row = row < end ? row : &distance;
+    Jacobian jacobian;
+    double x = row_after(world, joint, row, 0.0, &jacobian);
+    return scaled(jacobian.b.v, factor_of(row, excess_of(row, x)));
 }
 
 static bool is_linear(const Part *part) {
@@ -134,31 +92,13 @@ void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8
     }
 }
 
-// Return x of a row.
-static double x_of_row(const World *world, const Joint *joint, const Row *row) {
-    Pose a = pose_of(world->bodies[joint->a].engine), b = pose_of(world->bodies[joint->b].engine);
-    const Guide *guide = world->guides + row->first_guide;
-    Jacobian jacobian;
-    double x = row->offset;
-    if (row->kind == ROW_PATH) {
-        for (int span = 0; span < row->guide_count - 1; span++, guide++) {
-            a = pose_of(world->bodies[guide[0].body].engine);
-            b = pose_of(world->bodies[guide[1].body].engine);
-            x += span_at(row, world->guides, span, a, b, &jacobian);
-        }
-        return x;
-    }
-    Anchors anchors = anchors_at(joint, a, b);
-    x += row_at(row, joint, &anchors, a, b, &jacobian);
-    return row->guide_count == 0 ? x : x + carrier_at(joint, pose_of(world->bodies[guide->body].engine), &jacobian);
-}
-
 // How far the row of a joint that is furthest out of its bounds is out of them [m, rad].
-static double apart_by(const World *world, const Joint *joint) {
+static double greatest_excess(const World *world, const Joint *joint) {
     double most = 0.0;
     for (const Row *row = world->rows + joint->first_row, *end = row + joint->row_count; row < end; row++) {
-        double x = x_of_row(world, joint, row);
-        most = greatest(most, row->law == LAW_BOUNDS ? greatest(x - row->upper, row->lower - x) : 0.0);
+        Jacobian jacobian;
+        double excess = excess_of(row, row_after(world, joint, row, 0.0, &jacobian));
+        most = greatest(most, row->law == LAW_BOUNDS ? fabs(excess) : 0.0);
     }
     return most;
 }
@@ -166,15 +106,15 @@ static double apart_by(const World *world, const Joint *joint) {
 void measure_drawn_joints(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         Joint *joint = world->joints + number;
-        double apart = joint->unstepped ? apart_by(world, joint) : 0.0;
-        joint->apart = apart > drawn_apart ? apart : 0.0;
+        double excess = joint->unstepped ? greatest_excess(world, joint) : 0.0;
+        joint->excess = excess > drawn_slop ? excess : 0.0;
     }
 }
 
 // Whether an unstepped joint has come nearer in the step, and is still apart.
 static bool is_drawn(const World *world, const Joint *joint) {
-    double apart = apart_by(world, joint);
-    return apart > drawn_apart && joint->apart - apart > drawn_least * (double)SUB_STEPS * world->dt;
+    double excess = greatest_excess(world, joint);
+    return excess > drawn_slop && joint->excess - excess > drawn_least * (double)SUB_STEPS * world->dt;
 }
 
 void find_broken(World *world) {

@@ -3,9 +3,9 @@
 
 // Constraint rows of joints: each kind returns a number x of the poses of two bodies, and its Jacobian J = dx/dq.
 //
-// Poses are those of the centres of mass. The excess C of a row is how far x lies outside of its bounds [m, rad].
+// Poses are those of the centres of mass.
 // Source: E. Catto, "Modeling and Solving Constraints", GDC 2009.
-
+//
 // A rope leaves a wheel along a tangent. Where a row begins or ends at a wheel, the rope does not slip on it, and its
 // path has the length that the wheel has wound up; a wheel between them lets it slide.
 
@@ -15,7 +15,7 @@ Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation
     Anchors anchors = {.of_b = of_b};
     anchors.arm_a = rotated(vec(joint->anchor_a[0], joint->anchor_a[1]), of_a);
     anchors.arm_b = rotated(vec(joint->anchor_b[0], joint->anchor_b[1]), of_b);
-    anchors.apart = sub(add(a, anchors.arm_a), add(b, anchors.arm_b));
+    anchors.offset = sub(add(a, anchors.arm_a), add(b, anchors.arm_b));
     return anchors;
 }
 
@@ -23,34 +23,36 @@ Anchors anchors_at(const Joint *joint, Pose a, Pose b) {
     return anchors_turned(joint, a.p, rotation(a.yaw), b.p, rotation(b.yaw));
 }
 
-Jacobian along(Vec direction, Vec arm_a, Vec arm_b) {
+Jacobian line_jacobian(Vec direction, Vec arm_a, Vec arm_b) {
     return (Jacobian){{direction, cross(arm_a, direction)}, {negated(direction), -cross(arm_b, direction)}};
 }
 
 // x = direction . (p_a - p_b), where the direction turns with the second body, as a line that reaches from it to where
 // the first anchor is.
 static double position_on_line(Vec direction, const Anchors *anchors, Jacobian *jacobian) {
-    *jacobian = along(direction, anchors->arm_a, add(anchors->arm_b, anchors->apart));
-    return dot(direction, anchors->apart);
+    *jacobian = line_jacobian(direction, anchors->arm_a, add(anchors->arm_b, anchors->offset));
+    return dot(direction, anchors->offset);
 }
 
-double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a, Pose b, Jacobian *jacobian) {
+// x of the first link of a row that is no path, and its Jacobian.
+static double first_link_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a, Pose b,
+                            Jacobian *jacobian) {
     Vec axis = vec(joint->axis[0], joint->axis[1]);
     switch (row->kind) {
     case ROW_X:
-        *jacobian = along(vec(1.0, 0.0), anchors->arm_a, anchors->arm_b);
-        return anchors->apart.x;
+        *jacobian = line_jacobian(vec(1.0, 0.0), anchors->arm_a, anchors->arm_b);
+        return anchors->offset.x;
     case ROW_Y:
-        *jacobian = along(vec(0.0, 1.0), anchors->arm_a, anchors->arm_b);
-        return anchors->apart.y;
+        *jacobian = line_jacobian(vec(0.0, 1.0), anchors->arm_a, anchors->arm_b);
+        return anchors->offset.y;
     case ROW_ANGLE:
         *jacobian = (Jacobian){{{0.0, 0.0}, -1.0}, {{0.0, 0.0}, joint->ratio}};
         return joint->ratio * b.yaw - a.yaw;
     case ROW_DISTANCE: {
-        double distance = length(anchors->apart);
+        double distance = length(anchors->offset);
         // Anchors on each other have no direction; any one parts them.
-        Vec direction = distance > 0.0 ? scaled(anchors->apart, 1.0 / distance) : vec(1.0, 0.0);
-        *jacobian = along(direction, anchors->arm_a, anchors->arm_b);
+        Vec direction = distance > 0.0 ? scaled(anchors->offset, 1.0 / distance) : vec(1.0, 0.0);
+        *jacobian = line_jacobian(direction, anchors->arm_a, anchors->arm_b);
         return distance;
     }
     case ROW_ACROSS:
@@ -67,8 +69,9 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
     }
 }
 
-double carrier_at(const Joint *joint, Pose carrier, Jacobian *jacobian) {
-    // ratio (yaw_b - yaw_c) - (yaw_a - yaw_c), of which `row_at` has the rest.
+// What a carrier adds to x of a gear that turns about it, and its Jacobian.
+static double carrier_at(const Joint *joint, Pose carrier, Jacobian *jacobian) {
+    // ratio (yaw_b - yaw_c) - (yaw_a - yaw_c), of which the first link has the rest.
     *jacobian = (Jacobian){.a = {.w = 1.0 - joint->ratio}};
     return (1.0 - joint->ratio) * carrier.yaw;
 }
@@ -86,7 +89,8 @@ static Vec tangent_between(Vec from, double radius, Vec to, double other_radius,
     return rotated(scaled(apart, 1.0 / distance), (Rotation){*span / distance, across / distance});
 }
 
-double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, Jacobian *jacobian) {
+// What a span of a rope, from the guide of a number to the next one, adds to the length of its path, and its Jacobian.
+static double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, Jacobian *jacobian) {
     const Guide *from = guides + row->first_guide + number, *to = from + 1;
     Vec arm_a = rotated(from->anchor, rotation(a.yaw)), arm_b = rotated(to->anchor, rotation(b.yaw));
     double span = 0.0;
@@ -94,12 +98,54 @@ double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, 
     Vec outward = negated(perpendicular(along_rope));
     arm_a = add(arm_a, scaled(outward, from->radius));
     arm_b = add(arm_b, scaled(outward, to->radius));
-    *jacobian = along(negated(along_rope), arm_a, arm_b);
+    *jacobian = line_jacobian(negated(along_rope), arm_a, arm_b);
     double heading = atan2(along_rope.y, along_rope.x);
     double x = span;
     x += from->radius * remainder(heading - from->heading_out, full_turn);
     x -= to->radius * remainder(heading - to->heading_in, full_turn);
     x -= number == 0 ? from->radius * (a.yaw - from->yaw) : 0.0;
     x += number == row->guide_count - 2 ? to->radius * (b.yaw - to->yaw) : 0.0;
+    return x;
+}
+
+double row_at(const Row *row, const Joint *joint, const Guide *guides, const Anchors *anchors, Links links,
+              Jacobian *jacobians) {
+    bool is_path = row->kind == ROW_PATH;
+    double x = row->offset;
+    for (int number = 0; number <= further_count(row); number++) {
+        int link = number == 0 ? links.first : links.further + number - 1;
+        Pose a = links.poses[links.ends[link].a], b = links.poses[links.ends[link].b];
+        if (is_path) {
+            x += span_at(row, guides, number, a, b, jacobians + link);
+        } else {
+            x += number == 0 ? first_link_at(row, joint, anchors, a, b, jacobians + link)
+                             : carrier_at(joint, a, jacobians + link);
+        }
+    }
+    return x;
+}
+
+double row_after(const World *world, const Joint *joint, const Row *row, double lapse, Jacobian *last) {
+    Arena *arena = &world->own->arena;
+    size_t mark = arena_mark(arena);
+    int link_count = 1 + further_count(row), first_guide = row->kind == ROW_PATH ? 0 : 2;
+    int count = first_guide + row->guide_count;
+    Pose *poses = TAKE(arena, Pose, count);
+    for (int number = 0; number < count; number++) {
+        int place = number >= first_guide ? world->guides[row->first_guide + number - first_guide].body
+                    : number == 0         ? joint->a
+                                          : joint->b;
+        const cpBody *engine = world->bodies[place].engine;
+        poses[number] = moved(pose_of(engine), twist_of(engine), lapse);
+    }
+    Ends *ends = TAKE(arena, Ends, link_count);
+    Jacobian *jacobians = TAKE(arena, Jacobian, link_count);
+    for (int link = 0; link < link_count; link++) {
+        ends[link] = row->kind == ROW_PATH ? (Ends){link, link + 1} : (Ends){2 * link, link == 0 ? 1 : 2};
+    }
+    Anchors anchors = row->kind == ROW_PATH ? (Anchors){0} : anchors_at(joint, poses[0], poses[1]);
+    double x = row_at(row, joint, world->guides, &anchors, (Links){0, 1, ends, poses}, jacobians);
+    *last = jacobians[link_count - 1];
+    arena_release(arena, mark);
     return x;
 }

@@ -4,13 +4,13 @@
 #ifndef PHYSSIM_JOINT_ROWS_H
 #define PHYSSIM_JOINT_ROWS_H
 
-#include "core.h"
 #include "saddle_point.h"
+#include "world.h"
 
 // The anchors of a joint at some poses of its bodies, in world axes [m].
 typedef struct Anchors {
     Vec arm_a, arm_b; // from the centres of mass
-    Vec apart;        // from the second anchor to the first
+    Vec offset;       // from the second anchor to the first
     Rotation of_b;
 } Anchors;
 
@@ -18,6 +18,16 @@ Anchors anchors_at(const Joint *joint, Pose a, Pose b);
 
 // The same, of which the rotations are known.
 Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation of_b);
+
+// C of a row: how far x lies outside of its bounds [m, rad].
+static inline double excess_of(const Row *row, double x) {
+    return greatest(x - row->upper, 0.0) + least(x - row->lower, 0.0);
+}
+
+// The factor from the impulse that Chipmunk stores to λ of a row.
+static inline double factor_of(const Row *row, double excess) {
+    return excess < 0.0 ? row->below : row->above;
+}
 
 // Whether a row holds x where it is.
 static inline bool is_equality(const Row *row) {
@@ -28,9 +38,6 @@ static inline bool is_equality(const Row *row) {
 static inline bool is_of_rate(const Row *row) {
     return row->law == LAW_DRIVE || row->law == LAW_FRICTION || row->law == LAW_FALLS || row->law == LAW_RISES;
 }
-
-// Return x of a row, and its Jacobian.
-double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a, Pose b, Jacobian *jacobian);
 
 // The rate of the upper bound of a row, or of x where it is driven [m/s, rad/s].
 static inline double bound_rate(const Row *row) {
@@ -43,14 +50,21 @@ static inline int further_count(const Row *row) {
     return row->kind == ROW_PATH ? row->guide_count - 2 : row->guide_count;
 }
 
-// Return what a span of a rope, from the guide of a number to the next one, adds to the length of its path, and its
-// Jacobian.
-double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, Jacobian *jacobian);
+// The links of a row (`saddle_point.h`): the numbers of its first one and of the one after it, and all links and poses.
+typedef struct Links {
+    int first, further;
+    const Ends *ends;  // of the links, as places among the poses
+    const Pose *poses; // of bodies
+} Links;
 
-// Return what a carrier adds to x of a gear that turns about it, and its Jacobian.
-double carrier_at(const Joint *joint, Pose carrier, Jacobian *jacobian);
+// Return x of a row, and the Jacobians of its links. `anchors` are those of its joint; a path needs neither.
+double row_at(const Row *row, const Joint *joint, const Guide *guides, const Anchors *anchors, Links links,
+              Jacobian *jacobians);
+
+// Return x of a row after a time at the velocities of now [s], and the Jacobian of its last link.
+double row_after(const World *world, const Joint *joint, const Row *row, double lapse, Jacobian *last);
 
 // The Jacobian of direction . (p_a - p_b), for points that are `arm_a` and `arm_b` from the centres of mass.
-Jacobian along(Vec direction, Vec arm_a, Vec arm_b);
+Jacobian line_jacobian(Vec direction, Vec arm_a, Vec arm_b);
 
 #endif

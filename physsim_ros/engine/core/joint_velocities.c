@@ -102,7 +102,7 @@ static void take_back(const Solve *solve, Twist *without) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     for (int row = 0; row < normal; row++) {
-        double impulse = *island->impulses[row] * sign_of(island->rows[row], solve->excess[row]);
+        double impulse = *island->impulses[row] * factor_of(island->rows[row], solve->excess[row]);
         add_row_momenta(&solve->system, solve->jacobians, row, -impulse, without);
     }
     for (int number = 0; number < island->bearing_count; number++) {
@@ -124,7 +124,7 @@ static double *last_impulses(const Solve *solve) {
     int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double *last = TAKE(solve->arena, double, island->row_count);
     for (int row = 0; row < normal; row++) {
-        last[row] = island->last[row] * sign_of(island->rows[row], solve->excess[row]);
+        last[row] = island->last[row] * factor_of(island->rows[row], solve->excess[row]);
     }
     for (int number = 0; number < island->bearing_count; number++) {
         double along = island->last[normal + number], across = island->last[tangent + number];
@@ -163,7 +163,7 @@ static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft,
         soft[left] = soft[right] = contact_softness;
         prior[left] = rows->last[left];
         prior[right] = rows->last[right];
-        rows->free_slips[number] = rate(across, ends, without) + bearing->slide;
+        rows->free_slips[number] = link_rate(across, ends, without) + bearing->slide;
         Twist begun[] = {body_of(island->engine[ends.a])->scratch.twist,
                          body_of(island->engine[ends.b])->scratch.twist};
         // Restitution is of approaches. Chipmunk permits bodies that part to approach by e times that velocity, so that
@@ -171,7 +171,7 @@ static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft,
         rows->bounce[number] = greatest(-bearing->point->bounce, 0.0);
         double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
         double stopped = unit * bearing->friction * (prior[left] + prior[right]);
-        rows->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + bearing->slide) - stopped, 0.0);
+        rows->slips[number] = greatest(fabs(link_rate(across, (Ends){0, 1}, begun) + bearing->slide) - stopped, 0.0);
     }
 }
 
@@ -222,7 +222,7 @@ static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution 
     bool changed = false;
     for (int number = 0; number < island->bearing_count; number++) {
         Ends ends = island->ends[tangent + number];
-        double change = rate(solve->jacobians[tangent + number], ends, solution->changes);
+        double change = link_rate(solve->jacobians[tangent + number], ends, solution->changes);
         double slip = fabs(rows->free_slips[number] + change);
         slip = slip < least_slip ? 0.0 : slip;
         changed = changed || fabs(slip - rows->slips[number]) > slip_error + slip_share * slip;
@@ -285,9 +285,9 @@ static double work_of(const Solve *solve, const VelocityRows *rows, const Soluti
         double along = solution->impulses[left] + solution->impulses[right];
         double across = friction * (solution->impulses[left] - solution->impulses[right]);
         double before = (rows->rates[left] + rows->rates[right]) / 2.0;
-        double after = before + rate(solve->jacobians[left], island->ends[left], solution->changes);
+        double after = before + link_rate(solve->jacobians[left], island->ends[left], solution->changes);
         double slip = rows->free_slips[number];
-        double slip_after = slip + rate(solve->jacobians[right], island->ends[right], solution->changes);
+        double slip_after = slip + link_rate(solve->jacobians[right], island->ends[right], solution->changes);
         before = rows->bounce[number] > 0.0 ? least(before, -rows->bounce[number]) : before;
         work += along * (before + after) / 2.0 + across * (slip + slip_after) / 2.0;
     }
@@ -389,7 +389,7 @@ static void press_on(Solve *solve, VelocityRows *rows) {
         if (bounces_off(island, rows, number)) {
             Jacobian jacobian = solve->jacobians[normal + number];
             Ends ends = island->ends[normal + number];
-            double gained = rate(jacobian, ends, pressed.changes) - rate(jacobian, ends, impact.changes);
+            double gained = link_rate(jacobian, ends, pressed.changes) - link_rate(jacobian, ends, impact.changes);
             double share = island->bearings[number].remaining / solve->dt + 0.5;
             rows->bounce[number] = greatest(rows->bounce[number] + gained * share, 0.0);
         }
@@ -476,8 +476,8 @@ static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solu
         Twist displacements[] = {
             displacement_gained(body_of(island->engine[ends.a]), velocities[ends.a], remaining, solve->dt),
             displacement_gained(body_of(island->engine[ends.b]), velocities[ends.b], remaining, solve->dt)};
-        wanted[normal + number] = rate(rows->jacobians[normal + number], (Ends){0, 1}, displacements);
-        wanted[tangent + number] = rate(rows->jacobians[tangent + number], (Ends){0, 1}, displacements);
+        wanted[normal + number] = link_rate(rows->jacobians[normal + number], (Ends){0, 1}, displacements);
+        wanted[tangent + number] = link_rate(rows->jacobians[tangent + number], (Ends){0, 1}, displacements);
         late = late || remaining > 0.0;
     }
     if (late) {
@@ -492,7 +492,7 @@ static void write_impulses(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     for (int row = 0; row < normal; row++) {
-        *island->impulses[row] = solution->impulses[row] / sign_of(island->rows[row], solve->excess[row]);
+        *island->impulses[row] = solution->impulses[row] / factor_of(island->rows[row], solve->excess[row]);
     }
     for (int number = 0; number < island->bearing_count; number++) {
         double left = solution->impulses[normal + number], right = solution->impulses[tangent + number];

@@ -27,15 +27,15 @@ typedef struct Ldl {
 } Ldl;
 
 // Find where the factors are not 0; once for a pattern of `starts` and `rows`. All columns count as changed.
-void ldl_analyse(Ldl *system, Arena *arena);
+void ldl_analyse(Ldl *ldl, Arena *arena);
 
 // Take the places of factors from a matrix of the same pattern; all columns count as changed.
-void ldl_copy(Ldl *system, const Ldl *former, Arena *arena);
+void ldl_copy(Ldl *ldl, const Ldl *former, Arena *arena);
 
 // Factor the matrix of `values` and `diagonal` anew where it has changed.
-void ldl_factor(Ldl *system);
+void ldl_factor(Ldl *ldl);
 
 // Replace a right side by the solution.
-void ldl_solve(const Ldl *system, double *x);
+void ldl_solve(const Ldl *ldl, double *x);
 
 #endif

@@ -52,7 +52,7 @@ Media media_of(World *world, double ahead) {
     }
     media.basins = TAKE(arena, Basin, count);
     media.currents = TAKE(arena, Twist, count);
-    media.around = TAKE(arena, Reached, count);
+    media.reached = TAKE(arena, Reached, count);
     Box *boxes = TAKE(arena, Box, count);
     for (int number = 0; number < world->region_count; number++) {
         const Region *region = world->regions + number;
@@ -80,7 +80,7 @@ Media media_of(World *world, double ahead) {
 // Drag
 
 // Add to D a weight of B'B, where B has the columns x, y and `turn`: how a point moves with the body.
-static void add_moving_point(Resistance *sum, double weight, Vec turn, double square) {
+static void add_moving_point(Symmetric *sum, double weight, Vec turn, double square) {
     sum->xx += weight;
     sum->yy += weight;
     sum->xw += weight * turn.x;
@@ -88,13 +88,13 @@ static void add_moving_point(Resistance *sum, double weight, Vec turn, double sq
     sum->ww += weight * square;
 }
 
-static void add_linear_side(Resistance *sum, double weight, Side side) {
+static void add_linear_side(Symmetric *sum, double weight, Side side) {
     Vec edge = sub(side.end, side.begin), middle = scaled(add(side.begin, side.end), 0.5);
     double square = dot(middle, middle) + dot(edge, edge) / 12.0;
     add_moving_point(sum, weight * length(edge), perpendicular(middle), square);
 }
 
-static void add_linear_bow(Resistance *sum, double weight, Bow bow) {
+static void add_linear_bow(Symmetric *sum, double weight, Bow bow) {
     double turn = bow.to - bow.from, r = bow.radius;
     Vec rim = {sin(bow.to) - sin(bow.from), cos(bow.from) - cos(bow.to)}; // integral of the unit vector
     double square = (dot(bow.center, bow.center) + r * r) * turn + 2.0 * r * dot(bow.center, rim);
@@ -107,7 +107,7 @@ static void add_linear_bow(Resistance *sum, double weight, Bow bow) {
 
 // The part of a side that faces the flow: its normal velocity f and that by turning q are linear along it, so that the
 // integrals of f, f q and f q² are exact by Gauss's rule of two points.
-static void add_quadratic_side(Resistance *sum, double weight, Side side, Twist flow) {
+static void add_quadratic_side(Symmetric *sum, double weight, Side side, Twist flow) {
     Vec edge = sub(side.end, side.begin);
     double size = length(edge);
     if (size <= 0.0) {
@@ -135,7 +135,7 @@ static double facing_up_to(double angle) {
     return 2.0 * turns + (rest < pi ? 1.0 - cos(rest) : 2.0);
 }
 
-static void add_quadratic_bow(Resistance *sum, double weight, Bow bow, Twist flow) {
+static void add_quadratic_bow(Symmetric *sum, double weight, Bow bow, Twist flow) {
     Vec velocity = velocity_at(flow, bow.center);
     double speed = length(velocity), along = atan2(velocity.y, velocity.x);
     double width = bow.radius * (facing_up_to(bow.to - along) - facing_up_to(bow.from - along));
@@ -143,8 +143,8 @@ static void add_quadratic_bow(Resistance *sum, double weight, Bow bow, Twist flo
 }
 
 // The matrix D of a part of a body that moves through a medium with a twist.
-static Resistance resistance_of(const Immersion *wet, const Region *medium, Twist flow) {
-    Resistance sum = {0};
+static Symmetric resistance_of(const Immersion *wet, const Region *medium, Twist flow) {
+    Symmetric sum = {0};
     double linear = 3.0 * medium->viscosity, quadratic = 0.5 * medium->drag * medium->density;
     for (int number = 0; number < wet->side_count && linear > 0.0; number++) {
         add_linear_side(&sum, linear, wet->sides[number]);
@@ -161,27 +161,27 @@ static Resistance resistance_of(const Immersion *wet, const Region *medium, Twis
     return sum;
 }
 
-static Resistance sum_of(Resistance a, Resistance b) {
-    return (Resistance){a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.xw + b.xw, a.yw + b.yw, a.ww + b.ww};
+static Symmetric symmetric_sum(Symmetric a, Symmetric b) {
+    return (Symmetric){a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.xw + b.xw, a.yw + b.yw, a.ww + b.ww};
 }
 
-static Resistance times(Resistance d, double share) {
-    return (Resistance){d.xx * share, d.xy * share, d.yy * share, d.xw * share, d.yw * share, d.ww * share};
+static Symmetric symmetric_scaled(Symmetric d, double share) {
+    return (Symmetric){d.xx * share, d.xy * share, d.yy * share, d.xw * share, d.yw * share, d.ww * share};
 }
 
-static Twist resisted(Resistance d, Twist twist) {
+static Twist symmetric_product(Symmetric d, Twist twist) {
     return (Twist){
         {d.xx * twist.v.x + d.xy * twist.v.y + d.xw * twist.w, d.xy * twist.v.x + d.yy * twist.v.y + d.yw * twist.w},
         d.xw * twist.v.x + d.yw * twist.v.y + d.ww * twist.w};
 }
 
 // The inverse of M + D, which is positive definite.
-static Resistance inverse_of(Resistance d, double mass, double moment) {
+static Symmetric inverse_with(Symmetric d, double mass, double moment) {
     double a = mass + d.xx, b = mass + d.yy, c = moment + d.ww;
-    Resistance cofactor = {b * c - d.yw * d.yw,    d.yw * d.xw - d.xy * c, a * c - d.xw * d.xw,
-                           d.xy * d.yw - b * d.xw, d.xy * d.xw - a * d.yw, a * b - d.xy * d.xy};
+    Symmetric cofactor = {b * c - d.yw * d.yw,    d.yw * d.xw - d.xy * c, a * c - d.xw * d.xw,
+                          d.xy * d.yw - b * d.xw, d.xy * d.xw - a * d.yw, a * b - d.xy * d.xy};
     double determinant = a * cofactor.xx + d.xy * cofactor.xy + d.xw * cofactor.xw;
-    return times(cofactor, 1.0 / determinant);
+    return symmetric_scaled(cofactor, 1.0 / determinant);
 }
 
 // Where in a time the velocity is taken that drag is of, 1/2 .. 1, by the share that drag would take of a velocity.
@@ -203,35 +203,36 @@ typedef struct Share {
 
 static Twist buoyancy_on(const Share *share, Vec gravity) {
     double weight = -share->medium->density * share->sign;
-    return (Twist){scaled(gravity, weight * share->wet.area), weight * cross(share->wet.moment, gravity)};
+    return (Twist){scaled(gravity, weight * share->wet.area), weight * cross(share->wet.first_moment, gravity)};
 }
 
 // Add the drag on a body that moves with a twist.
-static void add_drag(Pull *pull, const Share *shares, int count, Twist twist) {
+static void add_drag(FluidForce *fluid, const Share *shares, int count, Twist twist) {
     for (int number = 0; number < count; number++) {
         const Share *share = shares + number;
         if (resists(share->medium)) {
-            Resistance d = resistance_of(&share->wet, share->medium, twist_sum(twist, share->current, -1.0));
-            pull->steady = twist_sum(pull->steady, resisted(d, share->current), share->sign);
-            pull->resistance = sum_of(pull->resistance, times(d, share->sign));
-            pull->has_drag = true;
+            Symmetric d = resistance_of(&share->wet, share->medium, twist_sum(twist, share->current, -1.0));
+            fluid->steady = twist_sum(fluid->steady, symmetric_product(d, share->current), share->sign);
+            fluid->resistance = symmetric_sum(fluid->resistance, symmetric_scaled(d, share->sign));
+            fluid->has_drag = true;
         }
     }
 }
 
-static void fit_drag(Pull *pull, const cpBody *engine, double lapse) {
-    const Resistance *d = &pull->resistance;
+static void fit_drag(FluidForce *fluid, const cpBody *engine, double lapse) {
+    const Symmetric *d = &fluid->resistance;
     double most = greatest(greatest(d->xx, d->yy) * engine->m_inv, d->ww * engine->i_inv);
     double time = lapse * fitted(lapse * greatest(most, 0.0));
-    pull->inverse = inverse_of(times(*d, time), engine->m, engine->i);
+    fluid->inverse = inverse_with(symmetric_scaled(*d, time), engine->m, engine->i);
 }
 
 // The twist that a body in free flight has after a time, by implicit Euler with the drag of a guess of that twist.
-static Twist twist_after(Pull pull, const Share *shares, int count, const Flight *flight, const cpBody *engine) {
-    add_drag(&pull, shares, count, flight->guess);
-    Resistance inverse = inverse_of(times(pull.resistance, flight->ahead), engine->m, engine->i);
-    Twist all = twist_sum(twist_sum(pull.steady, flight->others, 1.0), resisted(pull.resistance, flight->now), -1.0);
-    return twist_sum(flight->now, resisted(inverse, all), flight->ahead);
+static Twist twist_after(FluidForce fluid, const Share *shares, int count, const Flight *flight, const cpBody *engine) {
+    add_drag(&fluid, shares, count, flight->guess);
+    Symmetric inverse = inverse_with(symmetric_scaled(fluid.resistance, flight->ahead), engine->m, engine->i);
+    Twist all =
+        twist_sum(twist_sum(fluid.steady, flight->others, 1.0), symmetric_product(fluid.resistance, flight->now), -1.0);
+    return twist_sum(flight->now, symmetric_product(inverse, all), flight->ahead);
 }
 
 // A disc around a body, and how many basins are found that it reaches.
@@ -247,7 +248,7 @@ static bool note_reached(int number, void *data) {
     const Media *media = looking->media;
     Containment containment = containment_of(media->basins + number, looking->center, looking->reach);
     if (containment != OUTSIDE) {
-        media->around[looking->count++] = (Reached){number, containment};
+        media->reached[looking->count++] = (Reached){number, containment};
     }
     return true;
 }
@@ -258,22 +259,22 @@ static int by_basin(const void *one, const void *other) {
 
 // Find the basins that a disc around a body reaches, in their order, and return their count. For thousands of bodies,
 // memory for the shares of all basins would be cleared once for each body.
-static int find_around(const Media *media, Vec center, double reach) {
+static int find_reached(const Media *media, Vec center, double reach) {
     Looking looking = {media, center, reach, 0};
     tree_query(&media->tree, box_of_way(center, center, reach), note_reached, &looking);
-    sort(media->around, looking.count, sizeof(Reached), by_basin);
+    sort(media->reached, looking.count, sizeof(Reached), by_basin);
     return looking.count;
 }
 
-Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse) {
+FluidForce fluid_force(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse) {
     Arena *arena = &world->own->arena;
     size_t mark = arena_mark(arena);
     const Region *air = media->air;
-    int count = 0, around_count = find_around(media, pose.p, body->reach);
-    Share *shares = TAKE(arena, Share, 2 * around_count + 1);
+    int count = 0, reached_count = find_reached(media, pose.p, body->reach);
+    Share *shares = TAKE(arena, Share, 2 * reached_count + 1);
     body->scratch.afloat = false;
     body->scratch.stirred = air != NULL && air->gusty;
-    for (const Reached *each = media->around, *end = each + around_count; each < end; each++) {
+    for (const Reached *each = media->reached, *end = each + reached_count; each < end; each++) {
         const Basin *basin = media->basins + each->basin;
         bool outlined = resists(basin->region) || (air != NULL && resists(air));
         Immersion wet = immersed(body, pose, each->containment == INSIDE ? NULL : basin, outlined, arena);
@@ -287,40 +288,40 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, cons
     if (air != NULL) {
         shares[count++] = (Share){immersed(body, pose, NULL, resists(air), arena), air, media->wind, 1.0};
     }
-    Pull pull = {.found = true};
+    FluidForce fluid = {.found = true};
     for (int number = 0; number < count; number++) {
-        pull.steady = twist_sum(pull.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
+        fluid.steady = twist_sum(fluid.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
     }
     Twist guess = flight->guess;
     if (flight->free && count > 0) {
-        Twist after = twist_after(pull, shares, count, flight, body->engine);
+        Twist after = twist_after(fluid, shares, count, flight, body->engine);
         guess = twist_sum(guess, twist_sum(after, guess, -1.0), 0.5);
     }
-    add_drag(&pull, shares, count, guess);
-    if (pull.has_drag) {
-        fit_drag(&pull, body->engine, lapse);
+    add_drag(&fluid, shares, count, guess);
+    if (fluid.has_drag) {
+        fit_drag(&fluid, body->engine, lapse);
     }
     arena_release(arena, mark);
-    return pull;
+    return fluid;
 }
 
 bool reaches(const Media *media, const Body *body) {
-    int count = find_around(media, body->engine->p, body->reach);
+    int count = find_reached(media, body->engine->p, body->reach);
     for (int number = 0; number < count; number++) {
-        if (media->basins[media->around[number].basin].moves) {
+        if (media->basins[media->reached[number].basin].moves) {
             return true;
         }
     }
     return false;
 }
 
-Twist force_of_pull(const Pull *pull, const cpBody *engine, Twist twist, Twist others) {
-    if (!pull->has_drag) {
-        return pull->steady;
+Twist mean_fluid_force(const FluidForce *fluid, const cpBody *engine, Twist twist, Twist others) {
+    if (!fluid->has_drag) {
+        return fluid->steady;
     }
     // M a = others + steady - D (q + a t), solved for the acceleration a.
-    Twist all = twist_sum(twist_sum(pull->steady, others, 1.0), resisted(pull->resistance, twist), -1.0);
-    Twist acceleration = resisted(pull->inverse, all);
+    Twist all = twist_sum(twist_sum(fluid->steady, others, 1.0), symmetric_product(fluid->resistance, twist), -1.0);
+    Twist acceleration = symmetric_product(fluid->inverse, all);
     Twist force = {scaled(acceleration.v, engine->m), acceleration.w * engine->i};
     return twist_sum(force, others, -1.0);
 }

@@ -21,24 +21,24 @@ typedef struct Media {
     Twist *currents; // of the medium in each: flow and gusts, as the region moves
     int basin_count;
     Tree tree;         // of the boxes of the basins
-    Reached *around;   // (basin_count): scratch, those around one body
+    Reached *reached;  // (basin_count): scratch, those around one body
     const Region *air; // NULL is none
     Twist wind;
 } Media;
 
 // A symmetric matrix of velocity x, velocity y and spin.
-typedef struct Resistance {
+typedef struct Symmetric {
     double xx, xy, yy, xw, yw, ww; // [N s/m, N s, N m s]
-} Resistance;
+} Symmetric;
 
 // The force of the media on a body: steady - D q, of its twist q.
-typedef struct Pull {
-    Twist steady;          // buoyancy, and the drag of what flows [N, N m]
-    Resistance resistance; // D
+typedef struct FluidForce {
+    Twist steady;         // buoyancy, and the drag of what flows [N, N m]
+    Symmetric resistance; // D
     bool has_drag;
-    Resistance inverse; // of M + D t, with the time t after which the velocity counts
-    bool found;         // in this step
-} Pull;
+    Symmetric inverse; // of M + D t, with the time t after which the velocity counts
+    bool found;        // in this step
+} FluidForce;
 
 // The media a time after now [s].
 Media media_of(World *world, double ahead);
@@ -53,12 +53,12 @@ typedef struct Flight {
 } Flight;
 
 // The force of the media on a body at a pose, in times of a length [s].
-Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse);
+FluidForce fluid_force(World *world, const Media *media, Body *body, Pose pose, const Flight *flight, double lapse);
 
 // Whether a region that moves has come to a body.
 bool reaches(const Media *media, const Body *body);
 
 // The mean of that force in such a time, which begins with a twist, under other forces [N, N m].
-Twist force_of_pull(const Pull *pull, const cpBody *engine, Twist twist, Twist others);
+Twist mean_fluid_force(const FluidForce *fluid, const cpBody *engine, Twist twist, Twist others);
 
 #endif

@@ -16,6 +16,7 @@
 // Cost: 1 ns a contact where there are one-way bodies, 20 ns one of such a body.
 
 #include "one_way.h"
+#include "contact.h"
 #include "stages.h"
 
 // The cosine of the angle from the direction that others pass in, up to which a contact is on top of a body: 78°.
@@ -69,11 +70,9 @@ static bool comes_from_outside(const World *world, const cpArbiter *arbiter) {
     double nearest = INFINITY, fastest = 0.0;
     for (int number = 0; number < arbiter->count; number++) {
         const cpContact *point = arbiter->contacts + number;
-        const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
-        Vec apart = sub(add(b->p, point->r2), add(a->p, point->r1));
-        Vec velocity = sub(velocity_at(twist_of(b), point->r2), velocity_at(twist_of(a), point->r1));
-        double approach = greatest(-dot(velocity, arbiter->n), 0.0);
-        nearest = least(nearest, dot(apart, arbiter->n) + approach * world->dt);
+        Vec parting = parting_velocity(point, twist_of(arbiter->body_a), twist_of(arbiter->body_b));
+        double approach = greatest(-dot(parting, arbiter->n), 0.0);
+        nearest = least(nearest, gap_at(arbiter, point) + approach * world->dt);
         fastest = greatest(fastest, approach);
     }
     return fastest > 0.0 && nearest >= -slop_of(arbiter);

@@ -137,7 +137,7 @@ static HalfPlane avoiding(const Disc *self, const Disc *other, double horizon) {
 
 // The velocity damper of a disc. Two pedestrians share the room between them, so that they do not touch even where
 // neither can give way; standing is always allowed.
-static HalfPlane braking(const Disc *self, const Disc *other) {
+static HalfPlane damper_of(const Disc *self, const Disc *other) {
     Vec apart = sub(other->point, self->point);
     double distance = length(apart), room = distance - self->radius - other->radius;
     Vec towards = distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(1.0, 0.0);
@@ -168,7 +168,7 @@ Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *ac
     for (int number = 0; number < around->disc_count; number++) {
         const Disc *other = around->discs + number;
         if (sees_disc(self, other)) {
-            HalfPlane plane = braking(self, other);
+            HalfPlane plane = damper_of(self, other);
             if (plane.c > -programme.speed) {
                 planes[programme.count++] = plane;
             }

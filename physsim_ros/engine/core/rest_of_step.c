@@ -31,7 +31,7 @@ static Vec acceleration(const World *world, const Body *body) {
 static double true_parting(const World *world, const cpArbiter *arbiter, const cpContact *point, double *rate) {
     const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
     *rate = dot(sub(acceleration(world, body_of(b)), acceleration(world, body_of(a))), arbiter->n);
-    return dot(sub(velocity_at(true_twist(b), point->r2), velocity_at(true_twist(a), point->r1)), arbiter->n);
+    return dot(parting_velocity(point, true_twist(a), true_twist(b)), arbiter->n);
 }
 
 // Have an impact take place when it did; return whether the bodies bounce. The velocity of a body in free flight leads

@@ -80,7 +80,7 @@ void begin_system(System *system, const Inverse *inverses);
 Solution solution_for(const System *system, Arena *arena);
 
 // J v of a link.
-static inline double rate(Jacobian jacobian, Ends ends, const Twist *velocities) {
+static inline double link_rate(Jacobian jacobian, Ends ends, const Twist *velocities) {
     Twist a = velocities[ends.a], b = velocities[ends.b];
     return dot(jacobian.a.v, a.v) + jacobian.a.w * a.w + dot(jacobian.b.v, b.v) + jacobian.b.w * b.w;
 }
@@ -96,9 +96,9 @@ static inline void add_momenta(Jacobian jacobian, Ends ends, double impulse, Twi
 
 // J v of a row.
 static inline double row_rate(const System *system, const Jacobian *jacobians, int row, const Twist *velocities) {
-    double sum = rate(jacobians[row], system->ends[row], velocities);
+    double sum = link_rate(jacobians[row], system->ends[row], velocities);
     for (int link = system->further[row]; link < system->further[row + 1]; link++) {
-        sum += rate(jacobians[link], system->ends[link], velocities);
+        sum += link_rate(jacobians[link], system->ends[link], velocities);
     }
     return sum;
 }

@@ -14,7 +14,50 @@ static double spring_force(cpConstraint *constraint, double distance) {
     return clamped(force, -constraint->maxForce, constraint->maxForce);
 }
 
+// Mark bodies that springs pull, and those in islands of joints that hang by a spring from something fixed, or that
+// motors hold there: such a body is not in free flight (`half_step.c`).
+static void mark_sprung(World *world) {
+    reset_memory(world);
+    int *parents = sets_of(world);
+    bool *hangs = TAKE(&world->own->arena, bool, world->body_count);
+    bool *swings = TAKE(&world->own->arena, bool, world->body_count);
+    bool *turns = TAKE(&world->own->arena, bool, world->body_count);
+    for (int place = 0; place < world->body_count; place++) {
+        world->bodies[place].on_spring = false;
+    }
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        if (world->bodies[joint->a].dynamic && world->bodies[joint->b].dynamic) {
+            unite(parents, joint->a, joint->b);
+        }
+    }
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        bool elastic = is_spring_joint(world, joint);
+        int ends[2] = {joint->a, joint->b};
+        for (int end = 0; end < 2; end++) {
+            Body *body = world->bodies + ends[end];
+            if (body->dynamic) {
+                int root = root_of(parents, ends[end]);
+                hangs[root] = hangs[root] || !world->bodies[ends[1 - end]].dynamic;
+                swings[root] = swings[root] || elastic;
+                body->on_spring = body->on_spring || elastic;
+            }
+        }
+    }
+    for (int number = 0; number < world->motor_count; number++) {
+        const Joint *joint = world->joints + world->motors[number].joint;
+        turns[root_of(parents, joint->a)] = turns[root_of(parents, joint->b)] = true;
+    }
+    for (int place = 0; place < world->body_count; place++) {
+        int root = root_of(parents, place);
+        world->bodies[place].sprung = hangs[root] && swings[root];
+        world->bodies[place].motored = hangs[root] && turns[root];
+    }
+}
+
 void prepare_springs(World *world) {
+    mark_sprung(world);
     for (int number = 0; number < world->part_count; number++) {
         if (world->parts[number].kind == PART_SPRING) {
             ((cpDampedSpring *)world->parts[number].constraint)->springForceFunc = spring_force;
@@ -35,9 +78,9 @@ static Spring spring_of(const World *world, const Joint *joint) {
     const cpBody *a = world->bodies[joint->a].engine, *b = world->bodies[joint->b].engine;
     const Row *row = joint->row_count > 0 ? world->rows + joint->first_row : NULL;
     Anchors anchors = anchors_at(joint, pose_of(a), pose_of(b));
-    double distance = length(anchors.apart);
-    Vec direction = distance > 0.0 ? scaled(anchors.apart, 1.0 / distance) : vec(0.0, 0.0);
-    Jacobian jacobian = along(direction, anchors.arm_a, anchors.arm_b);
+    double distance = length(anchors.offset);
+    Vec direction = distance > 0.0 ? scaled(anchors.offset, 1.0 / distance) : vec(0.0, 0.0);
+    Jacobian jacobian = line_jacobian(direction, anchors.arm_a, anchors.arm_b);
     return (Spring){joint,
                     jacobian,
                     {{scaled(jacobian.a.v, a->m_inv), jacobian.a.w * a->i_inv},
@@ -59,7 +102,7 @@ static Spring *list_springs(const World *world, const bool *pulled, int *count) 
     return springs;
 }
 
-static void push(const Spring *spring, double impulse, const bool *pulled, Twist *changes) {
+static void push_ends(const Spring *spring, double impulse, const bool *pulled, Twist *changes) {
     int ends[2] = {spring->joint->a, spring->joint->b};
     for (int end = 0; end < 2; end++) {
         if (pulled[ends[end]]) {
@@ -74,7 +117,7 @@ void pull_springs(World *world, const bool *pulled, Twist *changes, double lapse
     for (int number = 0; number < count; number++) {
         const Spring *spring = springs + number;
         double force = clamped(-spring->stiffness * spring->strain, -spring->most, spring->most);
-        push(spring, force * lapse, pulled, changes);
+        push_ends(spring, force * lapse, pulled, changes);
     }
     // Dampers act on the velocities after that, each as if it were alone.
     double *impulses = TAKE(&world->own->arena, double, count);
@@ -85,11 +128,11 @@ void pull_springs(World *world, const bool *pulled, Twist *changes, double lapse
         for (int end = 0; end < 2; end++) {
             twists[end] = twist_sum(true_twist(world->bodies[ends[end]].engine), changes[ends[end]], 1.0);
         }
-        double speed = rate(spring->jacobian, (Ends){0, 1}, twists);
-        double unit = rate(spring->jacobian, (Ends){0, 1}, spring->units);
+        double speed = link_rate(spring->jacobian, (Ends){0, 1}, twists);
+        double unit = link_rate(spring->jacobian, (Ends){0, 1}, spring->units);
         impulses[number] = -lapse * spring->damping * speed / (1.0 + lapse * spring->damping * unit);
     }
     for (int number = 0; number < count; number++) {
-        push(springs + number, impulses[number], pulled, changes);
+        push_ends(springs + number, impulses[number], pulled, changes);
     }
 }

@@ -11,7 +11,7 @@ static inline bool is_spring_joint(const World *world, const Joint *joint) {
     return joint->part_count > 0 && world->parts[joint->first_part].kind == PART_SPRING;
 }
 
-// Have springs with a greatest force obey it.
+// Mark the bodies that springs and motors hold; have springs with a greatest force obey it.
 void prepare_springs(World *world);
 
 // Add what springs change the velocities of some bodies by in a time [s]; `pulled` and `changes` (body_count).

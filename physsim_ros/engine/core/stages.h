@@ -43,7 +43,8 @@ void use_batteries(World *world);
 void apply_floor(World *world);
 void find_floor_pushes(World *world);
 
-// Contacts of one-way bodies that carry a load (`one_way.c`).
+// Contacts of one-way bodies that carry a load (`one_way.c`): as the sub-step begins, and anew after the solver, for
+// the sweeps of the rest of the step.
 void find_loaded(World *world);
 
 // Fast bodies end their step where they first hit something (`continuous.c`), and move on after that
@@ -62,19 +63,22 @@ void begin_rolling(World *world);
 double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
-// Between narrow phase and solver: contacts that begin (`first_touch.c`), surfaces that move along their outlines
-// (`belts.c`), contacts that roll (`rolling.c`), the first of two points (`contact_order.c`), rounds of the
-// solver (`steep_friction.c`), the greatest load (`impact_loads.c`), contacts next to an impact
-// (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
+// Between narrow phase and solver, in this order, for each has what the ones before have made of contacts: those that
+// begin (`first_touch.c`), their slop (`overlap_bias.c`), surfaces that move along their outlines (`belts.c`), the
+// first of two points (`contact_order.c`), rounds of the solver (`steep_friction.c`), the greatest load
+// (`impact_loads.c`), when impacts were (`rest_of_step.c`), contacts next to an impact (`impact_propagation.c`), points
+// that are hit at once
+// (`block_solver.c`), contacts that roll (`rolling.c`).
 void correct_first_touches(World *world);
+void set_overlap_biases(World *world);
 void move_belts(World *world);
-void find_rolls(World *world);
 void order_points(World *world);
 void damp_steep_friction(World *world);
 void bound_loads(World *world);
+void time_impacts(World *world);
 void defer_contacts(World *world);
 void solve_impacts(World *world);
-void time_impacts(World *world);
+void find_rolls(World *world);
 // The rest of the step after impacts (`rest_of_step.c`): how long it is for two bodies that met in this step [s]; by
 // how much further a body is for a velocity after its impact than for that before it, and what it has still to go then.
 double remaining_time(const Body *a, const Body *b);

@@ -64,6 +64,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
     correct_first_touches(world);
+    set_overlap_biases(world);
     move_belts(world);
     order_points(world);
     damp_steep_friction(world);
@@ -190,7 +191,7 @@ int32_t core_step(World *world, int32_t count) {
     CallTime time = {.began = now, .ended = now};
     int32_t made = 0;
     own->kept = pow(world->space->damping, world->dt);
-    own->push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
+    own->bias_rate = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     world->has_broken = world->has_lost = false;
     do {
         own->call_step = made;

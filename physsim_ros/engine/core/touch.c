@@ -4,6 +4,7 @@
 // A contact that begins in this step, read from Chipmunk and written to it.
 
 #include "touch.h"
+#include "contact.h"
 
 Touch touch_of(cpArbiter *arbiter) {
     assert(arbiter->count > 0);
@@ -50,7 +51,6 @@ void prepare_contact(cpArbiter *arbiter) {
         double at = cross(point->r1, tangent), bt = cross(point->r2, tangent);
         point->nMass = 1.0 / (mass + a->i_inv * an * an + b->i_inv * bn * bn);
         point->tMass = 1.0 / (mass + a->i_inv * at * at + b->i_inv * bt * bt);
-        Vec parting = sub(velocity_at(true_twist(b), point->r2), velocity_at(true_twist(a), point->r1));
-        point->bounce = dot(parting, normal) * arbiter->e;
+        point->bounce = dot(parting_velocity(point, true_twist(a), true_twist(b)), normal) * arbiter->e;
     }
 }

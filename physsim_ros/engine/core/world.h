@@ -35,7 +35,7 @@ typedef struct Private {
     int *jointed;
     int jointed_count;
     double kept;        // share of its velocity that a body keeps in a sub-step
-    double push;        // rate at which an overlap is pushed out [1/s]
+    double bias_rate;   // at which an overlap is pushed out [1/s]
     double least_depth; // least safe depth of a body that is no sensor [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
@@ -50,12 +50,12 @@ typedef struct Private {
     bool all_active; // requests may have changed any body since the last sub-step
     // Whether there is a body on which a floor acts; one-way, with a belt, with rolling resistance; a sensor.
     bool has_floor, has_one_way, has_belt, has_rolling, has_sensor;
-    int sub_step;                // number of the sub-step in this step
-    int next_actor;              // number of the actor whose velocity is chosen next
-    bool choosing;               // velocities of actors are being chosen, before the first sub-step
-    struct Surroundings *around; // of all pedestrians, in this step; NULL before the first one looks
+    int sub_step;                      // number of the sub-step in this step
+    int next_actor;                    // number of the actor whose velocity is chosen next
+    bool choosing;                     // velocities of actors are being chosen, before the first sub-step
+    struct Surroundings *surroundings; // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
-    struct Pull *pulls; // of media on bodies, in this sub-step
+    struct FluidForce *fluid_forces; // of media on bodies, in this step
 } Private;
 
 // Give back the memory of a sub-step, with what it holds.
