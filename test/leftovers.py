@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 import threading
 
@@ -34,7 +35,13 @@ class Open:
     @staticmethod
     def _participants() -> set[str]:
         """Return the threads that receive for participants, which end with these."""
-        return {each.name for each in TASKS.iterdir() if 'dds.udp' in (each / 'comm').read_text()}
+        participants = set()
+        for task in TASKS.iterdir():
+            # It may have ended since it was listed.
+            with suppress(OSError):
+                if 'dds.udp' in (task / 'comm').read_text():
+                    participants.add(task.name)
+        return participants
 
     @staticmethod
     def _connections() -> set[tuple[object, object]]:
