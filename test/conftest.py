@@ -19,6 +19,7 @@ from typing import Any, TYPE_CHECKING
 
 import pytest
 
+from .leftovers import Open
 from .source_tree import compile_core, is_compiled, ROOT
 
 if TYPE_CHECKING:
@@ -98,8 +99,6 @@ def nothing_left(request: pytest.FixtureRequest) -> Iterator[None]:
     if not WORLDS.intersection(request.fixturenames):
         yield
         return
-    from .leftovers import Open  # noqa: PLC0415 - the core's tests run without psutil
-
     before = Open()
     yield
     before.check_same()
