@@ -120,7 +120,8 @@ sanitize: $(TOOLS)  ## run laws and random histories with memory checks in the c
 coverage: $(TOOLS)  ## count the lines of Python and C that the tests run
 	$(BIN)/python -m tools.coverage $(ARGS)
 
-# With SEED=0 and COUNT=12 unless they are given; ARGS='engine/core/floor' tries files whose path begins so.
+# With SEED=0 and COUNT=40 unless they are given; ONLY=10:20 tries a part of them, ARGS='engine/core/floor' files whose
+# path begins so.
 mutate: $(TOOLS)  ## change forty constants and operators at random; tell which of them no test notices
 	$(BIN)/python -m tools.mutate $(ARGS)
 

@@ -53,6 +53,7 @@ PROMISES = {
         ('{:g} mm .. 100 km;', validation.SMALLEST * 1e3),
         ('centres of a compound | {:,} ', validation.MOST_POINTS),
         ('±1e{:g} m, ±1e7 rad', len(f'{checks.FARTHEST:.0f}') - 1),
+        ('torque of a command | 1e{:g} N, N m', len(f'{checks.HEAVIEST:.0f}') - 1),
         ('`lifetime` | 1e{:g} s', len(f'{checks.LONGEST:.0f}') - 1),
         ('`label` | {:,} characters', body_properties.LONGEST_LABEL),
         ('a name | {:,} printable characters', names.LONGEST_NAME),

@@ -606,19 +606,6 @@ def test_strokes_that_began_by_two_clocks_are_no_thing_of_several_strokes(other:
     assert desk.draw([(-0.5, 0.5), (0.5, -0.5)]).meaning == 'hatching'
 
 
-def test_an_axle_drawn_before_its_wheel_waits_for_it() -> None:
-    desk = Desk()
-    desk.spawn(spawning('chassis/0', Box(width=3.0, height=1.0)))
-    desk.draw(circle(1.0, -0.2, 0.1), after=5.0)
-    (axle,) = desk.scene.joints
-    assert axle.b == 'world'
-
-    desk.draw(circle(1.0, -0.2, 0.6), after=5.0)
-
-    (axle,) = desk.scene.joints
-    assert (axle.kind, axle.a, axle.b) == (JointKind.AXLE, 'chassis/0', 'drawn/0')
-
-
 def test_a_machine_is_copied_with_the_joints_among_its_bodies() -> None:
     sim = Simulation()
     for name, x in (('a/0', 0.0), ('b/0', 2.0), ('c/0', 4.0)):

@@ -11,7 +11,7 @@ from typing import Any
 from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.model.requests import Command, Configure, Spawn
+from physsim_ros.model.requests import Command, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame
@@ -129,29 +129,6 @@ def test_what_is_clicked_is_what_is_seen(studio: Studio) -> None:
     studio.tick()
     studio.tick()
     assert studio.x() == held
-
-
-def test_an_arrow_sets_a_velocity(studio: Studio) -> None:
-    studio.draw(Tool.VELOCITY, at(0.0, 5.0), at(3.0, 9.0))
-    studio.simulation.speed = 1.0
-    studio.tick()
-    assert studio.frame.snapshot.twists[1] == pytest.approx((3.0, 4.0, 0.0))
-
-
-def test_an_arrow_turns_gravity(studio: Studio) -> None:
-    studio.simulation.perform(Configure(changes={'gravity': (0.0, -2.0)}))
-    studio.tick()
-    (answer,) = studio.draw(Tool.GRAVITY, at(0.0, 0.0), at(5.0, 0.0))
-    assert answer.code == ''
-    assert studio.simulation.world.settings.gravity == pytest.approx((2.0, 0.0))
-
-
-@pytest.mark.parametrize('tool', [Tool.SPRING, Tool.ROD, Tool.ROPE])
-def test_a_joint_is_drawn_from_where_the_body_is_seen(studio: Studio, tool: Tool) -> None:
-    (answer,) = studio.draw(tool, on_the_moving_one, at(0.0, 5.0))
-    assert answer.code == ''
-    (joint,) = studio.simulation.world.scene.joints
-    assert (joint.kind, joint.a, joint.b) == (str(tool), 'a/0', 'a/1')
 
 
 def test_what_is_drawn_in_the_past_is_there_from_then_on_and_not_before() -> None:

@@ -4,12 +4,9 @@
 """A world refuses what it has no place for, before the engine has it, and changes nothing."""
 
 from dataclasses import replace
-import tracemalloc
 from typing import Any
-from weakref import ref
 
-import numpy as np
-from physsim_ros.engine.overlaps import count_inside, count_overlaps, laid_out
+from physsim_ros.engine.overlaps import count_inside
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import (
@@ -26,8 +23,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Compound, Disc, Shape, SMALLEST
-from physsim_ros.model.shapes.form import MOST_KEPT
+from physsim_ros.model.shapes import Box, Compound, Shape
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import capacity, World
 import pytest
@@ -220,36 +216,6 @@ def test_what_only_touches_is_no_overlap():
     world.apply(Restore(state=world.save()))
 
 
-def test_planks_side_by_side_at_any_angle_are_no_overlap():
-    plank = Box(width=5.0, height=1.0)
-    for yaw in np.linspace(0.0, np.pi, 9):
-        side = np.array((-np.sin(yaw), np.cos(yaw)))
-        poses = np.column_stack((np.arange(300)[:, None] * side, np.full(300, yaw)))
-        every, none = np.ones(300, np.bool_), np.zeros(300, np.bool_)
-        assert count_overlaps(laid_out([plank] * 300, poses), every, none, most=10**6) == 0
-
-
-@pytest.mark.parametrize('radius', [SMALLEST, 0.5])
-def test_discs_overlap_in_one_place_and_not_side_by_side(radius):
-    discs, every, none = [Disc(radius=radius)] * 5, np.ones(5, np.bool_), np.zeros(5, np.bool_)
-    poses = np.zeros((5, 3))
-    assert count_overlaps(laid_out(discs, poses), every, none, most=10**6) == 10
-    assert count_overlaps(laid_out(discs, poses), every, every, most=10**6) == 0
-    poses[:, 0] = np.arange(5) * 2.0 * radius
-    assert count_overlaps(laid_out(discs, poses), every, none, most=10**6) == 0
-
-
-def test_a_count_that_ends_at_its_limit_takes_little_memory():
-    count = 5000
-    every, none = np.ones(count, np.bool_), np.zeros(count, np.bool_)
-    layout = laid_out([DISC] * count, np.zeros((count, 3)))
-    tracemalloc.start()
-    assert count_overlaps(layout, every, none, most=1000) > 1000
-    _, most = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert most < 60e6
-
-
 def test_a_lower_limit_holds_for_what_comes_then():
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     assert flooded(world, one_pose(6)) == 0
@@ -281,11 +247,6 @@ def test_an_anchored_body_is_anchored_wherever_it_is():
     assert flooded(world, one_pose(5)) == 0
 
     world.apply(Anchor(point=(0.0, 0.0)))
-
-
-def test_inner_boxes_of_one_piece_and_of_many_are_alike():
-    world = row(1)
-    assert flooded(world, [Spawn(name='b/0', shape=Disc(radius=0.5))]) == 0
 
 
 def axles(count: int) -> list[Request]:
@@ -325,14 +286,3 @@ def test_topics_of_robots_are_counted(monkeypatch):
     assert flooded(World(settings=FEW), [Restore(state=full)]) == 0
     monkeypatch.setattr(capacity, 'MOST_ROBOT_TOPICS', 2 * topics)
     assert flooded(World(settings=FEW), [Restore(state=full)]) == 1
-
-
-def test_what_was_counted_for_a_shape_goes_with_it():
-    discs = Compound(element=DISC, centers=((0.0, 0.0), (7.0, 0.0)))
-    form = ref(discs.form)
-    assert count_inside(discs) == 0
-
-    del discs
-    for radius in range(1, MOST_KEPT + 1):
-        Disc(radius=0.0917 * radius)
-    assert form() is None

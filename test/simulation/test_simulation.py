@@ -26,13 +26,17 @@ from physsim_ros.model.errors import (
 )
 from physsim_ros.model.requests import (
     Anchor,
+    ChangeBody,
     Command,
     CommandMotors,
     Configure,
+    Cut,
     Delete,
     DeleteAll,
+    DeleteBodies,
     DriveRobot,
     Grab,
+    MoveBodies,
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Polygon
@@ -160,6 +164,26 @@ def test_a_refusal_names_the_body_that_it_is_about(request_, subject):
 
     assert (answer.topic, answer.subject) == ('~/topic', subject)
     assert answer.code
+
+
+@pytest.mark.parametrize('names', [('a/0',), ('a/0', 'a/1')])
+@pytest.mark.parametrize(
+    'request_of',
+    [
+        lambda names: Command(names=names, twists=((1.0, 0.0, 0.0),) * len(names)),
+        lambda names: MoveBodies(names=names, by=(1.0, 0.0)),
+        lambda names: DeleteBodies(names=names),
+        lambda names: Cut(pieces=tuple(ChangeBody(name=name) for name in names)),
+    ],
+)
+def test_an_answer_names_the_body_that_it_is_about_if_that_is_one(request_of, names):
+    world = World()
+    for number in range(3):
+        spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 0.0))
+
+    answer = world.apply(request_of(names)).answer
+
+    assert answer.subject == (names[0] if len(names) == 1 else '')
 
 
 def test_frames_come_at_multiples_of_the_publish_period():
@@ -546,7 +570,7 @@ def test_a_lost_body_is_told_of():
     assert [(answer.topic, answer.subject, answer.code) for answer in told] == [
         ('~/spawn', 'a/0', ''),
         ('~/command', 'a/0', ''),
-        ('divergence', 'a/0', 'divergence'),
+        ('body_lost', 'a/0', 'body_lost'),
     ]
     assert len(sim.world) == 0
 

@@ -8,12 +8,9 @@ import importlib
 import re
 
 from physsim_ros.files import world_schema
-from physsim_ros.model import checks
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JOINT_KEYS, JointProperties
-from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.robots.sensors import SENSORS
-from physsim_ros.model.shapes import MOST_POINTS
 import pytest
 from tools.tables import cheat_sheet, search_words
 
@@ -168,25 +165,6 @@ def test_the_table_of_topics_of_robots_has_the_message_of_every_sensor():
     for reading in messages.READINGS.values():
         package, name = reading.kind.__module__.partition('.')[0], reading.kind.__name__
         assert re.search(rf'^\| .* \| `{package}/{name}` \|', text, re.MULTILINE), name
-
-
-def test_the_limits_of_values_are_those_of_the_code():
-    def exponent(value):
-        return re.sub(r'e(-?)\+?0*', r'e\1', f'{value:.0e}')
-
-    rows = dict(
-        re.findall(
-            r'^\| (.*?) \| (.*) \|$', _section('properties', '## Limits of values'), re.MULTILINE
-        )
-    )
-    for what, numbers in {
-        'points of a shape, centres of a compound': [f'{MOST_POINTS:,}'],
-        'position, yaw': [f'{exponent(checks.FARTHEST)} m', f'{exponent(checks.FARTHEST)} rad'],
-        'force, torque of a command': [exponent(checks.HEAVIEST)],
-        '`lifetime`': [f'{exponent(checks.LONGEST)} s'],
-        'a name': [f'{LONGEST_NAME:,} printable'],
-    }.items():
-        assert [number for number in numbers if number not in rows[what]] == []
 
 
 def test_the_address_of_the_project_is_written_in_its_manifest_alone():

@@ -9,7 +9,6 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes.bodies_under import nearest_points
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NothingThere, NotRecognised
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Spawn
@@ -278,30 +277,11 @@ def test_a_circle_beside_or_between_bodies_that_it_hardly_overlaps_is_a_disc(wor
     assert draw(world, circle(1.2, 0.0, 0.21)).meaning == 'disc'
 
 
-def test_a_small_square_over_a_gap_welds_the_bodies_beside_it(world: World) -> None:
-    spawn(world, 'a/0', Box(width=2.0, height=0.5))
-    spawn(world, 'b/0', Box(width=2.0, height=0.5), (2.1, 0.0, 0.0))
-
-    assert draw(world, square(1.05, 0.0, 0.15)).meaning == 'pin'
-
-
 @pytest.mark.parametrize('radius', [0.5, 0.6, 0.9])
 def test_a_wheel_drawn_over_a_car_is_a_disc(world: World, radius: float) -> None:
     spawn(world, 'car/0', Box(width=4.0, height=1.0))
 
     assert draw(world, circle(1.2, -0.4, radius)).meaning == 'disc'
-
-
-def test_a_small_square_over_two_bodies_welds_them(world: World) -> None:
-    spawn(world, 'a/0', Box(width=2.0, height=1.0), (0.0, 0.0, 0.0))
-    spawn(world, 'b/0', Box(width=2.0, height=1.0), (1.6, 0.0, 0.0))
-
-    reading = draw(world, square(0.8, 0.0, 0.15))
-    carry_out(world, reading)
-
-    assert reading.meaning == 'pin'
-    (joint,) = world.snapshot().scene.joints
-    assert (joint.kind, {joint.a, joint.b}) == (JointKind.PIN, {'a/0', 'b/0'})
 
 
 def test_a_small_square_over_one_body_is_a_body(world: World) -> None:
@@ -342,11 +322,6 @@ def test_a_second_round_arrow_changes_the_motor(wheeled: World) -> None:
 
     _, motor = wheeled.snapshot().scene.joints
     assert motor.properties.rate == pytest.approx(-3.0, abs=0.3)
-
-
-def test_a_round_arrow_about_nothing_is_refused(world: World) -> None:
-    with pytest.raises((NothingThere, NotRecognised)):
-        draw(world, round_arrow(1.0, 0.4, 0.6, 4.5))
 
 
 def test_a_rod_to_the_exact_centre_of_a_disc_ends_a_radius_from_its_rim() -> None:

@@ -3,8 +3,6 @@
 
 """The meanings of strokes: bodies, walls, what several strokes make, and doubt."""
 
-from collections.abc import Sequence
-import itertools
 import math
 
 import numpy as np
@@ -12,19 +10,17 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.forms import forms_of
-from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
-from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal
-from physsim_ros.model.requests import Configure, Spawn
+from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 from physsim_ros.simulation.world import World
 import pytest
 
-from .ways import ANGLE, built, carry_out, circle, draw, rectangle, SETTINGS
+from .ways import ANGLE, built, carry_out, circle, draw, rectangle
 from ..single_stroke import interpret_stroke
-from ...building import body_at, spawn
+from ...building import spawn
 
 # Bodies
 
@@ -87,16 +83,6 @@ def test_a_triangle_is_a_polygon_about_its_centre_of_mass(world: World) -> None:
     assert request.pose[:2] == pytest.approx((1.0, 0.68), abs=0.03)
 
 
-def test_any_closed_outline_is_a_solid(world: World) -> None:
-    kidney = np.column_stack((np.cos(ANGLE) + 0.4 * np.cos(2 * ANGLE), np.sin(ANGLE)))
-
-    reading = draw(world, kidney)
-
-    assert reading.meaning == 'polygon'
-    carry_out(world, reading)
-    assert body_at(world, (0.5, 0.5)) == 'drawn/0'
-
-
 def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(world: World) -> None:
     reading = draw(
         world, circle(0, 0, 1), draw_velocity=(1.0, 2.0), draw_color=(1.0, 0.0, 0.0, 1.0)
@@ -105,13 +91,6 @@ def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(world: World)
     request = built(reading)
     assert request.properties.velocity == (1.0, 2.0)
     assert request.color == (1.0, 0.0, 0.0, 1.0)
-
-
-def test_names_go_on_from_the_highest(world: World) -> None:
-    spawn(world, 'drawn/6', pose=(50.0, 0.0, 0.0))
-    spawn(world, 'drawn/2', pose=(60.0, 0.0, 0.0))
-
-    assert draw(world, circle(0, 0, 1)).subject == 'drawn/7'
 
 
 # Walls
@@ -191,72 +170,6 @@ def test_what_is_drawn_is_the_likeliest_and_never_unlikely(world: World) -> None
         best, *others = reading.guesses
         assert best.group_confidence >= max(0.3, *(each.group_confidence for each in others), 0.0)
         assert len(reading.guesses) <= 3
-
-
-# Several strokes
-
-
-def read_together(world: World, strokes: Sequence[Floats]) -> Reading:
-    """Read several strokes as one."""
-    arrow = joined_arrow(strokes)
-    path = joined_strokes(strokes) if arrow is None else arrow
-    return interpret_stroke(path, SceneQuery(world.snapshot()), SETTINGS)
-
-
-@pytest.mark.parametrize('order', [(0, 1, 2, 3), (2, 0, 3, 1), (3, 1, 0, 2)])
-def test_four_lines_in_any_order_and_direction_are_a_rectangle(
-    world: World, order: tuple[int, ...]
-) -> None:
-    corners = np.array([(0, 0), (2.0, 0.05), (1.95, 1), (0.03, 1.02), (0, 0)])
-    sides = [np.linspace(*corners[[side, side + 1]], 20) for side in range(4)]
-    strokes = [sides[side][:: 1 if side % 2 else -1] for side in order]
-
-    assert read_together(world, strokes).meaning == 'rectangle'
-
-
-def test_two_lines_across_each_other_on_a_body_are_an_x(world: World) -> None:
-    spawn(world, 'a/0', Box(width=2.0, height=2.0))
-    lines = [np.linspace((-0.3, -0.3), (0.3, 0.3), 20), np.linspace((-0.3, 0.3), (0.3, -0.3), 20)]
-
-    for strokes in (lines, lines[::-1], [lines[0], lines[1][::-1]]):
-        assert read_together(world, strokes).meaning == 'anchor'
-
-
-@pytest.mark.parametrize('barb', [0.7, 1.6, 2.9])
-@pytest.mark.parametrize('gap', [-0.2, 0.0, 0.4])
-def test_a_shaft_and_a_head_are_an_arrow_in_either_order_and_direction(
-    world: World, barb: float, gap: float
-) -> None:
-    """The shaft is 3 m long; it ends before the tip of the head, at it, or beyond it."""
-    shaft = np.linspace((0.0, 0.0), (0.0, -3.0), 40)
-    along, across = barb * math.cos(0.5), barb * math.sin(0.5)
-    left, right = (np.linspace((x, along), (0.0, 0.0), 20) for x in (-across, across))
-    head = np.vstack((left, right[::-1])) - (0.0, 3.0 + gap)
-
-    for strokes in ([shaft, head], [head, shaft], [shaft[::-1], head], [head[::-1], shaft[::-1]]):
-        reading = read_together(world, strokes)
-        assert reading.meaning == 'gravity'
-        (request,) = reading.requests
-        assert isinstance(request, Configure)
-        assert request.changes['gravity'] == pytest.approx((0.0, -9.81), abs=1e-9)
-
-
-def test_a_shaft_and_two_barbs_are_an_arrow(world: World) -> None:
-    shaft = np.linspace((0.0, 0.0), (0.0, -3.0), 40)
-    left, right = (np.linspace((0.0, -3.0), (x, -2.4), 15) for x in (-0.4, 0.4))
-
-    for strokes in ([shaft, left, right], [right, shaft, left]):
-        assert read_together(world, strokes).meaning == 'gravity'
-
-
-def test_seven_lines_are_a_polygon(world: World) -> None:
-    corners = [(math.cos(a), math.sin(a)) for a in 2.0 * math.pi * np.arange(8) / 7]
-    sides = [np.linspace(a, b, 15) for a, b in itertools.pairwise(corners)]
-
-    reading = read_together(world, sides[::2] + sides[1::2])
-
-    assert reading.meaning == 'polygon'
-    assert len(built(reading, Polygon).shape.outline) == 7
 
 
 # Doubt

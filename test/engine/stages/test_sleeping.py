@@ -70,16 +70,6 @@ def on_spring(mass: float, stiffness: float, stretch: float, damping: float) -> 
     return world
 
 
-def test_a_slow_swing_on_a_spring_does_not_sleep_where_it_turns_round():
-    # Never faster than 3.2 cm/s, with a period of 19.9 s.
-    world = on_spring(10.0, 1.0, 0.1, 0.0)
-
-    for second in range(1, 31):
-        world.step(240)
-        exact = 0.1 * (1.0 - math.cos(math.sqrt(0.1) * second))
-        assert pose(world, 'bob/0')[1] == pytest.approx(exact, abs=1e-3)
-
-
 def test_what_sinks_on_a_damper_at_a_tenth_of_a_millimetre_a_second_sinks_on():
     world = on_spring(1.0, 1.0, 0.1, 1000.0)
 
