@@ -12,6 +12,7 @@ each value is then read through those structs. Cost: 20 ms, when the engine is i
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+import math
 from types import SimpleNamespace
 from typing import Any
 
@@ -174,7 +175,7 @@ def _compare(struct: Any, it: object, fields: Mapping[str, str]) -> None:
             found = (found.x, found.y) if is_vector else int(ffi.cast('uintptr_t', found))
         if attribute == 'impulse':
             # Pymunk tells the size of that of a pivot, and turns that of a spring round.
-            found, expected = np.linalg.norm(found), abs(expected)
+            found, expected = math.hypot(*np.atleast_1d(found)), abs(expected)
         if not np.allclose(found, expected, rtol=1e-12, atol=0.0):
             raise ImportError(
                 f'Pymunk {pymunk.version} has other structs than the core of the engine expects: '
