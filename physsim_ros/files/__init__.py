@@ -12,7 +12,7 @@ from physsim_ros.files.directory_lock import DirectoryLock
 from physsim_ros.files.drawing_file import BadDrawing, drawings, load_drawing
 from physsim_ros.files.foreign import advice_on_xml, CONVERTED, kind_of
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
-from physsim_ros.files.reading import finish_before_end, finish_files, on_thread
+from physsim_ros.files.reading import finish_before_end, finish_files, fulfil, on_thread
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import shipped, title_of, user_directory
 from physsim_ros.files.shipped_robots import shipped_robot, shipped_robots, with_shipped_robot
@@ -47,6 +47,7 @@ __all__ = [
     'find_world',
     'finish_before_end',
     'finish_files',
+    'fulfil',
     'hides_shipped',
     'kind_of',
     'load_drawing',
