@@ -1,11 +1,16 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""A stranger on the domain of a world: spawns bodies until its own second node has read them."""
+"""
+Two strangers on the domain of a world: one spawns bodies until the other has read enough of them.
+
+They are two processes: Fast DDS now and then lets participants of one process never meet.
+"""
 
 from __future__ import annotations
 
 import json
+import subprocess
 import sys
 import time
 
@@ -19,29 +24,41 @@ COUNT, PERIOD = 300, 0.01
 PATIENCE = 90.0
 
 
-def main() -> None:
-    contexts = [rclpy.Context(), rclpy.Context()]
-    executors = []
-    for context in contexts:
-        rclpy.init(context=context)
-        executors.append(SingleThreadedExecutor(context=context))
-    first, second = Node('first', context=contexts[0]), Node('second', context=contexts[1])
-    executors[0].add_node(first)
-    executors[1].add_node(second)
-    publisher = first.create_publisher(Marker, '/physsim/spawn', 10)
-    received: list[Marker] = []
-    second.create_subscription(Marker, '/physsim/spawn', received.append, 10)
+def spawn(node: Node) -> None:
+    publisher = node.create_publisher(Marker, '/physsim/spawn', 10)
     marker = Marker(ns='intruder', type=Marker.SPHERE)
     marker.scale.x = marker.scale.y = 1.0
+    while rclpy.ok():
+        publisher.publish(marker)
+        time.sleep(PERIOD)
+
+
+def read(node: Node) -> None:
+    received: list[Marker] = []
+    node.create_subscription(Marker, '/physsim/spawn', received.append, 10)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
     deadline = time.monotonic() + PATIENCE
     while len(received) < COUNT:
         if time.monotonic() > deadline:
-            sys.exit('it does not find itself')
-        publisher.publish(marker)
-        executors[1].spin_once(timeout_sec=PERIOD)
-    heard, nodes = publisher.get_subscription_count(), sorted(first.get_node_names())
+            sys.exit('they do not find each other')
+        executor.spin_once(timeout_sec=PERIOD)
+    heard, nodes = node.count_subscribers('/physsim/spawn'), sorted(node.get_node_names())
     print(json.dumps({'heard': heard, 'nodes': nodes}))  # noqa: T201 - that is the answer
 
 
+def main(role: str) -> None:
+    rclpy.init()
+    node = Node(role)
+    if role == 'first':
+        spawn(node)
+        return
+    with subprocess.Popen([sys.executable, __file__, 'first']) as first:
+        try:
+            read(node)
+        finally:
+            first.kill()
+
+
 if __name__ == '__main__':
-    main()
+    main(*sys.argv[1:])

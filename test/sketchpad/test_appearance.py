@@ -9,7 +9,7 @@ import math
 
 import pytest
 
-from .chromium import circle, OpenSheet, started_world
+from .chromium import circle, OpenSheet, started_world, WORLD
 from ..outside import Outside
 
 BACKGROUND = """name => getComputedStyle(
@@ -217,10 +217,10 @@ def test_on_a_small_page_a_panel_leaves_room_for_what_is_said_and_for_a_plot(
     assert min(plot['width'] / 2, plot['height']) > 80
 
 
-# Words of a dialog that are broken in two where they have no soft hyphen.
-BROKEN = """() => {
-    const found = [], dialog = document.querySelector('dialog[open]');
-    const texts = document.createTreeWalker(dialog, NodeFilter.SHOW_TEXT);
+# Words of an element that are broken in two where they have no soft hyphen.
+BROKEN = """(selector) => {
+    const found = [], element = document.querySelector(selector);
+    const texts = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
     while (texts.nextNode()) {
         const node = texts.currentNode, range = document.createRange();
         for (const {0: word, index} of node.data.matchAll(/[\\p{L}\\xad]{3,}/gu)) {
@@ -252,6 +252,9 @@ def test_the_hint_at_the_forces_of_many_bodies_is_a_few_lines(
     hint = legend.get_by_text('Tap a body')
     hint.wait_for()
     box, text = legend.bounding_box(), hint.bounding_box()
+    fold = legend.locator('.fold').bounding_box()
+    scale = legend.get_by_text(' N').first.bounding_box()
+    assert fold is None or fold['y'] < scale['y'] + scale['height']
     assert text['height'] < 80, 'four lines'
     assert box['x'] >= 0
     assert box['x'] + box['width'] <= size[0]
@@ -272,11 +275,11 @@ def test_on_a_telephone_words_and_choices_are_whole(
     sheet.press('Welten')
     # The file of the world is one's own.
     sheet.page.get_by_role('button', name='Umbenennen').wait_for()
-    assert sheet.page.evaluate(BROKEN) == []
+    assert sheet.page.evaluate(BROKEN, 'dialog[open]') == []
     sheet.page.keyboard.press('Escape')
     sheet.press('Hilfe')
     sheet.page.get_by_text('Was der Stift versteht').wait_for()
-    assert sheet.page.evaluate(BROKEN) == []
+    assert sheet.page.evaluate(BROKEN, 'dialog[open]') == []
     sheet.page.keyboard.press('Escape')
     sheet.press('Hand')
     sheet.tap(0.0, 0.5)
@@ -287,6 +290,17 @@ def test_on_a_telephone_words_and_choices_are_whole(
         box = sheet.page.get_by_label(label).bounding_box()
         assert row['x'] <= box['x']
         assert box['x'] + box['width'] <= row['x'] + row['width']
+
+
+def test_the_words_of_a_panel_are_whole(open_sheet: OpenSheet, outside: Outside) -> None:
+    world = WORLD.replace('radius: 0.5}, at: [0, 0.5]', 'radius: 1}, at: [0, 3]')
+    _, address = started_world(outside, world=world, speed=0.0)
+    sheet = open_sheet(address, size=(1280, 800), unfolded=False, locale='de-DE')
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
+    sheet.press('Hand')
+    sheet.tap(0.0, 3.0)
+    sheet.page.get_by_text('92,46 J').wait_for()
+    assert sheet.page.evaluate(BROKEN, '#panel') == []
 
 
 def test_numbers_beside_bodies_are_on_the_page(open_sheet: OpenSheet) -> None:

@@ -151,6 +151,21 @@ def test_a_body_is_where_numbers_say(sheet: Sheet) -> None:
     panel.get_by_text('62.50 J').wait_for()
 
 
+def test_the_angle_of_a_body_is_that_of_its_direction_and_its_turns_are_kept(sheet: Sheet) -> None:
+    with sheet.dragging((4.0, 0.5), (4.0, 3.0)):
+        # 13 rad, by 2 mrad a pixel.
+        sheet.page.mouse.wheel(0, -6500)
+        sheet.wait('Math.abs(physsim.bodies["box/0"][2] - 13) < 1e-3')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_text('1 kg · at 4.00, 3.00 m · 24.8°').wait_for()
+    sheet.page.get_by_text('Enter numbers').click()
+    sheet.enter('x [m]', '2', exact=True)
+    sheet.wait('Math.abs(physsim.bodies["box/0"][0] - 2) < 1e-6')
+    assert sheet.pose('box/0')[2] == pytest.approx(13.0, abs=1e-3)
+    sheet.enter('Angle [°]', '30', exact=True)
+    sheet.wait('Math.abs(physsim.bodies["box/0"][2] - 25 / 6 * Math.PI) < 1e-6')
+
+
 def test_numbers_that_are_typed_before_a_frame_comes_are_kept(sheet: Sheet) -> None:
     sheet.page.evaluate(
         """(numbers) => {

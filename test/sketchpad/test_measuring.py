@@ -304,6 +304,47 @@ def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
     assert not sheet.page.evaluate('window.texts.includes("5.12 m, 38.7°")')
 
 
+# Notes the box of each text of the picture of the world [px].
+NOTE_BOXES = """() => {
+    const {prototype} = CanvasRenderingContext2D, {fillRect, fillText} = prototype;
+    window.boxes = [];
+    prototype.fillRect = function (x, y, ...size) {
+        if (this.canvas.id === 'world' && x === 0 && y === 0) window.boxes = [];
+        fillRect.call(this, x, y, ...size);
+    };
+    prototype.fillText = function (text, x, y) {
+        const {actualBoundingBoxLeft: left, actualBoundingBoxRight: right,
+            actualBoundingBoxAscent: up, actualBoundingBoxDescent: down} = this.measureText(text);
+        if (this.canvas.id === 'world') boxes.push([text, x - left, y - up, x + right, y + down]);
+        fillText.call(this, text, x, y);
+    };
+}"""
+# The texts on which another one lies.
+COVERED = """text => {
+    const [, left, top, right, bottom] = boxes.find((each) => each[0] === text);
+    return boxes.filter((each) => each[0] !== text && each[1] < right && left < each[3] &&
+        each[2] < bottom && top < each[4]).map(([other]) => other);
+}"""
+
+
+def test_the_number_of_an_arrow_lies_on_no_other_text(sheet: Sheet) -> None:
+    sheet.press('Hand')
+    sheet.tap(-3.0, 2.4)
+    sheet.page.get_by_label('Meter in the world').select_option('Momentum [N s]')
+    sheet.page.evaluate(NOTE_BOXES)
+    sheet.press('Show velocities')
+    sheet.press('Ruler')
+    sheet.wait('boxes.some(([text]) => text === "1.5 m/s")')
+    # To the tip of the arrow.
+    (x, y), speed = sheet.place(-3.0, 2.4), sheet.page.evaluate('physsim.scales.speed')
+    sheet.page.mouse.move(x - 60, y)
+    sheet.page.mouse.down()
+    sheet.page.mouse.move(x + 1.5 * speed, y, steps=4)
+    sheet.page.mouse.up()
+    sheet.wait('boxes.some(([text]) => text.startsWith("Δx"))')
+    assert sheet.page.evaluate(COVERED, '1.5 m/s') == []
+
+
 def test_a_meter_stays_beside_its_body_until_the_world_is_another(sheet: Sheet) -> None:
     sheet.page.evaluate(NOTE_TEXTS)
     chosen(sheet, -3.0, 2.4)

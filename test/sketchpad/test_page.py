@@ -334,6 +334,21 @@ def test_a_lasso_moves_several_bodies_and_deletes_them(sheet: Sheet) -> None:
     sheet.wait('Object.keys(physsim.bodies).length === 3')
 
 
+def test_the_panel_of_several_bodies_is_of_those_that_are_there(sheet: Sheet) -> None:
+    sheet.press('Circle')
+    for x in (-2.0, 0.0, 2.0):
+        before = sheet.names()
+        sheet.drag((x, 5.0), (x + 0.5, 5.0))
+        sheet.wait_for_new(before)
+    sheet.press('Lasso')
+    sheet.drag((-3.0, 4.0), (3.0, 4.0), (3.0, 6.0), (-3.0, 6.0), (-3.0, 4.0))
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    for title in ('3 bodies', '2 bodies', 'Circle drawn/0'):
+        panel.get_by_role('heading', name=title).wait_for()
+        sheet.press('Undo')
+    panel.wait_for(state='hidden')
+
+
 def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     sheet.press('Anchor')
     x, y = sheet.place(-2.0, 6.0)

@@ -194,15 +194,19 @@ def test_all_tools_are_in_sight(
         check(sheet)
 
 
-def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
-    note = sheet.page.locator('#dock .note')
+def add_note(sheet: Sheet) -> None:
+    """Show a note that has no place in the world."""
     sheet.page.evaluate("""() => {
         const note = document.createElement('div');
         note.className = 'note';
-        note.textContent = 'The world of yesterday was not saved.';
+        note.textContent = 'The world of yesterday, of half past three, was not saved.';
         document.getElementById('dock').append(note);
     }""")
-    box = note.bounding_box()
+
+
+def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
+    add_note(sheet)
+    box = sheet.page.locator('#dock .note').bounding_box()
     assert box['y'] + box['height'] < sheet.place(0.0, 0.5)[1]
     assert sheet.page.locator('#files').bounding_box()['y'] < box['y']
 
@@ -311,6 +315,16 @@ def test_the_view_stays_where_something_closes_by_itself(
     sheet.press('Material')
     sheet.press('Close')
     sheet.wait('smaller => physsim.toPage(8, 0)[0] > smaller', smaller[0])
+
+
+def test_a_note_is_beside_the_card_of_strokes(open_sheet: OpenSheet, outside: Outside) -> None:
+    _, address = started_world(outside, world='format: 1\nbodies: []')
+    sheet = open_sheet(address, size=SIZES[0])
+    card = sheet.page.locator('#card')
+    card.wait_for()
+    add_note(sheet)
+    note = sheet.page.locator('#dock .note').bounding_box()
+    assert note['x'] + note['width'] <= card.bounding_box()['x']
 
 
 def test_a_stroke_may_begin_on_the_card_of_strokes(

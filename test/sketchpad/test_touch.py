@@ -143,12 +143,14 @@ def test_the_stroke_of_a_stylus_whose_end_is_not_told_ends_where_it_was(
     open_sheet: OpenSheet, end: str
 ) -> None:
     sheet, before, places = before_a_circle(open_sheet)
+    corner = sheet.place(0.0, 0.0)
     down, *moves = [['move', *place] for place in places]
     sheet.page.evaluate(POINTER, ['pen', 1, 9, [['down', *down[1:]], *moves]])
     last = ['cancel', 0, 0] if end == 'cancel' else ['move', 900, 600]
     sheet.page.evaluate(POINTER, ['pen', 0, 9, [last]])
     name = sheet.wait_for_new(before)
     assert sheet.pose(name)[:2] == pytest.approx((1.0, 5.0), abs=0.05)
+    assert sheet.place(0.0, 0.0) == corner
     sheet.close()
 
 

@@ -39,12 +39,13 @@ def test_no_other_process_hears_a_world_or_is_heard_by_it(
     path = Path(__file__).parents[1] / 'elsewhere' / 'intruder.py'
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')
     monkeypatch.setenv('ROS_DOMAIN_ID', str(physsim.context.get_domain_id()))
-    with subprocess.Popen([sys.executable, path], stdout=subprocess.PIPE, text=True) as intruder:
+    command = [sys.executable, path, 'second']
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as intruder:
         while intruder.poll() is None:
             physsim.step()
         assert intruder.returncode == 0
         assert intruder.stdout is not None
-        # Its own second node and nobody else: discovery works on this domain. Fast DDS may have
+        # The two of them and nobody else: discovery works on this domain. Fast DDS may have
         # written lines of its own before.
         last = intruder.stdout.read().splitlines()[-1]
         assert json.loads(last) == {'heard': 1, 'nodes': ['first', 'second']}

@@ -2,7 +2,7 @@
 /** Numbers as people read and write them in their language: what is drawn and set has three digits, what changes all the time two places; round steps of scales. */
 
 import {localized} from './strings.js';
-import {DEGREE} from './vectors.js';
+import {DEGREE, wrapped} from './vectors.js';
 
 /** @param {number} value */
 export function threeDigits(value) {
@@ -35,11 +35,11 @@ export function twoPlaces(value) {
 }
 
 /**
- * @param {number} angle [rad]
+ * @param {number} angle of a direction, after any number of turns [rad]
  * @param {number} places after the decimal sign, without zeros at its end
  */
 export function degrees(angle, places = 1) {
-  return `${digits(Number((angle / DEGREE).toFixed(places)), 6)}°`;
+  return `${digits(Number((wrapped(angle) / DEGREE).toFixed(places)), 6)}°`;
 }
 
 /**

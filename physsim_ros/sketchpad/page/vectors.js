@@ -30,6 +30,14 @@ export function rotated([x, y], angle) {
 }
 
 /**
+ * @param {number} angle [rad]
+ * @returns {number} of the same direction, at most half a turn from 0
+ */
+export function wrapped(angle) {
+  return Math.atan2(Math.sin(angle), Math.cos(angle));
+}
+
+/**
  * @param {Point} point
  * @param {number} grid distance of lines; 0 is no grid
  * @returns {Point} where they cross next to it

@@ -6,9 +6,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import contextmanager, ExitStack
 from functools import partial
 import math
+import os
+import signal
+import sys
 from typing import Any, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
@@ -16,12 +19,11 @@ from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.robots import command_topic
 from physsim_ros.testing import PhysSim, shared_context
 import pytest
-import rclpy
-from rclpy.context import Context
 from std_msgs.msg import Bool
 
-from .driver import Driver, driver_of
+from .driver import driver_of
 from ...client import Client, Event, set_parameter
+from ...outside import Program, ROOT
 
 
 def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_stopped_not(
@@ -74,31 +76,17 @@ def test_a_parameter_sets_the_timeout_of_all_drives(
     assert flat.digest() == after
 
 
-@pytest.mark.parametrize('kind', [Twist, TwistStamped])
+@pytest.mark.parametrize('kind', ['Twist', 'TwistStamped'])
 def test_commands_are_listed_before_anybody_publishes_where_the_process_is_the_nodes_own(
-    monkeypatch: pytest.MonkeyPatch, kind: type
+    monkeypatch: pytest.MonkeyPatch, kind: str
 ) -> None:
     own = partial(PhysSimNode, expected_commands=Twist)
     monkeypatch.setattr('physsim_ros.testing.world.PhysSimNode', own)
-    other = Context()
-    with (
-        shared_context(monkeypatch) as context,
-        PhysSim(context, gravity=[0.0, 0.0]) as sim,
-        ExitStack() as closing,
-    ):
-        robot, client = sim.robot('turtlebot3_burger'), Client(sim)
-        listed = dict(client.node.get_topic_names_and_types())
+    with crossing(monkeypatch) as drive:
+        listed = dict(drive.client.node.get_topic_names_and_types())
         assert listed['/robot_0/cmd_vel'] == ['geometry_msgs/msg/Twist']
-        rclpy.init(context=other, domain_id=context.get_domain_id(), args=[])
-        closing.callback(other.try_shutdown)
-        driver = Driver(other, kind=kind, looks=False)
-
-        def drives() -> bool:
-            driver.send(0.2)
-            sim.step()
-            return bool(robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6))
-
-        client.spin_until(drives)
+        drive.command(kind, 0.2)
+        drive.wait_for_speed(0.2)
 
 
 def test_commands_in_the_past_are_refused_once_and_nothing_branches(
@@ -180,70 +168,60 @@ def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
     assert flat.node.simulation.requests.gesture == before
 
 
-@pytest.fixture
+@contextmanager
 def crossing(monkeypatch: pytest.MonkeyPatch) -> Iterator[Crossing]:
-    """Return a robot in a world, and contexts of two other processes in its domain."""
-    # One participant has one type for a topic.
-    others = Context(), Context()
+    """Yield a robot in a world that other processes may command."""
     with (
         shared_context(monkeypatch) as context,
         PhysSim(context, gravity=[0.0, 0.0]) as sim,
         ExitStack() as closing,
     ):
-        for other in others:
-            rclpy.init(context=other, domain_id=context.get_domain_id(), args=[])
-            closing.callback(other.try_shutdown)
-        yield Crossing(sim, sim.robot('turtlebot3_burger'), Client(sim), others)
+        yield Crossing(sim.robot('turtlebot3_burger'), Client(sim), closing)
 
 
 class Crossing(NamedTuple):
-    sim: PhysSim
     robot: Any
     client: Client
-    others: tuple[Context, Context]
+    closing: ExitStack
 
-    def knows(self, count: int) -> bool:
-        """Return whether as many publishers of commands are on the graph."""
-        return len(self.sim.node.get_publishers_info_by_topic('/robot_0/cmd_vel')) == count
+    def command(self, kind: str, speed: float) -> Program:
+        """Start a process that commands a speed from now on, by messages of a type."""
+        path = ROOT / 'test' / 'elsewhere' / 'commander.py'
+        program = Program(sys.executable, path, kind, speed, env=dict(os.environ), cwd=ROOT)
+        self.closing.callback(program.close)
+        return program
 
-    def drives(self, driver: Driver, speed: float, *beside: Driver) -> bool:
-        """Return whether the robot obeys a driver beside others that stop it, after a frame."""
-        for other in beside:
-            other.send(0.0)
-        driver.send(speed)
-        self.sim.step()
-        return bool(self.robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6))
+    def wait_for_speed(self, speed: float) -> None:
+        """Advance until the robot has a speed [m/s]."""
+
+        def drives() -> bool:
+            self.client.physsim.step()
+            return bool(self.robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6))
+
+        self.client.spin_until(drives)
 
 
-@pytest.mark.parametrize('dies', [False, True])
-def test_publishers_of_both_types_are_told_and_one_is_heard_as_long_as_it_speaks(
-    crossing: Crossing, dies: bool
+@pytest.mark.parametrize(
+    ('old', 'new', 'silenced'),
+    [
+        ('Twist', 'TwistStamped', signal.SIGSTOP),
+        ('TwistStamped', 'Twist', signal.SIGKILL),
+        ('Twist', 'TwistStamped', signal.SIGTERM),
+    ],
+)
+def test_of_publishers_of_both_types_the_newest_is_heard_as_long_as_it_speaks(
+    monkeypatch: pytest.MonkeyPatch, old: str, new: str, silenced: int
 ) -> None:
-    client = crossing.client
-    plain = Driver(crossing.others[0], looks=False)
-    stamped = Driver(crossing.others[1], kind=TwistStamped, looks=False)
-    client.spin_until(lambda: crossing.knows(2))
-    client.spin_until(lambda: crossing.drives(plain, 0.2))
-    told = [event for event in client.events if event.field == 'cmd_vel']
-    assert [event.code for event in told] == ['bad_property']
-    if not dies:
-        plain.destroy_publisher(plain.publisher)
-    client.spin_until(lambda: crossing.drives(stamped, -0.1))
-    told = [event for event in client.events if event.field == 'cmd_vel']
-    assert len(told) == 1
-
-
-@pytest.mark.parametrize('kinds', [(Twist, TwistStamped), (TwistStamped, Twist)])
-def test_the_newest_publisher_is_heard_while_one_of_another_type_still_speaks(
-    crossing: Crossing, kinds: tuple[type, type]
-) -> None:
-    client = crossing.client
-    old = Driver(crossing.others[0], kind=kinds[0], looks=False)
-    client.spin_until(lambda: crossing.drives(old, 0.2))
-    new = Driver(crossing.others[1], kind=kinds[1], looks=False)
-    client.spin_until(lambda: crossing.drives(new, -0.1, old))
-    # It is heard until it is silent.
-    client.spin_until(lambda: crossing.drives(old, 0.2))
+    with crossing(monkeypatch) as drive:
+        drive.command(old, 0.2)
+        drive.wait_for_speed(0.2)
+        newest = drive.command(new, -0.1)
+        drive.wait_for_speed(-0.1)
+        newest.process.send_signal(silenced)
+        drive.wait_for_speed(0.2)
+        told = [event for event in drive.client.events if event.field == 'cmd_vel']
+    assert [event.code for event in told] == ['bad_property'], told
+    assert 'the newest is heard' in told[0].message
 
 
 def test_a_publisher_of_another_type_than_commands_is_told_once(

@@ -188,12 +188,14 @@ export class Gestures extends Emitter {
 
   /** @param {PointerEvent} event */
   #drag(event) {
-    const {pointerId, pointerType} = event, before = this.down.get(pointerId);
+    const {pointerId, pointerType} = event;
+    let before = this.down.get(pointerId);
     if (!before && pointerType === 'touch') return;
     // It was lifted where nobody was told, as behind a locked screen.
     if (before && !event.buttons) {
       this.down.delete(pointerId);
       this.#endAtLast(pointerId);
+      before = undefined;
     }
     if (pointerId === this.working?.pointer) {
       const parts = event.getCoalescedEvents?.() ?? [];

@@ -9,7 +9,7 @@ import {originOf} from '../measures/quantities.js';
 import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {Gesture} from '../tools/gesture.js';
-import {distance, onGrid, polar} from '../vectors.js';
+import {distance, onGrid, polar, wrapped} from '../vectors.js';
 
 /** @import {Body, Parts, Point, SceneView, Touch} from '../types.js' */
 
@@ -148,7 +148,7 @@ export class Handles extends Gesture {
     const {center: [x, y]} = places, {page: [px, py], grid} = this.last, [fx, fy] = this.start.page;
     if (this.dragged === 'turn') {
       const turn = Math.atan2(fy - y, fx - x) - Math.atan2(py - y, px - x);
-      [change.turn] = onGrid([Math.atan2(Math.sin(turn), Math.cos(turn)), 0], grid && STEP);
+      [change.turn] = onGrid([wrapped(turn), 0], grid && STEP);
     } else if (this.dragged === 'scale') {
       const [share] = onGrid([distance([px, py], [x, y]) / (distance([fx, fy], [x, y]) || 1), 0], grid && SHARE);
       change.scale = Math.min(Math.max(share, LEAST), MOST);

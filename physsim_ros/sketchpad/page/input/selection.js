@@ -7,7 +7,7 @@
 import {Emitter} from '../emitter.js';
 import {t} from '../strings.js';
 
-/** @import {Body, Parts, Point, SceneView, Touch} from '../types.js' */
+/** @import {Body, Joint, Parts, Point, SceneView, Touch} from '../types.js' */
 
 const BESIDE = 0.5; // m between bodies and their copies
 const NEAR = 8; // px: a tap that far from a joint means it
@@ -35,9 +35,10 @@ export class Selection extends Emitter {
     parts.gestures.on('point', (touch) => this.#hover(touch));
     // Of the same name, a body of another world is another body.
     parts.connection.on('world', () => { this.kept.names = []; });
-    parts.connection.on('scene', ({bodies}) => {
-      const known = new Set(bodies.map((/** @type {Body} */ {name}) => name));
-      for (const name of this.names) if (!known.has(name)) this.names.delete(name);
+    parts.connection.on('scene', ({bodies, joints}) => {
+      const known = new Set((this.kind === 'joint' ? joints : bodies).map((/** @type {Body | Joint} */ {name}) => name));
+      const rest = this.subject.filter((name) => known.has(name));
+      if (rest.length < this.subject.length) this.select(rest);
     });
   }
 

@@ -71,11 +71,12 @@ export class Meters {
  * @param {Point} place above which it stands [m]
  * @param {string} text
  */
-function drawMeter({ctx, camera, palette, insets}, place, text) {
+function drawMeter({ctx, camera, palette, insets, covered}, place, text) {
   ctx.font = '600 13px system-ui, sans-serif';
   const half = ctx.measureText(text).width / 2 + PADDING, [atX, atY] = camera.toPage(...place);
   // What is in sight has its meter in sight.
   const x = Math.min(Math.max(atX, insets.left + half), camera.width - insets.right - half), y = Math.max(atY, insets.top + ABOVE + HALF);
+  covered.push([x - half, y - ABOVE - HALF, x + half, y - ABOVE + HALF]);
   ctx.fillStyle = palette.paper;
   ctx.strokeStyle = palette.faint;
   ctx.lineWidth = 1;

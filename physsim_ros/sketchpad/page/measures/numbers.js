@@ -6,7 +6,7 @@ import {neighboursOf} from '../view/forces.js';
 import {energiesOf, momentumText, motionOf, originOf, placed} from './quantities.js';
 import {digits, threeDigits, twoPlaces} from '../rounding.js';
 import {t} from '../strings.js';
-import {DEGREE} from '../vectors.js';
+import {DEGREE, wrapped} from '../vectors.js';
 
 /** @import {Body, Parts} from '../types.js' */
 /** @import {Motion} from './quantities.js' */
@@ -104,7 +104,9 @@ export class Numbers {
     /** @type {Typed} */
     const typed = {name, motion, answered: false};
     this.ahead = typed;
-    const {mass, x, y, angle, vx, vy, spin} = motion, yaw = angle * DEGREE;
+    const {mass, x, y, angle, vx, vy, spin} = motion, now = world.frame.yaw[row];
+    // A spring that turns with the body keeps its turns.
+    const yaw = now + wrapped(angle * DEGREE - now);
     const place = {at: [...originOf(world.scene.bodies[row].centroid, [x, y], yaw), yaw]}, velocity = {velocity: [vx, vy]};
     /** @type {Record<string, object>} */
     const changes = {mass: {mass}, x: place, y: place, angle: place, vx: velocity, vy: velocity, spin: {spin}};

@@ -6,7 +6,7 @@
 
 import {degrees, threeDigits, twoPlaces} from '../rounding.js';
 import {t} from '../strings.js';
-import {DEGREE, rotated} from '../vectors.js';
+import {DEGREE, rotated, wrapped} from '../vectors.js';
 
 /** @import {Body, Point, Sample, WorldState} from '../types.js' */
 
@@ -22,7 +22,7 @@ import {DEGREE, rotated} from '../vectors.js';
  */
 export function motionOf(world, row) {
   const {frame: {yaw, velocities}, scene} = world, {mass, centroid} = scene.bodies[row], [x, y] = world.place(row, centroid);
-  return {mass, x, y, angle: yaw[row] / DEGREE,
+  return {mass, x, y, angle: wrapped(yaw[row]) / DEGREE,
     vx: velocities?.x[row] ?? 0, vy: velocities?.y[row] ?? 0, spin: velocities?.spin[row] ?? 0};
 }
 

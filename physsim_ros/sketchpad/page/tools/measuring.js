@@ -3,7 +3,7 @@
 
 import {Gesture} from './gesture.js';
 import {degrees, threeDigits} from '../rounding.js';
-import {onGrid} from '../vectors.js';
+import {onGrid, wrapped} from '../vectors.js';
 
 /** @import {Point, SceneView, ToolParts, Touch} from '../types.js' */
 
@@ -112,7 +112,7 @@ export class Protractor extends Gesture {
     const {ctx, camera, palette} = view;
     view.line(q ? [p, corner, q] : [corner, p], palette.accent);
     const [first, second] = [p, q ?? [corner[0] + 1, corner[1]]].map(([x, y]) => Math.atan2(y - corner[1], x - corner[0]));
-    const turn = Math.atan2(Math.sin(second - first), Math.cos(second - first)), middle = first + turn / 2;
+    const turn = wrapped(second - first), middle = first + turn / 2;
     const [x, y] = camera.toPage(...corner);
     ctx.beginPath();
     ctx.arc(x, y, ARC, -first, -first - turn, turn > 0);

@@ -162,10 +162,10 @@ export class Arrows {
     this.#fitSpeeds(room);
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
     if (!this.legend.hidden && world.paused) this.#placeLegend();
-    view.covered = [this.legend, elementOf('panel')].map((each) => {
+    for (const each of [this.legend, elementOf('panel')]) {
       const {left, top, right, bottom} = each.getBoundingClientRect();
-      return [left, top, right, bottom];
-    });
+      view.covered.push([left, top, right, bottom]);
+    }
     this.hint.textContent = '';
     if (!this.forces) drawApplied(this.parts, view);
     else if (world.count) this.#drawForces(view, room);

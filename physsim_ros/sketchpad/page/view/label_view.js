@@ -19,7 +19,7 @@ import {rotated} from '../vectors.js';
 
 const SMALLEST = 11, LARGEST = 28; // px: size of letters
 const DIGIT = 0.65; // em: width of a digit
-const LINE = 1.25, MARGIN = 1.2; // em: height of a line, left free in a body beside and above the text
+const LINE = 1.25, MARGIN = 1.2, BASE = 0.35; // em: height of a line, left free in a body beside and above the text, from the middle of a line to its base
 const REMEMBERED = 500; // texts whose sizes are known
 
 /** @type {Map<string, [number, number]>} sizes by text [em] */
@@ -44,9 +44,7 @@ export function drawLabels(view) {
     // Larger than its body, it may lie on others, but not on their labels.
     if (room * camera.scale < SMALLEST && drawn.some((other) => overlap(box, other))) continue;
     drawn.push(box);
-    ctx.textBaseline = 'middle';
-    texts.forEach((line, i) => view.write(line, [x, y + (i - (texts.length - 1) / 2) * LINE * size], palette.ink, 'center', size));
-    ctx.textBaseline = 'alphabetic';
+    texts.forEach((line, i) => view.write(line, [x, y + ((i - (texts.length - 1) / 2) * LINE + BASE) * size], palette.ink, 'center', size));
   }
 }
 
@@ -103,7 +101,7 @@ const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; 
 export function drawNumbers(view) {
   const {ctx, insets, camera, numbers} = view, sides = [insets.left + 4, insets.top + 4, camera.width - insets.right - 4, camera.height - insets.bottom - RULER];
   /** @type {Box[]} */
-  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [...view.covered];
+  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP]));
   ctx.font = FONT;
   if (!numbers.length) return;
   const lines = [...numbers.flatMap(({from, tip}) => from ? [/** @type {const} */ ([from, tip])] : []), ...linesOf(view)];
@@ -118,13 +116,12 @@ export function drawNumbers(view) {
       const cx = clamp(x + dx * (BETWEEN + half + far), sides[0] + half, sides[2] - half);
       const cy = clamp(y + dy * (BETWEEN + HALF + far), sides[1] + HALF, sides[3] - HALF);
       const box = /** @type {Box} */ ([cx - half, cy - HALF, cx + half, cy + HALF]);
-      const covers = 4 * written.filter((other) => overlap(box, other)).length + taken.filter((other) => overlap(box, other)).length +
+      const covers = 4 * view.covered.filter((other) => overlap(box, other)).length + taken.filter((other) => overlap(box, other)).length +
         lines.filter(([begin, end]) => crosses(box, begin, end)).length;
       if (covers < least) [best, least] = [box, covers];
       if (!least) break;
     }
     if (!best || least >= 4 && !named) continue;
-    written.push(best);
     view.write(text, [(best[0] + best[2]) / 2, best[3] - 5], color, 'center');
   }
 }

@@ -6,8 +6,8 @@ import {JointView} from './joint_view.js';
 import {drawGrid, drawLabels, drawNumbers, drawRulers, drawScan} from './label_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
-/** @import {Body, Bounds, Camera, Frame, Point, WorldState} from '../types.js' */
-/** @import {Numbered} from './label_view.js' */
+/** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
+/** @import {Box, Numbered} from './label_view.js' */
 
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
 const ASIDE = 14; // px from a pointer to what is written beside it
@@ -31,7 +31,7 @@ export class SceneView {
     this.overlays = [];
     /** @type {Numbered[]} of the arrows that were drawn */
     this.numbers = [];
-    /** Boxes of the legend and the panel; no number is put there. @type {Bounds[]} left, top, right, bottom [px] */
+    /** Boxes of what is written, of the legend and the panel; no number is put there. @type {Box[]} */
     this.covered = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
     this.ratio = 1; // pixels of the screen to one of the page
@@ -70,6 +70,8 @@ export class SceneView {
     const {ctx, camera, palette, world} = this;
     this.dirty = false;
     this.drawn = world.version;
+    this.numbers = [];
+    this.covered = [];
     this.#toPixels();
     ctx.fillStyle = palette.paper;
     ctx.fillRect(0, 0, camera.width, camera.height);
@@ -83,7 +85,6 @@ export class SceneView {
     drawRulers(this);
     drawLabels(this);
     this.#drawHands();
-    this.numbers = [];
     for (const overlay of this.overlays) overlay(this);
     drawNumbers(this);
   }
@@ -260,7 +261,10 @@ export class SceneView {
     const {ctx, camera} = this;
     ctx.font = `${size}px system-ui, sans-serif`;
     ctx.textAlign = align;
-    if (align === 'left' && x < camera.width) x = Math.min(x, camera.width - ctx.measureText(text).width - 4);
+    const {width} = ctx.measureText(text);
+    if (align === 'left' && x < camera.width) x = Math.min(x, camera.width - width - 4);
+    const left = align === 'left' ? x : align === 'right' ? x - width : x - width / 2;
+    this.covered.push([left, y - size, left + width, y + 0.3 * size]);
     ctx.lineJoin = 'round';
     ctx.lineWidth = 0.3 * size;
     ctx.strokeStyle = this.palette.paper;
