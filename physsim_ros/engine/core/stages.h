@@ -73,10 +73,10 @@ void correct_first_touches(World *world);
 void set_overlap_biases(World *world);
 void move_belts(World *world);
 void order_points(World *world);
-void damp_steep_friction(World *world);
 void bound_loads(World *world);
 void time_impacts(World *world);
 void defer_contacts(World *world);
+void damp_steep_friction(World *world);
 void solve_impacts(World *world);
 void find_rolls(World *world);
 // The rest of the step after impacts (`rest_of_step.c`): how long it is for two bodies that met in this step [s]; by
