@@ -64,10 +64,10 @@ double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
 // Between narrow phase and solver, in this order, for each has what the ones before have made of contacts: those that
-// begin (`first_touch.c`), their slop (`overlap_bias.c`), surfaces that move along their outlines (`belts.c`), the first
-// of two points (`contact_order.c`), the greatest load (`impact_loads.c`), when impacts were (`rest_of_step.c`), contacts
-// next to an impact (`impact_propagation.c`), rounds of the solvers (`steep_friction.c`), points that are hit at once
-// (`block_solver.c`), contacts that roll (`rolling.c`).
+// begin (`first_touch.c`), their slop (`overlap_bias.c`), surfaces that move along their outlines (`belts.c`), the
+// first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), when impacts were
+// (`rest_of_step.c`), contacts next to an impact (`impact_propagation.c`), rounds of the solvers
+// (`steep_friction.c`), points that are hit at once (`block_solver.c`), contacts that roll (`rolling.c`).
 void correct_first_touches(World *world);
 void set_overlap_biases(World *world);
 void move_belts(World *world);
