@@ -110,18 +110,6 @@ def test_an_anchored_body_takes_a_pose_only(world):
     assert pose(world, 'a/0').tolist() == [1.0, 2.0, 0.3]
 
 
-def test_a_command_is_carried_out_whole_or_not_at_all(world):
-    for number in range(3):
-        spawn(world, f'a/{number}', DISC, (5.0 * number, 0.0, 0.0), anchored=number == 2)
-    before = world.digest()
-
-    rows = ((1.0, 1.0, 1.0),) * 3
-    with pytest.raises(Anchored):
-        world.apply(Command(names=('a/0', 'a/1', 'a/2'), poses=rows, twists=rows))
-
-    assert world.digest() == before
-
-
 def test_a_command_moves_many_bodies_at_once(world):
     for number in range(3):
         spawn(world, f'a/{number}', DISC)
