@@ -67,10 +67,10 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     set_overlap_biases(world);
     move_belts(world);
     order_points(world);
-    damp_steep_friction(world);
     bound_loads(world);
     time_impacts(world);
     defer_contacts(world);
+    damp_steep_friction(world);
     solve_impacts(world);
     find_joint_islands(world);
     find_rolls(world);
@@ -191,7 +191,7 @@ int32_t core_step(World *world, int32_t count) {
     CallTime time = {.began = now, .ended = now};
     int32_t made = 0;
     own->kept = pow(world->space->damping, world->dt);
-    own->bias_rate = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
+    own->overlap_kept = pow(world->space->collisionBias, world->dt);
     world->has_broken = world->has_lost = false;
     do {
         own->call_step = made;
