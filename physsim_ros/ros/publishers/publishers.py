@@ -64,6 +64,13 @@ class Output(Protocol):
         """Show a new frame."""
 
 
+class LateOutput(Output, Protocol):
+    """An output that may have to do with the last frame while there is no new one."""
+
+    def show_late(self, frame: Frame) -> None:
+        """Show the last frame to who came late, or go on to show it."""
+
+
 class Publishers:
     """
     The publishers of the world.
@@ -77,8 +84,8 @@ class Publishers:
     :ivar preview: the stream of unfinished gestures and readings
     :ivar events: the publisher of `~/events`
     :ivar timeline: the publisher of `~/timeline`
-    :ivar interactive_markers: the publisher of `~/drag/update`
     :ivar streams: of states, of which late subscribers receive the last frame
+    :ivar late: the outputs that may show the last frame again, or go on with it
     :ivar outputs: each with a method `show`, in the order in which they are shown a frame
     """
 
@@ -120,12 +127,13 @@ class Publishers:
             node.create_publisher(DiagnosticStatus, '~/events', EVENTS_DEPTH)
         )
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'), status)
-        self.interactive_markers = InteractiveMarkers(node, frame_id)
+        self._markers = InteractiveMarkers(node, frame_id)
+        self.late: tuple[LateOutput, ...] = (*self.streams, self._markers)
         self.outputs: tuple[Output, ...] = (
             self.events,
             *self.streams,
             self.contacts,
-            self.interactive_markers,
+            self._markers,
             self.timeline,
         )
 
@@ -133,7 +141,7 @@ class Publishers:
     def is_read(self) -> bool:
         """Whether a topic of frames has subscribers."""
         streams = (each.is_read for each in (*self.streams, self.contacts))
-        return any((self.interactive_markers.is_read, self.timeline.is_read, *streams))
+        return any((self._markers.is_read, self.timeline.is_read, *streams))
 
 
 class Encoder(Protocol):
