@@ -7,7 +7,7 @@
 import {unionOf} from './view/body_path.js';
 import {Camera} from './view/camera.js';
 import {personWord} from './people.js';
-import {sayForm} from './ui/classroom.js';
+import {sayForm} from './ui/people_dialog.js';
 import {Connection} from './connection.js';
 import {Dialog} from './ui/dialog.js';
 import {choice, createElement, elementOf, iconButton, inRow, languageField, showText, soon, textButton} from './dom.js';
