@@ -5,6 +5,7 @@
 
 from importlib import import_module
 from pkgutil import walk_packages
+import sys
 
 import pytest
 import tools
@@ -17,3 +18,11 @@ PROGRAMS = ('__main__', 'irsim_world')
 @pytest.mark.parametrize('name', [each for each in MODULES if not each.endswith(PROGRAMS)])
 def test_a_module_is_imported(name: str) -> None:
     assert import_module(name).__name__ == name
+
+
+def test_the_gallery_names_its_pictures_where_one_is_unknown(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(sys, 'argv', ['gallery', 'typo'])
+    with pytest.raises(SystemExit, match='no picture typo; there are page, '):
+        import_module('tools.gallery.__main__')

@@ -137,6 +137,9 @@ def main(chosen: list[str]) -> None:
         'drawing': draw_drawing,
         'window': draw_window,
     }
+    known = {Path(name).name: name for name in (*PAGES, *SCENES, *pictures)}
+    if unknown := set(chosen) - {*known}:
+        sys.exit(f'no picture {", ".join(unknown)}; there are {", ".join(known)}')
     for name, draw in PAGES.items():
         if not chosen or name in chosen:
             draw()
