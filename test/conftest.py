@@ -19,6 +19,7 @@ from typing import Any, TYPE_CHECKING
 
 import pytest
 
+from .leftovers import Open
 from .source_tree import compile_core, is_compiled, ROOT
 
 if TYPE_CHECKING:
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 # Fixtures that start other processes: a test that asks for one is slow, unless it is `everyday`.
 PROCESSES = {'chromium', 'outside', 'server'}
+# Fixtures that have a world over ROS in this process.
+WORLDS = {'physsim', 'start'}
 # For setup, call and teardown of a test each [s]: ten times what the slowest may take.
 LONGEST = 300.0
 STDERR = pytest.StashKey[int]()
@@ -88,6 +91,17 @@ def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
 def pytest_runtest_teardown(item: pytest.Item) -> Generator[None, object, object]:
     with _ended(item):
         return (yield)
+
+
+@pytest.fixture(autouse=True)
+def nothing_left(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Check that a test with a world leaves no thread, no connection and no participant of DDS."""
+    if not WORLDS.intersection(request.fixturenames):
+        yield
+        return
+    before = Open()
+    yield
+    before.check_same()
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 from physsim_ros.files.directory_lock import DirectoryLock
 from physsim_ros.files.foreign import advice_on_xml, CONVERTED, kind_of
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
-from physsim_ros.files.reading import finish_before_end, finish_files, on_thread
+from physsim_ros.files.reading import finish_before_end, finish_files, fulfil, on_thread
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import (
     BadDrawing,
@@ -55,6 +55,7 @@ __all__ = [
     'find_world',
     'finish_before_end',
     'finish_files',
+    'fulfil',
     'hides_shipped',
     'kind_of',
     'load_drawing',

@@ -24,17 +24,18 @@ async def on_thread(work: Callable[[], _Result], *, finishes: bool = False) -> _
     :param finishes: whether the end of the process waits for it, as for a file that is written
     """
     future: Future[_Result] = Future()
-
-    def call() -> None:
-        try:
-            future.set_result(work())
-        except BaseException as error:  # noqa: BLE001 - the world's thread raises it
-            future.set_exception(error)
-
     if finishes:
         finish_before_end(future)
-    Thread(target=call, name='file', daemon=not finishes).start()
+    Thread(target=fulfil, args=(future, work), name='file', daemon=not finishes).start()
     return await wrap_future(future)
+
+
+def fulfil(future: Future[_Result], work: Callable[[], _Result]) -> None:
+    """Call a function, and give a future what it returns or raises."""
+    try:
+        future.set_result(work())
+    except BaseException as error:  # noqa: BLE001 - the world's thread raises it
+        future.set_exception(error)
 
 
 def finish_before_end(future: Future[_Result]) -> Future[_Result]:

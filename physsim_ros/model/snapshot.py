@@ -252,7 +252,7 @@ class Answer:
     """
     The answer to one request, or the report of an event without one.
 
-    :param topic: of the request, as '~/spawn', or the event, as 'divergence'; '' until it is known
+    :param topic: of the request, as '~/spawn', or the event, as 'body_lost'; '' until it is known
     :param subject: name of the body or joint, '' if there is none
     :param message: a sentence
     :param code: '' for success, else the stable code of the refusal

@@ -86,6 +86,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         except rclpy_implementation.RCLError as error:
             # As for a namespace of the command line that is longer than a name of DDS may be.
             raise PhysSimError(str(error)) from error
+        # It is the source of `/clock`, and no reader, whatever `use_sim_time` is. rclpy 7.1 has no
+        # public name for that.
+        self._time_source.detach_node()
         self.boundary = ErrorBoundary(self.get_logger().error, time.thread_time)
         self._closing = ExitStack()
         try:

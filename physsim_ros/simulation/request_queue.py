@@ -416,6 +416,7 @@ class RequestQueue:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
         if events := self.hands.release_grips():
             self.answers += events
+            self._playback.changed = True
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, and drop them."""

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from numbers import Integral
 
 import numpy as np
@@ -321,7 +321,9 @@ class Simulation(FrameMaker):
         self._note_beginning()
         self.requests.note_jump()
         self.driving = {drive.name: drive for drive in saved.driving}
-        self._show_again(saved.frame, saved.before)
+        # Its answers are those of the other simulation.
+        frame = replace(saved.frame, answers=(), speed=self.speed, course=self.past.tree.course)
+        self._show_again(frame, saved.before)
 
     def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> str:
         """

@@ -5,16 +5,20 @@
 Work on the files of a world, which a slow disk delays.
 
 Laws: the world's thread never waits for the disk; one thread does one piece of work after the
-other, in the order of the messages; the end of the process waits for all of them.
+other, in the order of the messages, and ends with the last; the end of the process waits for all
+of them.
 """
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
+from functools import partial
+from threading import Lock, Thread
 from typing import TypeVar
 
-from physsim_ros.files import finish_before_end
+from physsim_ros.files import finish_before_end, fulfil
 from physsim_ros.model.errors import Busy
 from physsim_ros.model.slices import wrap_future
 
@@ -32,8 +36,9 @@ class FileWork:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        # It ends with this object.
-        self._thread = ThreadPoolExecutor(1, 'files')
+        # Work that is not done; while there is any, a thread does it.
+        self._due: deque[Callable[[], None]] = deque()
+        self._lock = Lock()
         # Number of pieces of work that messages wait for.
         self._awaited = 0
 
@@ -53,6 +58,20 @@ class FileWork:
 
     def submit(self, work: Callable[[], _Result]) -> Future[_Result]:
         """Have the thread do a piece of work, for whose end nobody here waits."""
-        future = finish_before_end(self._thread.submit(work))
+        future: Future[_Result] = finish_before_end(Future())
         future.add_done_callback(lambda _: self._wake())
+        with self._lock:
+            self._due.append(partial(fulfil, future, work))
+            begins = len(self._due) == 1
+        if begins:
+            Thread(target=self._run, name='files').start()
         return future
+
+    def _run(self) -> None:
+        """Do all work, on the thread."""
+        goes_on = True
+        while goes_on:
+            self._due[0]()
+            with self._lock:
+                self._due.popleft()
+                goes_on = bool(self._due)

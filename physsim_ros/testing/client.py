@@ -10,6 +10,7 @@ The client publishes the requests of a test and receives the answers.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 import time
 from typing import Any
 
@@ -19,6 +20,7 @@ from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.testing.values import Refused
 from rclpy.context import Context
+from rclpy.exceptions import InvalidHandle
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 from sensor_msgs.msg import MultiDOFJointState
@@ -65,10 +67,18 @@ class SettlingExecutor:
         self._executor.add_node(node)
 
     def shutdown(self) -> None:
-        """Remove all nodes, and shut the executor down."""
+        """
+        Remove and destroy all nodes, and shut the executor down.
+
+        The participant of a context, with its threads and sockets, ends with its last node.
+        """
         for node in self._nodes:
             self._executor.remove_node(node)
         self._executor.shutdown()
+        for node in reversed(self._nodes):
+            # One that the test has destroyed may not be able to end twice.
+            with suppress(InvalidHandle):
+                node.destroy_node()
 
     def settle(self) -> None:
         """

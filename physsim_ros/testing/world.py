@@ -47,17 +47,14 @@ class PhysSim(ChangedWorld):
         values: dict[str, Any] = {'viewer': 'none', **parameters}
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         with ExitStack() as closing:
-            node = PhysSimNode(context=context, parameter_overrides=overrides)
-            closing.callback(node.destroy_node)
-            own = NodeWithoutQosEvents('physsim_test', context=context)
-            closing.callback(own.destroy_node)
             self._executor = SettlingExecutor(context)
-            # The executor goes before its nodes, whose waitables it has.
             closing.callback(self._executor.shutdown)
+            node = PhysSimNode(context=context, parameter_overrides=overrides)
+            self._executor.add_node(node)
             # `contacts` reads them from the frame, where no message is needed.
             node.outputs.records_contacts = True
-            self._executor.add_node(node)
             node.boundary.on_error = self._executor.errors.append
+            own = NodeWithoutQosEvents('physsim_test', context=context)
             super().__init__(node, RequestClient(own, node, self._executor))
             self._closing = closing.pop_all()
         self.context = context

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 import math
 from pathlib import Path
@@ -122,6 +123,16 @@ def test_after_a_seek_other_nodes_have_the_time_and_the_parameters_of_then(
     physsim.run(1.0)
     assert robot.get_clock().now().nanoseconds * 1e-9 == pytest.approx(1.5)
     assert parameter(physsim, 'gravity') == [0.0, 0.0]
+
+
+@pytest.mark.parametrize('at_start', [False, True])
+def test_the_source_of_the_clock_never_reads_one(
+    start: Callable[..., PhysSim], *, at_start: bool
+) -> None:
+    # Anybody may publish one, with seconds below 0, too.
+    physsim = start(use_sim_time=at_start)
+    set_parameter(physsim, 'use_sim_time', value=True)
+    assert '/clock' not in {each.topic_name for each in physsim.node.subscriptions}
 
 
 # Seek

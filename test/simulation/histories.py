@@ -29,16 +29,26 @@ from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.files.world_schema import LIMITS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import OutOfHistory, Refusal
-from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Request, Restore
+from physsim_ros.model.errors import InPast, OutOfHistory, Refusal
+from physsim_ros.model.requests import (
+    Configure,
+    Grab,
+    HandRequest,
+    LetGo,
+    MoveHand,
+    Request,
+    Restore,
+)
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.simulation.entries import Amend, Origin, TakeBack
 from physsim_ros.simulation.past import Past
-from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.simulation import SavedMoment, Simulation
 
 from .random_history import history_of, Operation, SETTINGS, shipped_world
 
+# The request of a saved moment from which another line has run on without it.
+NOTHING = Configure(changes={})
 # Processor time of one history that is worth a word [s].
 LONGEST = 60.0
 
@@ -52,21 +62,27 @@ class Difference(AssertionError):
 
 @dataclass(slots=True, eq=False)
 class Made:
-    """A request that changed the world; `shown` is whether its step was shown with it."""
+    """
+    A request that changed the world.
+
+    `after` is the step of the last moment before it that was saved, -1 is none; `shown` is whether
+    its step was shown with it.
+    """
 
     step: int
     request: Request
     gesture: int
     author: str
+    after: int
     shown: bool = False
 
 
 @dataclass(slots=True)
 class Line:
-    """A line of events: the state it began with, the requests, and the last step."""
+    """A line of events: the state or moment it began with, the requests, and the last step."""
 
     course: int
-    state: WorldState
+    state: WorldState | SavedMoment
     made: list[Made] = field(default_factory=list)
     head: int = 0
     # The moment at which it was left: a step, and a number of requests.
@@ -81,13 +97,13 @@ class Line:
 class Shown:
     """A snapshot that was shown, after those requests, and in which operation."""
 
-    state: WorldState
+    state: WorldState | SavedMoment
     made: list[Made]
     snapshot: Snapshot
     operation: int
 
 
-def key_of(state: WorldState, made: Sequence[Made]) -> tuple[int, ...]:
+def key_of(state: WorldState | SavedMoment, made: Sequence[Made]) -> tuple[int, ...]:
     return (id(state), *map(id, made))
 
 
@@ -128,6 +144,12 @@ class Player:
         self.undone: list[tuple[Line, dict[int, Line] | None]] = []
         self.resets: list[tuple[Line, dict[int, Line]]] = []
         self.saved: WorldState | None = None
+        # The moment that was saved last. By the beginning of a line and its requests, the steps of
+        # those that were saved: there, the world moves into another space. Each has a key as long
+        # as these are there.
+        self.moment: SavedMoment | None = None
+        self.moves: dict[tuple[int, ...], list[int]] = {}
+        self.kept: list[list[object]] = []
 
     # Operations
 
@@ -213,7 +235,8 @@ class Player:
             self._perform('undo')
         except OutOfHistory:
             self._check(not words, f'undo is refused, though it is told: {words}')
-            self._check(self.dropped or not (serial or self.resets), 'undo is refused')
+            done = any(each.gesture for each in before.made[:serial])
+            self._check(self.dropped or not (done or self.resets), 'undo is refused')
             return
         if words == 'undo reset':
             self.undone.append((before, self.left))
@@ -324,7 +347,10 @@ class Player:
         self.undone.clear()
         loads = [each.request.state for each in before.made if isinstance(each.request, Restore)]
         self.courses += 1
-        self.line = Line(self.courses, loads[-1] if loads else before.state)
+        begun = before.state
+        loads.insert(0, begun.loaded if isinstance(begun, SavedMoment) else begun)
+        # Each beginning is another one, also of the same state.
+        self.line = Line(self.courses, replace(loads[-1]))
         self.left = {}
         self._arrive((0, 0))
 
@@ -391,8 +417,7 @@ class Player:
         for one, other in zip(loaded.joints, state.joints, strict=True):
             self._check(one == other, f'a joint loads differently: {one} was {other}')
         self._check(text_of(loaded, self.rate) == text, 'saved, loaded and saved again differs')
-        worlds = [Simulation(physics_rate=self.rate, publish_rate=self.rate / self.frame_steps,
-                             checkpoints=self.checkpoints) for _ in range(2)]  # fmt: skip
+        worlds = self._beside(), self._beside()
         for world, begins in zip(worlds, (state, loaded), strict=True):
             world.begin(begins)
         again = text_of(worlds[1].save(), self.rate)
@@ -405,6 +430,51 @@ class Player:
         """Load the world that was saved last; time goes on."""
         if self.saved is not None:
             self.ask(Restore(state=self.saved))
+
+    def save_moment(self, frames: int) -> None:
+        """Save the moment; this world goes on like one that restores it."""
+        before = self._position()
+        self.submitted.append(NOTHING)
+        try:
+            moment = self.sim.checkpoint()
+        except InPast:
+            self._check(before.moment != (before.head, len(before.made)), 'it is the end')
+            self.look(self.sim.apply_requests())
+            return
+        self.look(moment.frame)
+        grips = moment.frame.snapshot.grips
+        self._check(grips == moment.checkpoint.grips, f'the frame of a saved moment has {grips}')
+        steps = self.moves.setdefault(key_of(self.line.state, self.line.made), [])
+        steps.append(self.sim.step)
+        self.kept.append([self.line.state, *self.line.made])
+        self.moment, other = moment, self._beside()
+        other.restore(moment)
+        other.reports_contacts = self.sim.reports_contacts
+        for _ in range(frames):
+            frame, its = self.sim.advance_frame(), other.advance_frame()
+            self.look(frame)
+            self._check(same(frame.snapshot, its.snapshot), 'a restored world goes apart')
+
+    def restore(self) -> None:
+        """Continue from the moment that was saved last, without a past."""
+        if self.moment is None:
+            return
+        self.sim.restore(self.moment)
+        step = self.moment.frame.snapshot.step
+        self.line, self.courses = Line(1, replace(self.moment), head=step), 1
+        self.left, self.undone, self.resets = {}, [], []
+        frame = self.sim.frame
+        here = frame.course, frame.speed, frame.answers
+        self._check(here == (1, 0.0, ()), f'a restored frame has {here}')
+        self._arrive((step, 0))
+
+    def _beside(self) -> Simulation:
+        """Return a new simulation beside this one."""
+        return Simulation(
+            physics_rate=self.rate,
+            publish_rate=self.rate / self.frame_steps,
+            checkpoints=self.checkpoints,
+        )
 
     def _new_simulation(self, physics: float, publish: float) -> Simulation:
         return Simulation(
@@ -483,15 +553,17 @@ class Player:
             self.line = Line(frame.course, line.state, kept, logged[-1].step)
         else:
             self._check(dropped + common == len(line.made), 'requests are lost')
-        fresh = [
-            Made(each.step, each.request, each.gesture, each.author) for each in logged[common:]
-        ]
+        fresh: list[Made] = []
+        for each in logged[common:]:
+            moves = self.moves.get(key_of(self.line.state, [*self.line.made, *fresh]), ())
+            after = max((step for step in moves if step <= each.step), default=-1)
+            fresh.append(Made(each.step, each.request, each.gesture, each.author, after))
         for each in fresh:
             self._check(self._was_asked(each.request), 'nobody has asked for this')
         self.submitted.clear()
         # Nobody has asked for the release of a silent hand, and what there is to redo stays.
-        released = sum('no message from' in each.message for each in frame.answers)
-        if len(fresh) > released:
+        unasked = sum('no message from' in each.message for each in frame.answers)
+        if len(fresh) > unasked + sum(each.request == NOTHING for each in fresh):
             self.undone.clear()
         self.line.made += fresh
         return fresh
@@ -526,24 +598,34 @@ class Player:
                         del pending[key]
 
     def straight(
-        self, state: WorldState, made: list[Made], end: int
-    ) -> Iterator[tuple[WorldState, list[Made], Snapshot]]:
+        self, state: WorldState | SavedMoment, made: list[Made], end: int
+    ) -> Iterator[tuple[WorldState | SavedMoment, list[Made], Snapshot]]:
         """Play requests from nothing, step by step; yield what is there after each of both."""
         past = Past(
             physics_rate=self.rate,
             frame_steps=1,
-            settings=state.settings,
+            settings=SETTINGS,
             length=1e6,
             checkpoints=self.checkpoints,
             memory=1e6,
             boundary=ErrorBoundary(),
         )
-        past.begin(state)
+        if isinstance(state, SavedMoment):
+            past.restore(state.checkpoint, state.loaded)
+        else:
+            past.begin(state)
         cursor = past.cursor
         yield state, [], cursor.world.snapshot()
         for count in range(len(made) + 1):
-            goal = made[count].step if count < len(made) else end
-            while cursor.world.step_count < goal:
+            goal = after = end
+            if count < len(made):
+                goal, after = made[count].step, made[count].after
+            moves = self.moves.get(key_of(state, made[:count]), ())
+            while True:
+                if cursor.world.step_count in moves and cursor.world.step_count <= after:
+                    cursor.add_keyframe()
+                if cursor.world.step_count >= goal:
+                    break
                 cursor.advance(1)
                 yield state, made[:count], cursor.world.snapshot()
             if count < len(made):
@@ -603,7 +685,9 @@ class NodePlayer(Player, ABC):
 def history_of_node(seed: int) -> list[Operation]:
     """Return the operations of a seed at the rates that a node has by default."""
     (begin, *_, contacts), *operations = history_of(seed)
-    return [(begin, 240.0, 60.0, 3.0, contacts), *operations]
+    # No message saves a moment.
+    others = [each for each in operations if each[0] not in {'save_moment', 'restore'}]
+    return [(begin, 240.0, 60.0, 3.0, contacts), *others]
 
 
 # Playing and shrinking

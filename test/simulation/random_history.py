@@ -5,8 +5,9 @@
 Random histories of a simulation, each made of a seed.
 
 A history is a list of operations: requests, speeds, seeks, undo, redo, resets, courses, limits,
-saved worlds. Each is the name of a method of `histories.Player` with its arguments. Names are few,
-so that requests meet. Some histories begin with a shipped world, and are about its bodies.
+saved worlds and moments. Each is the name of a method of `histories.Player` with its arguments.
+Names are few, so that requests meet. Some histories begin with a shipped world, and are about its
+bodies.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -169,6 +170,8 @@ def operation_of(rng: Choices) -> Operation:
         (1, lambda: ('limit_history', rng.choice((0.5, 1.0, 5.0, 600.0)))),
         (2, lambda: ('save',)),
         (1, lambda: ('load',)),
+        (3, lambda: ('save_moment', rng.randint(0, 12))),
+        (1, lambda: ('restore',)),
         (1, lambda: ('report_contacts', rng.random() < 0.5)),
         (2, lambda: ('drag', rng.choice(rng.names), rng.point(), rng.randint(1, 10),
                      rng.random() < 0.5)),

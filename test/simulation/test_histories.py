@@ -46,6 +46,38 @@ def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body(
     )  # fmt: skip
 
 
+def test_lines_that_have_run_on_from_a_saved_moment_show_what_they_have_shown():
+    discs = [
+        Spawn(name=f'a/{row}', shape=Disc(radius=0.3), pose=(0.1 * row, 1.0 + 0.7 * row, 0.0))
+        for row in range(6)
+    ]
+    # A course that has been left goes on from the moment to which the undo leads.
+    play(
+        [
+            ('begin', 240.0, 60.0, 0.5, False),
+            *(('ask', disc) for disc in discs),
+            ('save',),
+            ('load',),
+            ('reset',),
+            ('run', 1.0, 60),
+            ('seek', 0.5),
+            ('ask', Spawn(name='b/0', shape=Disc(radius=0.3), pose=(2.0, 5.0, 0.0))),
+            ('undo',),
+            ('save_moment', 40),
+            ('course', 0),
+            ('seek', 0.9),
+            ('course', 0),
+            ('run', 1.0, 5),
+            ('undo',),
+            ('redo',),
+            ('redo',),
+            ('drag', 'a/0', (1.0, 3.0), 3, False),
+            ('save_moment', 3),
+            ('restore',),
+        ]
+    )
+
+
 @pytest.mark.slow
 def test_a_history_shows_the_same_in_another_process():
     words = ('-m', 'test.simulation.histories', '17', '--digest')

@@ -570,7 +570,7 @@ def test_a_lost_body_is_told_of():
     assert [(answer.topic, answer.subject, answer.code) for answer in told] == [
         ('~/spawn', 'a/0', ''),
         ('~/command', 'a/0', ''),
-        ('divergence', 'a/0', 'divergence'),
+        ('body_lost', 'a/0', 'body_lost'),
     ]
     assert len(sim.world) == 0
 

@@ -21,6 +21,9 @@ from tornado.websocket import websocket_connect, WebSocketClientConnection
 
 from ..outside import PATIENCE
 
+# Tornado's own are 20 s.
+TIMEOUTS = {'connect_timeout': PATIENCE, 'request_timeout': PATIENCE}
+
 
 class Picture(NamedTuple):
     """A frame as a page gets it."""
@@ -154,6 +157,7 @@ class Browser:
         self.login = sketchpad.url()
         self.base = self.login.partition('/login')[0]
         self.loop = asyncio.new_event_loop()
+        self._pages: list[Page] = []
         self.cookie = self.login_cookie(self.login)
 
     def run(self, coroutine: Coroutine[Any, Any, Any]) -> Any:
@@ -189,6 +193,7 @@ class Browser:
             headers=headers | options.pop('headers', {}),
             follow_redirects=False,
             raise_error=False,
+            **TIMEOUTS,
             **options,
         )
 
@@ -223,13 +228,24 @@ class Browser:
             del headers['Origin']
 
         async def connect() -> WebSocketClientConnection:
-            request = HTTPRequest(self.base.replace('http', 'ws') + path, headers=headers)
+            url = self.base.replace('http', 'ws') + path
+            request = HTTPRequest(url, headers=headers, **TIMEOUTS)
             return await websocket_connect(request, max_message_size=2**27)
 
-        return Page(self, self.run(connect()))
+        self._pages.append(Page(self, self.run(connect())))
+        return self._pages[-1]
 
     def close(self) -> None:
-        for task in asyncio.all_tasks(self.loop):
-            task.cancel()
-        self.loop.run_until_complete(self._pass())
+        """Close all pages, and end what waits for the server."""
+        for page in self._pages:
+            page.socket.close()
+        self.until(lambda: all(page.closed for page in self._pages), settling=False)
+        self.loop.run_until_complete(self._end())
         self.loop.close()
+
+    async def _end(self) -> None:
+        tasks = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        await self.loop.shutdown_default_executor()

@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 
 from collections.abc import Callable, Generator, Iterator
+from contextlib import closing, ExitStack
 from typing import Any
 
+from physsim_ros.sketchpad.server import server, website
 from physsim_ros.testing import PhysSim
 import pytest
 import yaml
 
 from .browser import Browser
 from .chromium import launched_chromium, OpenSheet, Sheet, started_world, WORLD
-from ..outside import Outside
+from ..outside import Outside, PATIENCE
 
 
 @pytest.hookimpl(wrapper=True)
@@ -29,12 +31,30 @@ def pytest_runtest_makereport(
     return report
 
 
+@pytest.fixture(autouse=True)
+def patient_server(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have servers in this process wait for pages that a busy machine stops, or a test itself."""
+    monkeypatch.setattr(server, 'PING_PERIOD', PATIENCE)
+    for name in ('idle_connection_timeout', 'body_timeout'):
+        monkeypatch.setitem(website.LIMITS, name, PATIENCE)
+
+
 @pytest.fixture
-def browser(start: Callable[..., PhysSim]) -> Iterator[Browser]:
+def browse(start: Callable[..., PhysSim]) -> Iterator[Callable[..., Browser]]:
+    """Give a function that starts a world with parameters, and gives clients of its page."""
+    with ExitStack() as ending:
+
+        def started(**parameters: Any) -> Browser:
+            world = start(sketchpad='serve', sketchpad_port=0, **parameters)
+            return ending.enter_context(closing(Browser(world)))
+
+        yield started
+
+
+@pytest.fixture
+def browser(browse: Callable[..., Browser]) -> Browser:
     """Give clients of the page of a world, whose time the test advances."""
-    browser = Browser(start(sketchpad='serve', sketchpad_port=0))
-    yield browser
-    browser.close()
+    return browse()
 
 
 @pytest.fixture(scope='module')

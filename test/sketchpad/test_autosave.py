@@ -24,7 +24,6 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave as module
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 from physsim_ros.sketchpad.file_work import FileWork
-from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser, Page
@@ -308,19 +307,18 @@ def test_a_directory_that_cannot_be_written_is_no_hindrance(
 
 
 def test_of_two_nodes_on_a_directory_one_autosaves_until_it_ends(
-    start: Callable[..., PhysSim],
+    browse: Callable[..., Browser],
     outside: Outside,
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     for name in ('PERIOD', 'STILL_PERIOD', 'SHARE'):
         monkeypatch.setattr(module, name, 0.0)
-    given = {'sketchpad': 'serve', 'sketchpad_port': 0, 'world_dir': tmp_path}
-    first = outside.start_world(**given)
+    first = outside.start_world(sketchpad='serve', sketchpad_port=0, world_dir=tmp_path)
     first.wait_for('ready')
     kept = tmp_path / '.autosave.yaml'
     kept.write_text('drawn in the first')
-    browser = Browser(start(**given | {'world_dir': str(tmp_path)}))
+    browser = browse(world_dir=str(tmp_path))
     page = browser.open_page()
     browser.until(lambda: 'in_use' in {each['code'] for each in page.of_type('answer')})
     lesson = {'lesson': 'Lever', 'answer': '2', 'right': True}
@@ -339,7 +337,6 @@ def test_of_two_nodes_on_a_directory_one_autosaves_until_it_ends(
     assert page.spawn('a/2')['ok']
     browser.until(lambda: browser.physsim.step() or 'a/2' in kept.read_text())
     assert (tmp_path / '.unsaved.yaml').read_text() == 'drawn in the first'
-    browser.close()
 
 
 def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(

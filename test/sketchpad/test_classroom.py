@@ -27,7 +27,6 @@ from physsim_ros.sketchpad.messages.fields import LONGEST_PERSON
 from physsim_ros.sketchpad.results import MOST_RESULTS, Results, results_file
 from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server.access import Access
-from physsim_ros.testing import PhysSim
 import pytest
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
@@ -612,13 +611,12 @@ def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path)
 
 
 def test_lessons_of_another_directory_reach_the_world(
-    start: Callable[..., PhysSim], tmp_path: Path
+    browse: Callable[..., Browser], tmp_path: Path
 ) -> None:
     lesson = (shipped_lessons() / 'slope.yaml').read_text()
     (tmp_path / 'teacher').mkdir()
     (tmp_path / 'teacher' / 'mine.yaml').write_text(lesson.replace('Down a slope', 'Mine'))
-    world = start(sketchpad='serve', sketchpad_port=0, lesson_dir=str(tmp_path / 'teacher'))
-    browser = Browser(world)
+    browser = browse(lesson_dir=str(tmp_path / 'teacher'))
     pupil = browser.open_page()
 
     def title() -> str:
@@ -634,7 +632,6 @@ def test_lessons_of_another_directory_reach_the_world(
     assert pupil.ask('service', name='undo')['ok']
     browser.physsim.run(0.1)
     pupil.until(lambda: not title())
-    browser.close()
 
 
 def test_a_page_that_watches_a_class_is_nobody_in_its_world(browser: Browser) -> None:

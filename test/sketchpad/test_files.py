@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import closing
 import errno
 import io
 from pathlib import Path
@@ -162,4 +163,5 @@ def test_a_page_is_served_though_its_address_cannot_be_printed(
     (result,) = physsim.node.set_parameters([Parameter('sketchpad', value='serve')])
     assert result.successful
     assert [type(each) for each in errors] == [OSError]
-    assert Browser(physsim).fetch('/session').code == 200
+    with closing(Browser(physsim)) as again:
+        assert again.fetch('/session').code == 200

@@ -19,7 +19,6 @@ from physsim_ros.model.requests import (
     Unjoin,
 )
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser
@@ -89,10 +88,10 @@ class PagePlayer(NodePlayer):
 @pytest.mark.slow
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_history_on_a_page_shows_what_its_requests_show_when_they_are_played_from_nothing(
-    seed: int, start: Callable[..., PhysSim], monkeypatch: pytest.MonkeyPatch
+    seed: int, browse: Callable[..., Browser], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert SETTINGS.bounds is not None
-    browser = Browser(start(bounds=[*SETTINGS.bounds], sketchpad='serve', sketchpad_port=0))
+    browser = browse(bounds=[*SETTINGS.bounds])
     player, outputs = PagePlayer(browser), browser.physsim.node.outputs
     show = outputs.show
 
@@ -102,5 +101,4 @@ def test_a_history_on_a_page_shows_what_its_requests_show_when_they_are_played_f
 
     monkeypatch.setattr(outputs, 'show', note)
     play(history_of_node(seed), player)
-    browser.close()
     assert player.sent

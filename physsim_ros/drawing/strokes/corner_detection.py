@@ -36,27 +36,26 @@ _PARABOLA = _ALONG**2 - (_ALONG**2).mean()
 _ASTRAY = 0.75
 
 
-def corners(points: Floats, *, closed: bool) -> list[int]:
+def corners(path: Floats, *, closed: bool) -> list[int]:
     """
     Return the indices of the corners; the ends of an open polyline are corners.
 
-    :param points: (n, 2) float64: evenly spaced; of a closed polyline, the first not repeated
+    :param path: (n, 2) float64: smooth, evenly spaced; of a closed one, the first not repeated
     """
-    count = len(points)
-    smooth = smoothed(points, closed=closed)
-    turn = np.abs(turns(smooth, ARM, closed=closed))
+    count = len(path)
+    turn = np.abs(turns(path, ARM, closed=closed))
     places = _peaks(turn, closed=closed)
     if not closed:
         inner = places[(places > 2) & (places < count - 3)]
-        chosen = _corners_among(smooth, np.array([0, *inner, count - 1]), WOBBLE)
-        return _without_arcs(smooth, chosen)
+        chosen = _corners_among(path, np.array([0, *inner, count - 1]), WOBBLE)
+        return _without_arcs(path, chosen)
     if len(places) < 2:
         return list(map(int, places))
     # Opened at the sharpest candidate, which is a corner.
     start = places[turn[places].argmax()]
-    path = np.roll(smooth, -start, axis=0)
+    turned = np.roll(path, -start, axis=0)
     opened = np.array([*np.sort((places - start) % count), count])
-    chosen = _corners_among(np.vstack((path, path[:1])), opened, _WOBBLE_CLOSED)
+    chosen = _corners_among(np.vstack((turned, turned[:1])), opened, _WOBBLE_CLOSED)
     return sorted((each + int(start)) % count for each in chosen[:-1])
 
 
@@ -87,9 +86,14 @@ def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
     return found
 
 
-def bends_of(points: Floats) -> Floats:
-    """Return the ends and bends of an open stroke, (k, 2) float64 [m]."""
-    at = _without_stubs(points, corners(points, closed=False))
+def bends_of(points: Floats, path: Floats) -> Floats:
+    """
+    Return the ends and bends of an open stroke, (k, 2) float64 [m].
+
+    :param points: (n, 2) float64: of the stroke [m]
+    :param path: the same, smooth
+    """
+    at = _without_stubs(points, corners(path, closed=False))
     return vertices(points, at, closed=False)
 
 
@@ -100,7 +104,7 @@ def outline_corners(outline: Floats) -> tuple[list[int], Floats, float]:
     :return: their indices; (k, 2) float64 [m]; the distance of the outline from the sides between
         them (rms) [m], infinite where they are fewer than three
     """
-    at = corners(outline, closed=True)
+    at = corners(smoothed(outline, closed=True), closed=True)
     error = _side_error(outline, at) if len(at) > 2 else math.inf
     return at, vertices(outline, at, closed=True), error
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Features of a stroke that several forms are recognised by: its swings and its self-crossings.
+Features of a stroke that several forms are recognised by: its bends, swings and self-crossings.
 
 Law: a sign is recognised by its structure, not by a template; rotated, stretched and drawn
 backwards it is the same sign.
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 import itertools
 import math
 
@@ -25,7 +26,9 @@ from physsim_ros.drawing.geometry import (
     smoothed,
     turns,
 )
+from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import Limit
+from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, norms
@@ -70,21 +73,38 @@ class Swings:
     steady: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Features:
     """
     A stroke with its features.
 
     :param stroke: the stroke
+    :param path: (COUNT, 2) float64: the stroke without the tremor of the hand [m]
     :param swings: its oscillation
     :param crossings: the places at which it crosses itself
     :param measures: of the whole stroke, by name: evidence for and against every sign
     """
 
     stroke: Stroke
+    path: Floats
     swings: Swings
     crossings: list[Crossing]
     measures: Mapping[str, float]
+
+    @cached_property
+    def bends(self) -> Floats:
+        """Ends and bends of the stroke as an open line, (k, 2) float64 [m]."""
+        return bends_of(self.stroke.points, self.path)
+
+    @cached_property
+    def curve(self) -> Floats | None:
+        """(k, 2) float64: the stroke as a curve [m]; None where straight sides fit it."""
+        return simplified(self.path, self.bends, self.stroke.size)
+
+    @property
+    def has_teeth(self) -> bool:
+        """Return whether its swings are higher than a hand trembles."""
+        return self.swings.height > TREMOR.at * self.stroke.size
 
 
 def features_of(stroke: Stroke) -> Features:
@@ -105,7 +125,9 @@ def features_of(stroke: Stroke) -> Features:
         'sharpest': float(turn.max()),
         'turning': float(turn.mean()),
     }
-    return Features(stroke=stroke, swings=swings, crossings=crossings, measures=measures)
+    return Features(
+        stroke=stroke, path=path, swings=swings, crossings=crossings, measures=measures
+    )
 
 
 def swings_of(points: Floats) -> Swings:

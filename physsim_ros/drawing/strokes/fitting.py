@@ -145,15 +145,14 @@ def ellipse(outline: Floats) -> Ellipse:
     return Ellipse(center=center, angle=angle, half=(longer, shorter), error=error)
 
 
-def simplified(points: Floats, bends: Floats) -> Floats | None:
+def simplified(path: Floats, bends: Floats, size: float) -> Floats | None:
     """
     Return a curve of few points, or None where straight sides fit the stroke.
 
-    :param points: (n, 2) float64: of an open stroke, evenly spaced
-    :param bends: (n, 2) float64: ends and bends of the sides
+    :param path: (n, 2) float64: of an open stroke, smooth, evenly spaced [m]
+    :param bends: (k, 2) float64: ends and bends of the sides [m]
+    :param size: of the stroke [m]
     """
-    size = size_of(points)
-    path = smoothed(points, closed=False)
     off = segment_distances(path, bends[:-1, None], bends[1:, None]).min(axis=0)
     if math.sqrt(float((off**2).mean())) <= WOBBLE * size:
         return None

@@ -19,7 +19,7 @@ from physsim_ros.drawing.geometry import ARM, COUNT, path_length, point_of
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import LEAST
-from physsim_ros.drawing.strokes.features import Features, FEWEST, TREMOR
+from physsim_ros.drawing.strokes.features import Features, FEWEST
 from physsim_ros.drawing.strokes.stages import BETWEEN, Context, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
@@ -56,7 +56,7 @@ def meanings(form: Form, context: Context) -> Iterator[Meaning]:
     yield Meaning(
         name='wall',
         weight=form.weight * (1.0 - share),
-        build=partial(outcomes.wall, points, context),
+        build=partial(outcomes.wall, context),
     )
 
 
@@ -112,8 +112,7 @@ def _is_toothed(features: Features, points: Floats) -> bool:
     if len(side) >= FEWEST and bool((side[1:] == -side[:-1]).all()):
         return True
     swings = features.swings
-    high = swings.height > TREMOR.at * features.stroke.size
-    return swings.count > FEWEST and high and swings.steady > _STRAIGHT
+    return swings.count > FEWEST and features.has_teeth and swings.steady > _STRAIGHT
 
 
 def _cubic_length(points: Floats) -> float:

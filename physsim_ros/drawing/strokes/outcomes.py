@@ -16,7 +16,6 @@ import numpy as np
 from physsim_ros.drawing import chains, new_bodies
 from physsim_ros.drawing.geometry import circle_outline, point_of
 from physsim_ros.drawing.strokes import bodies_under, regularisation
-from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.stages import Context, End, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
@@ -74,12 +73,11 @@ def smooth_polygon(corners: Floats, context: Context) -> Outcome:
     )
 
 
-def wall(points: Floats, context: Context) -> Outcome:
-    """Return a wall, of its ends and bends, or along the curve of the stroke."""
+def wall(context: Context) -> Outcome:
+    """Return a wall, of the ends and bends of the stroke, or along its curve."""
     settings, name = context.settings, context.scene.next_body()
-    # A stroke that straight sides do not fit is a curve, and stays one.
-    curve = simplified(context.drawn.points, points)
-    path = regularisation.line(points, settings.beautify) if curve is None else curve
+    bends, curve = context.features.bends, context.features.curve
+    path = regularisation.line(bends, settings.beautify) if curve is None else curve
     corners = list(map(point_of, path))
     corners[0] = bodies_under.wall_end(corners[0], context)
     end = bodies_under.wall_end(corners[-1], context)

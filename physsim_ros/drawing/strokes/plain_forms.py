@@ -17,11 +17,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.geometry import loop_roundness, size_of, widened
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.corner_detection import (
-    bends_of,
-    outline_corners,
-    turning_within,
-)
+from physsim_ros.drawing.strokes.corner_detection import outline_corners, turning_within
 from physsim_ros.drawing.strokes.evidence import evidence, LEAST, Limit, probabilities
 from physsim_ros.drawing.strokes.features import Features, TREMOR
 from physsim_ros.drawing.strokes.fitting import Ellipse, traced
@@ -87,7 +83,7 @@ def plain_forms(features: Features, plain: float) -> Iterator[Form]:
     closure = _OPEN.below(stroke.gap - _RELATED * max(stroke.relatability, 0.0))
     line = plain * (1.0 - closure) * _lineness(features, still)
     if line >= LEAST:
-        yield Form(name=LINE, weight=line, points=bends_of(stroke.points))
+        yield Form(name=LINE, weight=line, points=features.bends)
     closed = plain * closure * still
     if closed < LEAST:
         return

@@ -11,7 +11,7 @@ ordinary requests, to be submitted.
 stage                    returns             which is
 =======================  ==================  ======================================================
 `stroke.resample_stroke` `Stroke`            samples cleaned, a path of evenly spaced points
-`features.features_of`   `Features`          its turns, swings and crossings
+`features.features_of`   `Features`          its bends, swings and crossings
 `forms.forms_of`         `Form` of each kind its looks, each with a weight: signs and the shapes of
                                              outlines by evidence, lines by their corners
 `meanings.in_scene`      `Context`           all that, over the bodies at its ends

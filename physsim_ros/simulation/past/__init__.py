@@ -44,7 +44,8 @@ keyframe. At each one the world moves into a space that is built from it, and so
 that passes it; a line that parted before it does not. Several lines may run from one node: they
 have the same bits, and the first line at a step makes the checkpoint that all lines use. A request
 at the step of a checkpoint comes before or after it, which `Node.after` says. The requests alone
-decide when a checkpoint is due, not the frames in which steps are made.
+decide when a checkpoint is due, not the frames in which steps are made. A checkpoint that is asked
+for where another line has run on has a node of its own, whose request changes nothing.
 
 *Dropping.* The tree counts the users of each node: its children and the lines that end with it. A
 node without users is removed. The oldest checkpoint of the line in force is the root of all

@@ -19,11 +19,11 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator
 from enum import Enum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory, Refusal
-from physsim_ros.model.requests import Request
+from physsim_ros.model.requests import Configure, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Answer
@@ -40,7 +40,7 @@ class Replay:
     """
     A world that is sent to moments of the line in force.
 
-    :param world: at a moment of the line, or sent there by `resume`
+    :param world: at a moment of the line, or sent there by `slices_of_resumption`
     :param tree: of all lines
     :param reports: of events without a request, to which it adds
 
@@ -110,7 +110,7 @@ class Replay:
             tree.note_step(end)
             for name in lost:
                 self._report(
-                    'divergence', f'{name} left the range of numbers and was removed', name
+                    'body_lost', f'{name} left the range of numbers and was removed', name
                 )
             for name, force in broken:
                 self._report(
@@ -177,7 +177,7 @@ class Cursor(Replay):
     """
     A world at a moment of the line in force.
 
-    :param world: at a moment of the line, or sent there by `begin` or `resume`
+    :param world: at a moment of the line, or sent there by `begin` or `restore`
     :param tree: of all lines
     :param reports: of events without a request, to which it adds
     """
@@ -389,24 +389,29 @@ class Cursor(Replay):
         :param change: its effect
         :param author: name of the person who did it; '' is nobody
         """
-        tree, (step, serial) = self._tree, self.moment
-        tree.add_request(
-            Node(
-                parent=tree.node(serial),
-                step=step,
-                request=request,
-                settings=self._world.settings,
-                gesture=gesture,
-                author=author,
-                subject=change.answer.subject,
-                joined=change.joined,
-                adds=change.has_grown,
-            )
+        self._add_node(
+            request,
+            gesture=gesture,
+            author=author,
+            subject=change.answer.subject,
+            joined=change.joined,
+            adds=change.has_grown,
         )
-        self.serial += 1
-        if tree.is_log_long:
+        if self._tree.is_log_long:
             # A paused world can then drop its oldest requests.
             self.add_keyframe()
+
+    def _add_node(self, request: Request, **fields: Any) -> None:
+        """
+        Add the node of a request at this moment, the new tip.
+
+        :param fields: of it, beside those that follow from the moment
+        """
+        tree, (step, serial) = self._tree, self.moment
+        parent, settings = tree.node(serial), self._world.settings
+        node = Node(parent=parent, step=step, request=request, settings=settings, **fields)
+        tree.add_request(node)
+        self.serial += 1
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps: by replay up to the head, then by new steps."""
@@ -448,8 +453,16 @@ class Cursor(Replay):
             yield from self.slices_of_keyframe()
 
     def add_keyframe(self) -> Checkpoint:
-        """Make a checkpoint now, the last of the line, continue from it, and return it."""
+        """
+        Make a checkpoint now, the last of the line, continue from it, and return it.
+
+        Where another line has run on from here, which does not pass it, it has a node of its own,
+        whose request changes nothing: an undo takes it back with the gesture before.
+        """
         self.finish_work()
+        tip = self._tree.tip
+        if self._world.step_count < tip.end:
+            self._add_node(Configure(changes={}), gesture=tip.gesture)
         return finish(self.slices_of_keyframe())
 
     def slices_of_keyframe(self) -> Generator[None, None, Checkpoint]:

@@ -278,8 +278,9 @@ class Tree(LineInForce):
         return bool(self.undone) and not self._is_lost(self.undone[-1])
 
     def undoes_reset(self, serial: int) -> bool:
-        """Return whether an undo at a serial reverts a reset: all since the reset is undone."""
-        return serial == 0 and self.oldest == 0 and bool(self.resets)
+        """Return whether an undo at a serial reverts a reset: every gesture since is undone."""
+        since = self.node(serial).gesture_start
+        return since == 0 and self.oldest == 0 and bool(self.resets)
 
     def drop_lost(self) -> None:
         """Drop the lines that part from the line in force before the oldest checkpoint."""

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections import Counter
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import suppress
@@ -14,6 +15,7 @@ from ipaddress import ip_address
 import resource
 import socket
 from typing import Any
+from weakref import WeakSet
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
@@ -127,9 +129,11 @@ class BoundedServer(HTTPServer):
         self._turns: Turns = request_callback.settings['turns']
         # All connections; those whose request was begun first, or has not come, are first.
         self._by_age: dict[Any, None] = {}
+        self._streams: WeakSet[IOStream] = WeakSet()
 
     def handle_stream(self, stream: IOStream, address: Any) -> None:
         """Serve a connection; where there are too many, close one."""
+        self._streams.add(stream)
         if len(self._by_age) >= most_connections():
             numbers = Counter(map(_address_of, self._by_age))
             oldest = max(self._by_age, key=lambda each: numbers[_address_of(each)])
@@ -157,6 +161,14 @@ class BoundedServer(HTTPServer):
             await self._turns.take(connection, _address_of(connection))
         if connection.stream.closed():
             raise HTTPInputError('the client has left')
+
+    async def close_all_connections(self) -> None:
+        """Close all connections, also those of web sockets, which tornado has detached."""
+        await super().close_all_connections()
+        for stream in [*self._streams]:
+            stream.close()
+        # Their readers end.
+        await asyncio.sleep(0.0)
 
     def on_close(self, server_conn: object) -> None:
         """Forget a connection."""

@@ -7,9 +7,9 @@ from itertools import pairwise
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import COUNT, widened
-from physsim_ros.drawing.strokes.corner_detection import bends_of, corners, vertices
-from physsim_ros.drawing.strokes.fitting import simplified
+from physsim_ros.drawing.geometry import COUNT, smoothed, widened
+from physsim_ros.drawing.strokes.corner_detection import corners, vertices
+from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.stroke import clean_samples, GRAIN, resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize, Malformed
@@ -33,7 +33,7 @@ def found(samples: Floats) -> Floats:
     drawn = resample_stroke(samples)
     assert drawn.outline is not None
     outline, narrowed = widened(drawn.outline)
-    at = corners(outline, closed=True)
+    at = corners(smoothed(outline, closed=True), closed=True)
     made = narrowed(vertices(outline, at, closed=True))
     middle = made.mean(axis=0)
     angle = np.arctan2(*(made - middle).T[::-1])
@@ -46,7 +46,7 @@ def test_a_check_with_bowed_arms_has_one_bend(bow: float) -> None:
     arm = np.column_stack((x, x + 4.0 * bow * x * (1.0 - x)))
     check = np.vstack((0.5 * arm[::-1] * (-1.0, 1.0), arm))
 
-    assert bends_of(resample_stroke(check).points) == pytest.approx(
+    assert features_of(resample_stroke(check)).bends == pytest.approx(
         np.array([(-0.5, 0.5), (0.0, 0.0), (1.0, 1.0)]), abs=0.15
     )
 
@@ -83,27 +83,27 @@ def test_hooks_of_the_pen_are_cut_off() -> None:
 
     drawn = resample_stroke(along(hooked, 200))
 
-    assert bends_of(drawn.points) == pytest.approx(np.array([(0, 0), (3, 0)]), abs=0.06)
+    assert features_of(drawn).bends == pytest.approx(np.array([(0, 0), (3, 0)]), abs=0.06)
 
 
 def test_a_line_that_goes_back_upon_itself_has_a_corner_there() -> None:
     arrow = np.array([(0, 0), (3, 0), (2.3, 0.5), (3, 0), (2.3, -0.5)])
     drawn = resample_stroke(along(arrow, 200))
 
-    assert len(corners(drawn.points, closed=False)) == 5
+    assert len(corners(features_of(drawn).path, closed=False)) == 5
 
 
 def test_a_curve_is_kept_as_points_near_to_it_and_a_bow_of_a_line_is_not() -> None:
     x = np.linspace(0.0, 4.0, 150)
     hill, bow = (np.column_stack((x, high * np.sin(math.pi * x / 4))) for high in (1.0, 0.05))
 
-    curve = simplified(resample_stroke(hill).points, bends_of(resample_stroke(hill).points))
+    curve = features_of(resample_stroke(hill)).curve
 
     assert curve is not None
     assert 6 <= len(curve) <= 30
     # m: 0.6 % of its size, and what smoothing takes
     assert curve[:, 1] == pytest.approx(np.sin(math.pi * curve[:, 0] / 4), abs=0.03)
-    assert simplified(resample_stroke(bow).points, bends_of(resample_stroke(bow).points)) is None
+    assert features_of(resample_stroke(bow)).curve is None
 
 
 def test_points_are_evenly_spaced_and_of_one_count() -> None:

@@ -10,7 +10,7 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import angles, least_squares, point_of, smoothed
+from physsim_ros.drawing.geometry import angles, least_squares, point_of
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.stages import (
@@ -39,7 +39,7 @@ _TURN = 1.5
 
 def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield an arc and a head, from either end; points: the arc's centre, then the arc."""
-    path = smoothed(features.stroke.points, closed=False)
+    path = features.path
     sides = path[_STRIDE:] - path[:-_STRIDE]
     bends = np.abs(angles(sides[:-_STRIDE], sides[_STRIDE:]))
     for points, turns in ((path, bends), (path[::-1], bends[::-1])):

@@ -13,9 +13,8 @@ from collections.abc import Iterator
 from functools import partial
 
 from physsim_ros.drawing.strokes import bodies_under, open_lines, outcomes
-from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import Limit
-from physsim_ros.drawing.strokes.features import Features, FEWEST, TREMOR
+from physsim_ros.drawing.strokes.features import Features, FEWEST
 from physsim_ros.drawing.strokes.stages import (
     Candidate,
     Context,
@@ -46,10 +45,9 @@ _MIDDLE_ON_ENDS = Limit(0.15)
 
 def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
     """Yield teeth in a row, sharp or round; the points are its ends and bends."""
-    swings, stroke = features.swings, features.stroke
-    high = swings.height > TREMOR.at * stroke.size
-    if swings.count >= FEWEST and high and swings.spread > _CLOSEST:
-        yield Candidate(measures=features.measures, points=bends_of(stroke.points))
+    swings = features.swings
+    if swings.count >= FEWEST and features.has_teeth and swings.spread > _CLOSEST:
+        yield Candidate(measures=features.measures, points=features.bends)
 
 
 def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
@@ -74,7 +72,7 @@ def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     yield Meaning(
         name='wall',
         weight=weight * (1.0 - spring),
-        build=partial(outcomes.wall, form.points, context),
+        build=partial(outcomes.wall, context),
     )
 
 
