@@ -29,7 +29,7 @@ else
   unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
-# The core of the engine, and how it is compiled where only mistakes are looked for.
+# The core of the engine.
 CORE := $(wildcard physsim_ros/engine/core/*.[ch])
 BUILT := $(VENV)/.core-is-built
 # Python writes into it when the core is first loaded: the folder of the core would then look changed.
@@ -41,6 +41,7 @@ HEADER := /usr/include/stdlib.h
 CHECKED := $(CORE) $(wildcard tools/sanitize/*.c test/engine/core/*.[ch])
 # When clang-tidy found nothing in a file.
 TIDY := $(patsubst %,$(VENV)/.tidy/%,$(filter %.c,$(CHECKED)))
+# How it is compiled where only mistakes are looked for.
 STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core -DCORE_SOURCES='""'
 
 # TypeScript's checker, for the types in the comments of the page.

@@ -118,6 +118,9 @@ def write_declarations(path: Path) -> None:
 SETUPTOOLS = int(setuptools.__version__.partition('.')[0])
 # Rerun, for recordings, and Arrow as recent as Rerun wants it: 650 MB.
 VIEWER = ['pyarrow', 'rerun-sdk>=0.41,<0.42']
+# Environments for learning, and QR codes of the addresses of a class.
+GYM = ['gymnasium>=1.1,<2']
+CLASS = ['segno>=1.6,<2']
 
 
 def _environment(name: str) -> list[str]:
@@ -233,20 +236,18 @@ setup(
             # Writes the cheat sheet to print.
             'fpdf2>=2.8,<3',
             'furo',
-            'gymnasium>=1.1,<2',
+            *GYM,
             'myst-parser>=4',
             'sphinx>=8.2,<9',
             'twine',
         ],
         # QR codes of the addresses of a class.
-        'class': ['segno>=1.6,<2'],
+        'class': CLASS,
         # Environments for learning (`physsim_ros.gym`).
-        'gym': ['gymnasium>=1.1,<2'],
+        'gym': GYM,
         'test': [
-            # That of environments.
-            'gymnasium>=1.1,<2',
-            # That of a class.
-            'segno>=1.6,<2',
+            *GYM,
+            *CLASS,
             # Runs sweeps in processes of a cluster.
             'distributed',
             'coverage>=7.10',

@@ -93,10 +93,8 @@ __all__ = [
     'robot_spawn',
     'save_world',
 ]
-# The modules that have them, each after those that it imports; but the robot of a simulation
-# before that of a body, which has its name.
+# The modules that have them, each after those that it imports.
 _MODULES = (
-    'simulation.robot',
     'model.errors',
     'model.settings',
     'model.shapes',
@@ -113,7 +111,8 @@ _MODULES = (
 def __getattr__(name: str) -> Any:
     """Import a name of the front."""
     if name in __all__:
-        for module in _MODULES:
+        # The robot of a simulation: that of a body, in the model, has its name.
+        for module in ('simulation.robot',) if name == 'Robot' else _MODULES:
             found = import_module(f'{__name__}.{module}')
             if hasattr(found, name):
                 return getattr(found, name)

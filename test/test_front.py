@@ -66,6 +66,12 @@ def test_the_package_imports_nothing_before_a_name_is_used() -> None:
     assert run_python('-c', 'import physsim_ros; dir(physsim_ros)' + IMPORTED) == 'IMPORTED []\n'
 
 
+def test_an_error_is_imported_without_an_engine() -> None:
+    program = 'from physsim_ros import PhysSimError, Refusal'
+
+    assert run_python('-c', program + IMPORTED) == 'IMPORTED []\n'
+
+
 def test_all_names_are_listed_and_found_and_typed_as_they_are_imported() -> None:
     tree = ast.parse((ROOT / 'physsim_ros' / '__init__.py').read_text(encoding='utf-8'))
     (typed,) = (each for each in tree.body if isinstance(each, ast.If))

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from nav_msgs.msg import Path as PathMessage
 from physsim_ros.drawing import cut_shape
-from physsim_ros.files import resources, yaml12
+from physsim_ros.files import drawing_file, yaml12
 from physsim_ros.maps import occupancy_grid
 from physsim_ros.model import attraction, body_properties, checks, names, settings, texts
 from physsim_ros.model.shapes import validation
@@ -63,7 +63,7 @@ PROMISES = {
         ('at most {:,} cells', occupancy_grid.MOST_CELLS),
         ('repeat at most {:,} values', yaml12.MOST_REPEATED),
     ],
-    'drawing.md': [('and {:,} strokes', resources.MOST_STROKES)],
+    'drawing.md': [('and {:,} strokes', drawing_file.MOST_STROKES)],
     'security.md': [('at most {:,} printable characters', texts.LONGEST_WORD)],
     'page_protocol.md': [
         ('an uploaded world; a picture | {:g} MiB;', world_handlers.MOST_UPLOADED / MIB),

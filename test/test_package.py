@@ -7,7 +7,6 @@ The package as others get it: packed, installed by pip, and built, run and teste
 Everything happens in a copy of the source tree below pytest's temporary directory.
 """
 
-import ast
 from importlib.metadata import Distribution, version
 from importlib.util import find_spec
 import os
@@ -375,26 +374,6 @@ def test_tests_of_others_are_checked_by_mypy(installed, tmp_path):
 
 def test_pip_installs_no_tests(installed):
     assert list(installed.glob('lib*/**/test')) == []
-
-
-def test_the_manifest_names_every_ros_package_that_is_imported():
-    declared = {element.text for element in _manifest().iter('exec_depend')}
-    imported = set()
-    for path in (*ROOT.glob('physsim_ros/**/*.py'), *ROOT.glob('launch/*.py')):
-        for node in ast.walk(ast.parse(path.read_bytes())):
-            if isinstance(node, ast.Import):
-                imported |= {alias.name.split('.')[0] for alias in node.names}
-            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-                imported.add(node.module.split('.')[0])
-    of_ros = {
-        name
-        for name in imported
-        if name in {'launch', 'launch_ros', 'rclpy', 'std_srvs'}
-        or name.endswith(('_msgs', '_interfaces'))
-    }
-
-    others = {name for name in declared if name.startswith('python3-')}
-    assert of_ros == declared - others
 
 
 def test_colcon_installs_every_world(workspace, overlay):

@@ -44,9 +44,11 @@ def picture_of(
     :return: (height, width, 3) uint8
     """
     left, bottom, right, top = _area_of(snapshot)
-    scale = width / (right - left)
-    height = max(1, round(min((top - bottom) * scale, _TALLEST * width)))
-    pen = _Pen(width, height, (left, top), scale)
+    scale = width / max(right - left, (top - bottom) / _TALLEST)
+    height = max(1, round((top - bottom) * scale))
+    # A tall world is in the middle.
+    corner = (left + right - width / scale) / 2.0, top
+    pen = _Pen(width, height, corner, scale)
     for body, (x, y, yaw) in zip(snapshot.scene.bodies, snapshot.poses.tolist(), strict=True):
         for piece in body.shape.form.pieces:
             pen.piece(piece, body.color, (x, y, yaw))

@@ -29,7 +29,7 @@ from physsim_ros.drawing.strokes.waiting import readings_over
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised, Refusal
+from physsim_ros.model.errors import NotRecognised, Refusal, values_of
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import Cut, Join, Request, Spawn
 from physsim_ros.model.shapes import as_tuples
@@ -309,7 +309,7 @@ def submit_reading(
 
 def reading_answer(reading: Reading, *, topic: str) -> Answer:
     """Return the answer that reports a reading; the answers to its requests follow."""
-    values = (*reading.values, request_count(len(reading.requests)))
+    values = (*values_of(reading.confidences), request_count(len(reading.requests)))
     return Answer(topic=topic, subject=reading.subject, message=reading.message, values=values)
 
 

@@ -30,12 +30,12 @@ def take_contacts(core: CoreWorld, table: BodyTable, centers: Callable[[], Float
     if not len(listed) and not len(begun):
         return replace(NO_CONTACTS, steps=steps)
     contacts = Contacts(
-        pairs=listed['rows'],
+        pairs=listed['pair'],
         points=listed['point'],
         normals=listed['normal'],
         impulses=listed['impulse'],
         steps=steps,
-        begun=begun['rows'],
+        begun=begun['pair'],
         begun_at=begun['time'],
     )
     pointless = listed['points'] == 0

@@ -12,6 +12,7 @@ each value is then read through those structs. Cost: 20 ms, when the engine is i
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+import math
 from types import SimpleNamespace
 from typing import Any
 
@@ -139,13 +140,42 @@ def check_layout(kinds: Mapping[type, tuple[str, dict[str, str]]] = KINDS) -> No
     # A contact that has begun stays one that begins until the next step.
     begun = SimpleNamespace(state=0, stamp=pm_space.stamp)
     _compare(arbiter, begun, {'state': 'state', 'stamp': 'stamp'})
+    _compare_lists(space)
+    for joint in space.constraints:
+        struct = ffi.cast(f'{kinds[type(joint)][0]} *', address_of(joint))
+        _compare(struct, joint, {'jnAcc' if hasattr(struct, 'jnAcc') else 'jAcc': 'impulse'})
+
+
+def _compare_lists(space: pymunk.Space) -> None:
+    """Compare where bodies have their lists, whose newest member is the first, and corners."""
+    for body in space.bodies:
+        *_, shape = (each for each in space.shapes if each.body is body)
+        known = SimpleNamespace(space=address_of(space), shape=address_of(shape))
+        struct = ffi.cast('cpBody *', address_of(body))
+        _compare(struct, known, {'space': 'space', 'shapeList': 'shape'})
+        if isinstance(shape, pymunk.Poly):
+            corners = shape.get_vertices()
+            known = SimpleNamespace(count=len(corners), at=body.local_to_world(corners[0]))
+            struct = ffi.cast('cpPolyShape *', address_of(shape))
+            _compare(struct, known, {'count': 'count', 'planes.v0': 'at'})
+    one, *_, last = space.bodies
+    *_, joint = space.constraints
+    known = SimpleNamespace(joint=address_of(joint))
+    _compare(ffi.cast('cpBody *', address_of(one)), known, {'constraintList': 'joint'})
+    (arbiter,) = space._get_arbiters()  # noqa: SLF001 - nothing public
+    known = SimpleNamespace(arbiter=int(pymunk_ffi.cast('uintptr_t', arbiter)))
+    _compare(ffi.cast('cpBody *', address_of(last)), known, {'arbiterList': 'arbiter'})
 
 
 def _compare(struct: Any, it: object, fields: Mapping[str, str]) -> None:
     for field, attribute in fields.items():
         found, expected = _value(struct, field), _value(it, attribute)
         if isinstance(found, ffi.CData):
-            found = found.x, found.y
+            is_vector = ffi.typeof(found).kind == 'struct'
+            found = (found.x, found.y) if is_vector else int(ffi.cast('uintptr_t', found))
+        if attribute == 'impulse':
+            # Pymunk tells the size of that of a pivot, and turns that of a spring round.
+            found, expected = math.hypot(*np.atleast_1d(found)), abs(expected)
         if not np.allclose(found, expected, rtol=1e-12, atol=0.0):
             raise ImportError(
                 f'Pymunk {pymunk.version} has other structs than the core of the engine expects: '
@@ -182,9 +212,9 @@ def _scene() -> pymunk.Space:
     constraints = (
         pymunk.PivotJoint(one, other, (0.5, 0.25), (-0.5, 0.125)),
         pymunk.PinJoint(one, other, (0.5, 0.75), (-0.5, 0.25)),
-        pymunk.SlideJoint(one, other, (0.25, 0.5), (-0.125, 0.5), 0.5, 9.0),
+        pymunk.SlideJoint(one, other, (0.25, 0.5), (-0.125, 0.5), 5.0, 9.0),
         pymunk.GearJoint(one, other, 0.25, 3.0),
-        pymunk.RotaryLimitJoint(one, other, -1.5, 2.5),
+        pymunk.RotaryLimitJoint(one, other, 0.5, 2.5),
         pymunk.SimpleMotor(one, other, 0.875),
         pymunk.DampedSpring(one, other, (0.25, 0.0), (0.0, 0.25), 1.5, 20.0, 0.75),
     )

@@ -9,21 +9,13 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 """
 
 from physsim_ros.files.directory_lock import DirectoryLock
+from physsim_ros.files.drawing_file import BadDrawing, drawings, load_drawing
 from physsim_ros.files.foreign import advice_on_xml, CONVERTED, kind_of
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.reading import finish_before_end, finish_files, fulfil, on_thread
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
-from physsim_ros.files.resources import (
-    BadDrawing,
-    drawings,
-    load_drawing,
-    shipped,
-    shipped_robot,
-    shipped_robots,
-    title_of,
-    user_directory,
-    with_shipped_robot,
-)
+from physsim_ros.files.resources import shipped, title_of, user_directory
+from physsim_ros.files.shipped_robots import shipped_robot, shipped_robots, with_shipped_robot
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,

@@ -39,11 +39,9 @@ from physsim_ros.model.states import (
 from physsim_ros.model.transform import local_to_world, NO_WRENCH, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import steps_covering
 
-# Greatest number of a robot's state, as of a motion [m, rad, m/s, rad/s].
-_GREATEST = 1e12
-_POSE = Row((Within(-_GREATEST, _GREATEST),) * 3)
-# Squares and products of such numbers.
-_PRODUCTS = Row((Within(-(_GREATEST**2), _GREATEST**2),) * len(SPAWNED.covariance))
+# The state of a robot lies in the range of a motion; squares and products of such numbers.
+_POSE = Row((Within(-LOST, LOST),) * 3)
+_PRODUCTS = Row((Within(-(LOST**2), LOST**2),) * len(SPAWNED.covariance))
 # Greatest number of points that an actor has reached, and of steps that a wrench acts.
 _MOST_REACHED, _MOST_STEPS = 2**53, 10**14
 
@@ -86,7 +84,7 @@ class _Driven(Checked):
     travel: Annotated[Pose, _POSE, 'travel of the wheels'] = ORIGIN
     odometry: Annotated[Pose, _POSE, 'pose by odometry'] = ORIGIN
     covariance: Annotated[Covariance, _covariance, 'of that pose'] = SPAWNED.covariance
-    drawn: Annotated[float, Within(-_GREATEST, _GREATEST, 'A s'), 'from its battery'] = 0.0
+    drawn: Annotated[float, Within(-LOST, LOST, 'A s'), 'from its battery'] = 0.0
     seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until the command ends'] = None
     coming: Annotated[
         tuple[_Coming, ...],

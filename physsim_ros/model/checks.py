@@ -284,6 +284,13 @@ def text(value: object, name: str, error: type[Refusal] = Malformed) -> str:
     return canonical(value)
 
 
+def texts(value: object, name: str, error: type[Refusal] = Malformed) -> tuple[str, ...]:
+    """Return a list of words or names, each as `text`; parameters as of that."""
+    if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
+        raise error(f'{name} must be a list of texts, not {shown(value)}', field=name)
+    return tuple(map(canonical, value))
+
+
 @dataclass(frozen=True, slots=True)
 class OneOf:
     """

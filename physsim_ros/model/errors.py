@@ -132,10 +132,36 @@ class WorldFull(Refusal):
     code = 'world_full'
 
 
+# Meanings that a stroke may have, each with the confidence in it, 0 .. 1, the likeliest first.
+Confidences = tuple[tuple[str, float], ...]
+
+
 class NotRecognised(Refusal):
-    """A stroke whose interpretation is not confident enough."""
+    """
+    A stroke whose interpretation is not confident enough.
+
+    :param guesses: that are too doubtful
+    """
 
     code = 'not_recognised'
+
+    def __init__(self, message: str, *, field: str = '', guesses: Confidences = ()) -> None:
+        super().__init__(message, field=field, values=values_of(guesses))
+        self.guesses = guesses
+
+
+def values_of(guesses: Confidences) -> tuple[tuple[str, str], ...]:
+    """Return guesses as pairs of key and value, of at most three."""
+    keys = (
+        ('reading', 'confidence'),
+        ('runner_up', 'runner_up_confidence'),
+        ('third', 'third_confidence'),
+    )
+    return tuple(
+        pair
+        for (name, share), (meaning, confidence) in zip(keys, guesses, strict=False)
+        for pair in ((name, meaning), (share, f'{confidence:.3f}'))
+    )
 
 
 class BadWorldFile(Refusal):

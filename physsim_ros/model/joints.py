@@ -11,15 +11,15 @@ Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its gly
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import partial
 from typing import Annotated, Any, Self
 
-from physsim_ros.model.checks import brief, FASTEST, flag, HEAVIEST, shown, Within
+from physsim_ros.model.checks import brief, FASTEST, flag, HEAVIEST, shown, text, texts, Within
 from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.latency import COMMAND_RATE, delays
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.spelling import canonical
 from physsim_ros.model.texts import name_meant, nearest_name
 from physsim_ros.model.transform import Point
 
@@ -42,16 +42,8 @@ _COMMON = ('max_force', 'break_force', 'collide')
 AS_DRAWN = 'as drawn'
 
 
-def _names(value: object, name: str) -> tuple[str, ...]:
-    if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
-        raise BadProperty(f'{name} must be a list of names, not {shown(value)}', field=name)
-    return tuple(map(canonical, value))
-
-
-def _body_name(value: object, name: str) -> str:
-    if not isinstance(value, str):
-        raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
-    return canonical(value)
+# The checks of the name of a body, and of several.
+_name, _names = partial(text, error=BadProperty), partial(texts, error=BadProperty)
 
 
 def _direction(value: object, name: str) -> float:
@@ -369,7 +361,7 @@ class JointProperties(Checked):
     ] = None
     carrier: Annotated[
         str | None,
-        _body_name,
+        _name,
         'name of a third body relative to which the angles of a gear are measured, such as the '
         'arm of a planet; by default, and with `world`, they are absolute',
     ] = None
@@ -445,6 +437,6 @@ def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointP
     for key in mapping:
         check_key(key, JOINT_KEYS)
     properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
-    a, b = (_body_name(mapping.get(key, ''), key) for key in ('a', 'b'))
+    a, b = (_name(mapping.get(key, ''), key) for key in ('a', 'b'))
     kind = kind_from(mapping.get('kind'))
     return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)

@@ -73,12 +73,21 @@ class Wait(Enum):
     :cvar FOR_SEEK: after the requests and the end of a seek: it reads or replaces the world
     :cvar TO_READ: as `FOR_SEEK`; only its first slice reads the world, so that while a thread
         writes a file, requests are applied, and only other calls wait
+
+    :ivar is_for_world: whether it waits for the end of a seek, as requests do
+    :ivar holds_requests: whether requests wait while it is under way
     """
 
-    NONE = 'none'
-    BEHIND_REQUESTS = 'behind requests'
-    FOR_SEEK = 'for seek'
-    TO_READ = 'to read'
+    is_for_world: bool
+    holds_requests: bool
+
+    NONE = False, False
+    BEHIND_REQUESTS = False, True
+    FOR_SEEK = True, True
+    TO_READ = True, False
+
+    def __init__(self, *facts: bool) -> None:
+        self.is_for_world, self.holds_requests = facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,11 +103,6 @@ class Call:
     call: Sliced[Sequence[Answer]]
     wait: Wait
     on_told: Callable[[], object]
-
-    @property
-    def holds_requests(self) -> bool:
-        """Return whether requests wait while it is under way."""
-        return self.wait in (Wait.BEHIND_REQUESTS, Wait.FOR_SEEK)
 
 
 class Origin(NamedTuple):
@@ -144,7 +148,7 @@ class Entry:
         """Return whether it is applied to the world, and so waits for the end of a seek."""
         match self.request:
             case Call(wait=wait):
-                return wait in (Wait.FOR_SEEK, Wait.TO_READ)
+                return wait.is_for_world
             case Seek() | Refusal() | Answer():
                 return False
         return True

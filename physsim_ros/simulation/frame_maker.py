@@ -109,10 +109,7 @@ class FrameMaker:
         nobody reads make none.
         """
         view = self._view
-        if view is None or self.is_changed:
-            self._observe_frame()
-        assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
-        return self._view
+        return self._observe() if view is None or self.is_changed else view
 
     @property
     def frame(self) -> Frame:
@@ -355,7 +352,11 @@ class FrameMaker:
         return self._observe_frame()
 
     def _observe_frame(self) -> Frame:
-        """Return the frame that is shown, with all answers; fit the past into its budget."""
+        """Return the frame that is shown, with all answers."""
+        return self._observe().frame
+
+    def _observe(self) -> View:
+        """Return the frame that is shown as sensors see it; fit the past into its budget."""
         past, playback, requests = self.past, self.playback, self.requests
         snapshot, contacts = playback.observe_frame()
         requests.note_arrival()
@@ -377,7 +378,7 @@ class FrameMaker:
         if last is not None and (before is None or before.step == snapshot.step):
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before
         self._passed, self._view = None, View(frame, before)
-        return frame
+        return self._view
 
 
 def _finished(slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:

@@ -204,7 +204,7 @@ class RequestQueue:
 
     @property
     def _holds_requests(self) -> bool:
-        return any(each.call.holds_requests for each in self._under_way)
+        return any(each.call.wait.holds_requests for each in self._under_way)
 
     def apply_waiting(self) -> None:
         """Apply all entries, and finish the seeks, calls and amendments that others wait for."""
@@ -220,7 +220,7 @@ class RequestQueue:
 
     def continue_calls(self) -> None:
         """Go on with the calls for which no request waits, also during a seek."""
-        self._continue_calls(each for each in self._under_way if not each.call.holds_requests)
+        self._continue_calls(each for each in self._under_way if not each.call.wait.holds_requests)
 
     def finish_calls(self) -> None:
         """Apply all entries, and finish the calls that have read the world, too."""
@@ -325,7 +325,7 @@ class RequestQueue:
                 for answer in end.value:
                     self.tell(answer)
                 call.on_told()
-            elif call.holds_requests and self._has_jumped and not self._playback.has_arrived:
+            elif call.wait.holds_requests and self._has_jumped and not self._playback.has_arrived:
                 self._answer_arrival = partial(self._answer_call, call, end.value)
             else:
                 self._answer_call(call, end.value)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Sweeps: one controller in many worlds, by seeds and parameters, on as many processors as there are.
+Sweeps: one controller in many worlds, by seeds and parameters, in as many processes as asked for.
 
 An experiment runs a case; `sweep` runs all, each in a process of its own, on this machine or by
 the `map` of an executor or a cluster. Not here: how cases are spread over other machines, which

@@ -142,11 +142,11 @@ def _key(case: Case) -> str:
 
 
 def _identity(experiment: Experiment) -> dict[str, Any]:
-    """Return what tells experiments apart: their worlds to the bit, functions by name, times."""
+    """Return what tells experiments apart: worlds to the bit, functions by name, times, limits."""
     # Not the digest of the world, which leaves out what moves nothing, as how a sensor sees.
     text = text_of(replace(experiment.world, memory=None), experiment.physics_rate)
     functions = ('controller', 'begin', 'failure', 'score')
-    times = ('robot', 'seconds', 'period', 'physics_rate', 'before')
+    times = ('robot', 'seconds', 'period', 'physics_rate', 'before', 'cpu_limit', 'wall_limit')
     return {
         'world': hashlib.blake2b(text.encode(), digest_size=16).hexdigest(),
         **{name: _name_of(getattr(experiment, name)) for name in functions},

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A sweep: all cases of an experiment, on as many processors as there are.
+A sweep: all cases of an experiment, in as many processes at once as are asked for.
 
 Law: each run is in a process of its own, so that no run ends another one, or the sweep; its result
 is there as soon as it has ended.

@@ -82,7 +82,8 @@ class Robot:
         :raises UnknownName: the robot is not there
         """
         topics, view, row = self._now()
-        return topics.odometry(view, row, [*self._node.fleet.robots].index(self.name))
+        rows = view.snapshot.scene.robot_rows.tolist()
+        return topics.odometry(view, row, rows.index(row))
 
     def truth(self) -> Odometry:
         """
@@ -111,7 +112,7 @@ class Robot:
         fleet = self._node.fleet
         if fleet.view is None or self.name not in fleet.robots:
             raise UnknownName(f'there is no robot {self.name!r}')
-        row = fleet.view.snapshot.scene.names.index(self.name)
+        row = fleet.view.snapshot.scene.row_of[self.name]
         return fleet.robots[self.name], fleet.view, row
 
     def _first(self, kind: str) -> str:

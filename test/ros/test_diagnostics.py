@@ -12,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
-from physsim_ros.ros.outputs import FrameStatistics
+from physsim_ros.ros.frame_statistics import FrameStatistics
 import pytest
 
 from .messages import spoiled

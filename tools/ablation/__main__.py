@@ -25,15 +25,20 @@ def line(*cells: str) -> None:
 
 
 def table(words: list[str]) -> None:
-    """Print the errors of scenes, with all stages and without each."""
+    """Print errors of scenes, with all stages and without each; of all scenes the costs, too."""
+    chosen = [each for each in SCENES if not words or any(word in each.name for word in words)]
+    if not chosen:
+        sys.exit(f'no scene with {" or ".join(words)}')
     line('scene (law)', 'unit', 'tolerance', 'all stages', *(each.name for each in STAGES))
     line(*['---'] * (4 + len(STAGES)))
-    chosen = [each for each in SCENES if not words or any(word in each.name for word in words)]
     for scene in chosen:
         cells = (cell(scene, stage) for stage in (None, *STAGES))
         line(scene.name, scene.unit, f'{scene.tolerance:.2g}', *cells)
+    if words:
+        return
     costs = ('–' if share is None else f'{100 * share:.1f}' for share in shares(STAGES))
     line('cost of the stage', '% of a step', '', '', *costs)
 
 
-table(sys.argv[1:])
+if __name__ == '__main__':
+    table(sys.argv[1:])

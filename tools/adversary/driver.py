@@ -15,14 +15,13 @@ from geometry_msgs.msg import Point, Pose, PoseStamped
 from nav_msgs.msg import Path
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box, Compound, Disc
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
 from physsim_ros.sketchpad.messages import ACTIONS
 from physsim_ros.testing import messages
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParameters
 from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from std_srvs.srv import Trigger
@@ -30,14 +29,13 @@ from visualization_msgs.msg import Marker
 
 # The longest that a world may leave a service unanswered [s].
 PATIENCE = 60.0
-LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 WORLDS = ('demo', 'bridge', 'galton', 'gear_train', 'newtons_cradle', 'dominoes')
 VIEWERS = ('none', 'web', 'connect', 'spawn')
 
 
 class Driver:
     """
-    Publishers and clients of everything that the world hears.
+    Publishers and clients of bodies, joints, commands, strokes, time, services and parameters.
 
     :param seed: of the choices
 

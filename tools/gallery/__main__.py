@@ -137,6 +137,8 @@ def main(chosen: list[str]) -> None:
         'drawing': draw_drawing,
         'window': draw_window,
     }
+    if unknown := {*chosen} - {Path(name).name for name in (*SCENES, *pictures, *PAGES)}:
+        sys.exit(f'no picture {", ".join(sorted(unknown))}')
     for name, draw in PAGES.items():
         if not chosen or name in chosen:
             draw()
@@ -156,4 +158,5 @@ def main(chosen: list[str]) -> None:
             print(name, *(f'{view}: {error}' for view, error in viewer.errors()), flush=True)
 
 
-main(sys.argv[1:])
+if __name__ == '__main__':
+    main(sys.argv[1:])

@@ -24,6 +24,7 @@ from physsim_ros.drawing.strokes.evidence import log_odds, logistic
 from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.stages import (
     CLOSED,
+    confidences_in,
     Context,
     DELETION,
     GRAVITY,
@@ -32,7 +33,6 @@ from physsim_ros.drawing.strokes.stages import (
     MOST_GUESSES,
     OPEN,
     Reading,
-    values_of,
 )
 from physsim_ros.model.errors import NotRecognised
 
@@ -127,7 +127,7 @@ def not_recognised(guesses: Sequence[Guess]) -> NotRecognised:
     words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
     doubt = f'is not clear enough; it might be: {words}. Nothing was drawn'
     message = f'the stroke {doubt if guesses else "looks like nothing that can be drawn"}'
-    return NotRecognised(message, field='poses', values=values_of(guesses))
+    return NotRecognised(message, field='poses', guesses=confidences_in(guesses))
 
 
 def reading_of(guesses: Sequence[Guess], number: int, *, amends: tuple[int, ...] = ()) -> Reading:

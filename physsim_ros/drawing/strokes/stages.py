@@ -13,6 +13,7 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import Confidences
 from physsim_ros.model.requests import Request
 from physsim_ros.model.transform import Point
 
@@ -194,20 +195,11 @@ class Reading(Outcome):
         return self.guesses[0].confidence
 
     @property
-    def values(self) -> tuple[tuple[str, str], ...]:
-        """Return the guesses with their confidences, as pairs of key and value."""
-        return values_of(self.guesses)
+    def confidences(self) -> Confidences:
+        """Return the meanings of the guesses, and the confidences in them."""
+        return confidences_in(self.guesses)
 
 
-def values_of(guesses: Sequence[Guess]) -> tuple[tuple[str, str], ...]:
-    """Return meanings and confidences in them, the likeliest first, as pairs of key and value."""
-    keys = (
-        ('reading', 'confidence'),
-        ('runner_up', 'runner_up_confidence'),
-        ('third', 'third_confidence'),
-    )
-    return tuple(
-        pair
-        for (name, share), guess in zip(keys, guesses, strict=False)
-        for pair in ((name, guess.meaning), (share, f'{guess.confidence:.3f}'))
-    )
+def confidences_in(guesses: Sequence[Guess]) -> Confidences:
+    """Return the meanings of guesses, and the confidences in them."""
+    return tuple((guess.meaning, guess.confidence) for guess in guesses)

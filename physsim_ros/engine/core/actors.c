@@ -195,8 +195,7 @@ static void command(const World *world, const Actor *actor, Robot *robot) {
 
 static void move_actor(const World *world, const Actor *actor) {
     Body *body = world->bodies + actor->body;
-    bool moves = actor->chosen.v.x != 0.0 || actor->chosen.v.y != 0.0 || actor->chosen.w != 0.0;
-    if (moves && sleeps(body)) {
+    if (!is_zero(actor->chosen) && sleeps(body)) {
         world->chipmunk.body_activate(body->engine);
     }
     if (actor->robot >= 0) {

@@ -61,7 +61,7 @@ void apply_forces(World *world) {
         const AppliedForce *applied = world->forces + number;
         cpBody *engine = world->bodies[applied->body].engine;
         world->chipmunk.body_activate(engine);
-        Twist wrench = wrench_of(applied, moved(pose_of(engine), twist_of(engine), world->dt).yaw);
+        Twist wrench = wrench_of(applied, pose_after(engine, world->dt).yaw);
         engine->f = add(engine->f, wrench.v);
         engine->t += wrench.w;
     }

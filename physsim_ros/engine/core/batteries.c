@@ -20,9 +20,8 @@ static void use_battery(const World *world, Robot *robot) {
         return;
     }
     const Body *body = world->bodies + robot->body;
-    Twist wheels = robot->state.wheels;
     double current = battery->idle;
-    current += wheels.v.x != 0.0 || wheels.v.y != 0.0 || wheels.w != 0.0 ? battery->moving : 0.0;
+    current += is_zero(robot->state.wheels) ? 0.0 : battery->moving;
     for (int number = 0; number < battery->dock_count; number++) {
         if (is_docked(body, world->bodies + battery->docks[number])) {
             current -= battery->charging;

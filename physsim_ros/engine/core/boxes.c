@@ -115,3 +115,15 @@ void tree_query(const Tree *tree, Box box, bool (*found)(int number, void *data)
         }
     }
 }
+
+static bool note_meeting(int number, void *data) {
+    (void)number;
+    *(bool *)data = true;
+    return false;
+}
+
+bool tree_meets(const Tree *tree, Box box) {
+    bool meets = false;
+    tree_query(tree, box, note_meeting, &meets);
+    return meets;
+}

@@ -26,6 +26,9 @@ Tree emptied(const Tree *tree, Arena *arena);
 // Replace a box.
 void tree_set(Tree *tree, int number, Box box);
 
+// Whether a box overlaps one of the tree.
+bool tree_meets(const Tree *tree, Box box);
+
 // Call a function for each box that overlaps one, until it returns false.
 void tree_query(const Tree *tree, Box box, bool (*found)(int number, void *data), void *data);
 

@@ -77,23 +77,28 @@ static int *slot_of(const Report *report, int a, int b) {
     return report->slots + slot;
 }
 
+// Memory for a number of values that begins with a copy of some.
+static void *with_room(const void *values, int count, int room, size_t size) {
+    void *list = allocated((size_t)room, size);
+    if (count > 0) {
+        memcpy(list, values, (size_t)count * size);
+    }
+    return list;
+}
+
 // Move the pairs to memory with room for some more, and index them anew.
 static void make_room(Report *report) {
-    int room = 32;
-    while (room < 2 * report->count) {
-        room *= 2;
+    ReportedPair *old = report->pairs;
+    report->room = 32;
+    while (report->room < 2 * report->count) {
+        report->room *= 2;
     }
-    ReportedPair *pairs = allocated((size_t)room, sizeof(ReportedPair));
-    if (report->count > 0) {
-        memcpy(pairs, report->pairs, (size_t)report->count * sizeof(ReportedPair));
-    }
-    free(report->pairs);
+    report->pairs = with_room(old, report->count, report->room, sizeof(ReportedPair));
+    free(old);
     free(report->slots);
-    report->pairs = pairs;
-    report->slots = allocated(2 * (size_t)room, sizeof(int));
-    report->room = room;
+    report->slots = allocated(2 * (size_t)report->room, sizeof(int));
     for (int number = 0; number < report->count; number++) {
-        *slot_of(report, pairs[number].a, pairs[number].b) = number + 1;
+        *slot_of(report, report->pairs[number].a, report->pairs[number].b) = number + 1;
     }
 }
 
@@ -121,12 +126,9 @@ static double touch_share(World *world, Body *a, Body *b) {
 static void add_begun(World *world, Report *report, Begun added) {
     if (world->begun_count == report->begun_room) {
         report->begun_room = 2 * report->begun_room + 16;
-        Begun *begun = allocated((size_t)report->begun_room, sizeof(Begun));
-        if (world->begun_count > 0) {
-            memcpy(begun, world->begun, (size_t)world->begun_count * sizeof(Begun));
-        }
-        free(world->begun);
-        world->begun = begun;
+        Begun *old = world->begun;
+        world->begun = with_room(old, world->begun_count, report->begun_room, sizeof(Begun));
+        free(old);
     }
     world->begun[world->begun_count++] = added;
 }
@@ -279,23 +281,23 @@ static int by_number(int64_t x, int64_t y) {
     return (x > y) - (x < y);
 }
 
-static int by_rows(const void *one, const void *other) {
-    const int64_t *x = ((const Contact *)one)->rows, *y = ((const Contact *)other)->rows;
+static int by_pair(const void *one, const void *other) {
+    const int64_t *x = ((const Contact *)one)->pair, *y = ((const Contact *)other)->pair;
     return x[0] != y[0] ? by_number(x[0], y[0]) : by_number(x[1], y[1]);
 }
 
-static int by_time_and_rows(const void *one, const void *other) {
+static int by_time_and_pair(const void *one, const void *other) {
     const Begun *x = one, *y = other;
     if (x->time != y->time) {
         return (x->time > y->time) - (x->time < y->time);
     }
-    return x->rows[0] != y->rows[0] ? by_number(x->rows[0], y->rows[0]) : by_number(x->rows[1], y->rows[1]);
+    return x->pair[0] != y->pair[0] ? by_number(x->pair[0], y->pair[0]) : by_number(x->pair[1], y->pair[1]);
 }
 
 static Contact contact_of(const World *world, const ReportedPair *pair) {
     double size = length(pair->normals), count = pair->points > 0 ? (double)pair->points : 1.0;
     bool directed = size > opposed * count;
-    return (Contact){.rows = {pair->a, pair->b == world->body_count - 1 ? -1 : pair->b},
+    return (Contact){.pair = {pair->a, pair->b == world->body_count - 1 ? -1 : pair->b},
                      .point = scaled(pair->positions, 1.0 / count),
                      .normal = directed ? scaled(pair->normals, 1.0 / size) : pair->highest,
                      .impulse = pair->sum,
@@ -313,11 +315,11 @@ void core_take_contacts(World *world) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }
     }
-    sort(world->contacts, world->contact_count, sizeof(Contact), by_rows);
-    sort(world->begun, world->begun_count, sizeof(Begun), by_time_and_rows);
+    sort(world->contacts, world->contact_count, sizeof(Contact), by_pair);
+    sort(world->begun, world->begun_count, sizeof(Begun), by_time_and_pair);
     for (int number = 0; number < world->begun_count; number++) {
         Begun *begun = world->begun + number;
-        begun->rows[1] = begun->rows[1] == world->body_count - 1 ? -1 : begun->rows[1];
+        begun->pair[1] = begun->pair[1] == world->body_count - 1 ? -1 : begun->pair[1];
     }
 }
 
@@ -352,7 +354,7 @@ void rename_contacts(World *world, const int32_t *former, int count) {
     int begun = 0;
     for (int number = 0; number < world->begun_count; number++) {
         Begun each = world->begun[number];
-        int a = places[each.rows[0]], b = places[each.rows[1]];
+        int a = places[each.pair[0]], b = places[each.pair[1]];
         if (a >= 0 && b >= 0) {
             world->begun[begun++] = (Begun){{a, b}, each.time};
         }
@@ -366,22 +368,18 @@ void core_copy_contacts(World *world, const World *old) {
     const Report *from = old->own->report;
     free(report->pairs);
     free(report->slots);
-    *report = (Report){0};
     free(world->begun);
     world->begun = NULL;
     world->begun_count = 0;
+    *report = (Report){0};
     if (from == NULL) {
         return;
     }
     // A world that resumes here does not know the step before, either.
-    *report = (Report){.stamp = from->stamp, .count = from->count};
-    if (from->count > 0) {
-        report->pairs = allocated((size_t)from->count, sizeof(ReportedPair));
-        memcpy(report->pairs, from->pairs, (size_t)from->count * sizeof(ReportedPair));
-        make_room(report);
-    }
+    *report = (Report){.stamp = from->stamp, .count = from->count, .begun_room = old->begun_count};
+    report->pairs = with_room(from->pairs, from->count, from->count, sizeof(ReportedPair));
+    make_room(report);
+    world->begun = with_room(old->begun, old->begun_count, old->begun_count, sizeof(Begun));
+    world->begun_count = old->begun_count;
     world->frame_steps = old->frame_steps;
-    for (int number = 0; number < old->begun_count; number++) {
-        add_begun(world, report, old->begun[number]);
-    }
 }

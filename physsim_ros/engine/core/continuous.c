@@ -29,12 +29,6 @@ static bool is_fast(const World *world, const Body *body) {
     return is_far(world, body, displacement_of(world, body));
 }
 
-static bool stop(int number, void *data) {
-    (void)number;
-    *(bool *)data = true;
-    return false;
-}
-
 // Whether the swept box of a fast body overlaps that of another, or a static shape.
 static bool boxes_meet(World *world, const Statics *statics) {
     Mover fast[FEW];
@@ -43,12 +37,12 @@ static bool boxes_meet(World *world, const Statics *statics) {
         Body *body = active_at(world, number);
         if (is_fast(world, body)) {
             assert(count < FEW);
-            fast[count++] = mover_of(body, displacement_of(world, body));
+            fast[count++] = mover_of(body, pose_of(body->engine), displacement_of(world, body));
         }
     }
     bool meet = false;
     for (int number = 0; number < count && !meet; number++) {
-        tree_query(&statics->tree, fast[number].box, stop, &meet);
+        meet = tree_meets(&statics->tree, fast[number].box);
     }
     for (int place = 0; place < world->body_count && !meet; place++) {
         Body *body = world->bodies + place;
@@ -66,12 +60,12 @@ static bool boxes_meet(World *world, const Statics *statics) {
 static void set_back(World *world, const Mover *mover) {
     cpBody *engine = mover->body->engine;
     Vec pivot;
-    Pose end = pose_at(mover, 1.0, &pivot), free_end = moved(pose_of(engine), twist_of(engine), world->dt);
+    Pose end = pose_at(mover, 1.0, &pivot), free_end = pose_after(engine, world->dt);
     mover->body->scratch.remaining = mover->body->dynamic ? (1.0 - mover->since) * world->dt : 0.0;
     mover->body->scratch.carried = (Twist){sub(end.p, mover->pose.p), end.yaw - mover->pose.yaw};
     Vec shift = sub(end.p, free_end.p);
     double turn = mover->turning > 0.0 ? end.yaw - free_end.yaw : 0.0;
-    if (mover->body->engine->sleeping_root != NULL) {
+    if (sleeps(mover->body)) {
         world->chipmunk.body_activate(engine);
     }
     set_pose(engine, (Pose){add(engine->p, shift), engine->a + turn});

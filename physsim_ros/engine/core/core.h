@@ -45,7 +45,7 @@ typedef struct BodyState {
 typedef struct BodyScratch {
     uint8_t slides;             // on a floor that does not carry it along
     Pose begin;                 // as the sub-step begins
-    Twist twist;                // with which Chipmunk begins
+    Twist twist;                // as the sub-step begins; from Chipmunk's step on, that with which it began
     Twist under;                // mean velocity of the floor under it
     Twist without_contacts;     // velocity after the sub-step without contacts, on a floor
     double remaining;           // of the sub-step after continuous collision has stopped it [s]
@@ -390,9 +390,9 @@ enum { SAFE_DEPTHS = 4 };
 // the corners.
 enum { ROUND_COST = 4 };
 
-// A pair of bodies that touched during a frame; -1, always second, is the background.
+// A pair of bodies that touched during a frame.
 typedef struct Contact {
-    int64_t rows[2]; // of the two bodies, the lesser first; -1, always second, is the background
+    int64_t pair[2]; // places of the two bodies, the lesser first; -1, always second, is the background
     cpVect point;    // mean of the latest contact points [m]
     cpVect normal;   // from the first to the second body
     cpVect impulse;  // sum over the frame of what acts on the second body [N s]
@@ -401,7 +401,7 @@ typedef struct Contact {
 
 // A pair of bodies that began to touch during a frame.
 typedef struct Begun {
-    int64_t rows[2]; // as those of a contact
+    int64_t pair[2]; // as that of a contact
     double time;     // since the frame began [steps]
 } Begun;
 

@@ -59,7 +59,7 @@ void roll_wheels(World *world) {
             after = accelerated(robot, aim, world->dt);
         }
         robot->mean = twist_sum(robot->state.wheels, after, 1.0);
-        robot->mean = (Twist){scaled(robot->mean.v, 0.5), robot->mean.w / 2.0};
+        robot->mean = twist_scaled(robot->mean, 0.5);
         robot->state.aim = aim;
         robot->state.wheels = after;
         double turn = robot->mean.w * world->dt;

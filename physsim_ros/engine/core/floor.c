@@ -164,9 +164,8 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
                    before.w * kept + engine->t * angular};
     LimitSurface surface = surface_of(world, body);
-    bool moves = mean.v.x != 0.0 || mean.v.y != 0.0 || mean.w != 0.0;
-    double share = moves ? 1.0 : relaxed;
-    Twist expected = {scaled(body->state.push.v, share), body->state.push.w * share};
+    double share = is_zero(mean) ? relaxed : 1.0;
+    Twist expected = twist_scaled(body->state.push, share);
     double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
     Twist next = twist_sum(after, expected, 1.0);
@@ -174,7 +173,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
         double yaw = body->scratch.begin.yaw, turn = next.w * dt;
         end = twist_of_axle(body, next, yaw + turn);
         Twist sum = twist_sum(before, end, 1.0);
-        mean = twist_of_axle(body, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
+        mean = twist_of_axle(body, twist_scaled(sum, 0.5), yaw + turn / 2.0);
     }
     Twist slip = twist_sum(next, end, -1.0);
     body->scratch.slides = square(slip, surface) > 1.0;
@@ -182,7 +181,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     Twist as_moved = mean;
     if (body->scratch.slides) {
         Twist sum = twist_sum(twist_sum(before, after, 1.0), twist_sum(expected, change, 1.0), 1.0);
-        as_moved = (Twist){scaled(sum.v, 0.5), sum.w / 2.0};
+        as_moved = twist_scaled(sum, 0.5);
     }
     body->scratch.under = mean;
     body->scratch.without_contacts = twist_sum(after, change, 1.0);
@@ -248,7 +247,7 @@ void find_floor_pushes(World *world) {
         // turns.
         Twist push =
             twist_sum(twist_sum(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
-        push = (Twist){scaled(push.v, 0.5), push.w / 2.0};
+        push = twist_scaled(push, 0.5);
         double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
         body->state.push = sleeps(body) || size < least_push ? (Twist){0} : push;
     }

@@ -126,7 +126,7 @@ void begin_half_step(World *world) {
         if (unsupported[place]) {
             forget_impulses(body);
         }
-        if (body->wrench.v.x != 0.0 || body->wrench.v.y != 0.0 || body->wrench.w != 0.0) {
+        if (!is_zero(body->wrench)) {
             // Chipmunk clears forces after each step.
             world->chipmunk.body_activate(body->engine);
             body->engine->f = body->wrench.v;
@@ -171,9 +171,7 @@ void find_free(World *world) {
             continue;
         }
         Twist after = twist_of(body->engine), flown = body->state.lead;
-        flown = twist_sum(
-            (Twist){scaled(body->scratch.twist.v, world->own->kept), body->scratch.twist.w * world->own->kept}, flown,
-            2.0);
+        flown = twist_sum(twist_scaled(body->scratch.twist, world->own->kept), flown, 2.0);
         body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
                            fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
                            fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));

@@ -66,7 +66,7 @@ Basin basin_of(const Region *region, const cpShape *shape, Pose pose, Arena *are
     int count = corner_count(shape), most = count < 3 ? ROUND_CORNERS : count;
     const cpBody *engine = shape->body;
     Basin basin = {.region = region,
-                   .moves = engine->v.x != 0.0 || engine->v.y != 0.0 || engine->w != 0.0,
+                   .moves = !is_zero(twist_of(engine)),
                    .corners = TAKE(arena, Vec, most),
                    .normals = TAKE(arena, Vec, most)};
     Rotation by = rotation(pose.yaw);

@@ -59,7 +59,7 @@ static bool is_excluded_by_joint(const cpBody *a, const cpBody *b) {
 }
 
 bool may_meet(const Body *a, const Body *b) {
-    return (a->group == 0 || a->group != b->group) && !is_excluded_by_joint(a->engine, b->engine);
+    return !share_group(a, b) && !is_excluded_by_joint(a->engine, b->engine);
 }
 
 // The velocity of the centre of mass where a motion begins [m a step].
@@ -215,22 +215,11 @@ typedef struct Passed {
     bool *waits; // by the first member of an island
 } Passed;
 
-static bool note_box(int number, void *data) {
-    (void)number;
-    *(bool *)data = true;
-    return false;
-}
-
 // Whether something near an impact is to come first, after which it may not take place.
 static bool has_to_wait(const Sweep *sweep, const Passed *passed, const int *members, int count) {
     for (int number = 0; number < count; number++) {
         const Mover *mover = sweep->movers + members[number];
-        if (passed->waits[mover->island]) {
-            return true;
-        }
-        bool near = false;
-        tree_query(&passed->boxes, mover->box, note_box, &near);
-        if (near) {
+        if (passed->waits[mover->island] || tree_meets(&passed->boxes, mover->box)) {
             return true;
         }
     }

@@ -55,12 +55,13 @@ Layout layout_of(const Island *island) {
 
 Solve island_solve(World *world, const Island *island, const System *system) {
     Arena *arena = &world->own->arena;
-    Solve solve = {.arena = arena, .space = world->space, .dt = world->dt, .island = island, .system = *system};
-    solve.velocities = island->velocities;
-    solve.poses = island->poses;
+    Solve solve = {
+        .arena = arena, .overlap_kept = world->own->overlap_kept, .dt = world->dt, .island = island, .system = *system};
+    solve.velocities = TAKE(arena, Twist, island->body_count);
+    solve.poses = TAKE(arena, Pose, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
-        island->poses[body] = pose_of(island->engine[body]);
-        island->velocities[body] = twist_of(island->engine[body]);
+        solve.poses[body] = pose_of(island->engine[body]);
+        solve.velocities[body] = twist_of(island->engine[body]);
     }
     solve.excess = TAKE(arena, double, island->joint_row_count);
     solve.jacobians = TAKE(arena, Jacobian, island->further[island->row_count]);
@@ -70,13 +71,13 @@ Solve island_solve(World *world, const Island *island, const System *system) {
         solve.holds[row] = island->rows[row]->law == LAW_BOUNDS;
         solve.springs[row] = island->rows[row]->law == LAW_SPRING;
     }
-    read_rows(island, island->poses, solve.excess, solve.jacobians);
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
+    read_rows(island, solve.poses, solve.excess, solve.jacobians);
     for (int number = 0; number < island->bearing_count; number++) {
         const Bearing *bearing = island->bearings + number;
         Vec against = negated(bearing->normal);
-        solve.jacobians[normal + number] = line_jacobian(against, bearing->arm_a, bearing->arm_b);
-        solve.jacobians[tangent + number] = line_jacobian(perpendicular(against), bearing->arm_a, bearing->arm_b);
+        solve.jacobians[normal_row(island, number)] = line_jacobian(against, bearing->arm_a, bearing->arm_b);
+        solve.jacobians[tangent_row(island, number)] =
+            line_jacobian(perpendicular(against), bearing->arm_a, bearing->arm_b);
         if (bearing->roll != NULL) {
             bearing->roll->most = bearing->rolling * greatest(bearing->point->jnAcc, 0.0);
         }

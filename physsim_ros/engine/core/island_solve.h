@@ -9,11 +9,15 @@
 // Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
 static const double limit_slop = 1e-4;
 
+// The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a thrown one, and
+// joints that contradict each other move their bodies no further than that.
+static const double fastest_correction = 20.0;
+
 // One island in one step.
 typedef struct Solve {
     Arena *arena;
-    const cpSpace *space;
-    double dt; // [s]
+    double dt;           // [s]
+    double overlap_kept; // share of an overlap that is not pushed out in a sub-step
     const Island *island;
     System system;
     Twist *velocities;   // (body_count): of this step
@@ -28,6 +32,10 @@ Layout layout_of(const Island *island);
 
 // Begin to solve an island.
 Solve island_solve(World *world, const Island *island, const System *system);
+
+// Solve the velocities of an island (`joint_velocities.c`), then its positions (`joint_positions.c`).
+void solve_velocities(Solve *solve);
+void solve_positions(Solve *solve);
 
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);

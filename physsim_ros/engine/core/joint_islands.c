@@ -222,35 +222,53 @@ static Islands split(World *world, Bearings bearings) {
     return found;
 }
 
-// Return the number of a body in an island, to which it is added if it is not there yet. `numbers` are 0 for such.
-static int number_in(const World *world, Island *island, int *numbers, int *places, int body) {
-    if (numbers[body] == 0) {
-        places[island->body_count] = body;
-        numbers[body] = ++island->body_count;
-        cpBody *engine = world->bodies[body].engine;
-        int number = island->body_count - 1;
-        island->engine[number] = engine;
-        island->jointed[number] = world->bodies[body].jointed;
-        island->inverses[number] = (Inverse){engine->m_inv, engine->i_inv};
+// The numbering of the bodies, rows and links of an island.
+typedef struct Numbering {
+    World *world;
+    Island *island;
+    int *numbers;         // (body_count of the world): of bodies in the island, counted from 1; 0 elsewhere
+    int *places;          // of the bodies of the island
+    int row, link, group; // the next ones
+} Numbering;
+
+// Return the number of a body in an island, to which it is added if it is not there yet.
+static int number_in(Numbering *numbering, int place) {
+    Island *island = numbering->island;
+    if (numbering->numbers[place] == 0) {
+        const Body *body = numbering->world->bodies + place;
+        int number = island->body_count++;
+        numbering->places[number] = place;
+        numbering->numbers[place] = number + 1;
+        island->engine[number] = body->engine;
+        island->jointed[number] = body->jointed;
+        island->inverses[number] = (Inverse){body->engine->m_inv, body->engine->i_inv};
         island->turns[number] = (Turn){0.0, {1.0, 0.0}};
     }
-    return numbers[body] - 1;
+    return numbering->numbers[place] - 1;
 }
 
-// Number the bodies of the links of a row, the further ones from a number on; return the number after them.
-static int lay_out_links(const World *world, Island *island, int row, int link, const Joint *joint, int *numbers,
-                         int *places) {
-    const Row *of_joint = island->rows[row];
-    const Guide *guides = world->guides + of_joint->first_guide;
-    bool is_path = of_joint->kind == ROW_PATH;
-    island->ends[row] = (Ends){number_in(world, island, numbers, places, is_path ? guides[0].body : joint->a),
-                               number_in(world, island, numbers, places, is_path ? guides[1].body : joint->b)};
-    for (int guide = is_path ? 1 : 0, count = further_count(of_joint); count > 0; guide++, count--) {
+// The order in which C evaluates a list is the compiler's: bodies are numbered one after the other.
+static Ends ends_between(Numbering *numbering, int a, int b) {
+    int first = number_in(numbering, a), second = number_in(numbering, b);
+    return (Ends){first, second};
+}
+
+// Number the next row, between two bodies; its further links follow.
+static void add_row(Numbering *numbering, int a, int b) {
+    numbering->island->ends[numbering->row] = ends_between(numbering, a, b);
+    numbering->island->further[numbering->row] = numbering->link;
+    numbering->island->groups[numbering->row++] = numbering->group;
+}
+
+// Number a row of a joint, and its links.
+static void add_joint_row(Numbering *numbering, const Joint *joint, const Row *row) {
+    const Guide *guides = numbering->world->guides + row->first_guide;
+    bool is_path = row->kind == ROW_PATH;
+    add_row(numbering, is_path ? guides[0].body : joint->a, is_path ? guides[1].body : joint->b);
+    for (int guide = is_path ? 1 : 0, count = further_count(row); count > 0; guide++, count--) {
         int next = is_path ? guide + 1 : guide;
-        island->ends[link++] = (Ends){number_in(world, island, numbers, places, guides[guide].body),
-                                      number_in(world, island, numbers, places, guides[next].body)};
+        numbering->island->ends[numbering->link++] = ends_between(numbering, guides[guide].body, guides[next].body);
     }
-    return link;
 }
 
 static int link_count(const World *world, const Island *island) {
@@ -290,66 +308,67 @@ static void add_roll(World *world, Island *island, int row, int joint, Bearing *
     island->closing[row] = TAKE(arena, double, 1);
 }
 
-// Number the bodies of an island, and the ends of its rows.
+static void add_joint_rows(Numbering *numbering) {
+    Island *island = numbering->island;
+    for (int number = 0; number < island->joint_count; number++, numbering->group++) {
+        const Joint *joint = island->joints[number];
+        for (int each = 0; each < joint->row_count; each++) {
+            Row *row = numbering->world->rows + joint->first_row + each;
+            island->rows[numbering->row] = row;
+            island->joint_of_row[numbering->row] = number;
+            take_impulse(numbering->world, island, numbering->row);
+            // Rows with guides have bodies of their own.
+            numbering->group += each > 0 && row->guide_count > 0;
+            add_joint_row(numbering, joint, row);
+        }
+    }
+}
+
+static void add_bearing_rows(Numbering *numbering) {
+    Island *island = numbering->island;
+    for (int number = 0, joint = island->joint_count; number < island->bearing_count; number++) {
+        Bearing *bearing = island->bearings + number;
+        if (bearing->rolling > 0.0) {
+            add_roll(numbering->world, island, numbering->row, joint++, bearing);
+            add_row(numbering, bearing->a, bearing->b);
+            numbering->group++;
+        }
+    }
+    for (int side = 0; side < 2; side++) {
+        for (int number = 0; number < island->bearing_count; number++) {
+            const Bearing *bearing = island->bearings + number;
+            bool same = number > 0 && bearing->a == bearing[-1].a && bearing->b == bearing[-1].b;
+            numbering->group += same ? 0 : 1;
+            island->last[numbering->row] = side == 0 ? bearing->point->jnAcc : bearing->point->jtAcc;
+            add_row(numbering, bearing->a, bearing->b);
+        }
+    }
+}
+
+// Number the bodies of an island, and the ends of its rows; `numbers` are 0 before and after.
 static void lay_out(World *world, Island *island, int *numbers) {
     Arena *arena = &world->own->arena;
-    int link = link_count(world, island), most = 2 * link, row = 0, group = 0;
+    int links = link_count(world, island), most = 2 * links;
     island->engine = TAKE(arena, cpBody *, most);
     island->jointed = TAKE(arena, bool, most);
     island->inverses = TAKE(arena, Inverse, most);
-    island->poses = TAKE(arena, Pose, most);
     island->turns = TAKE(arena, Turn, most);
-    island->velocities = TAKE(arena, Twist, most);
-    island->rows = TAKE(arena, const Row *, island->joint_row_count);
+    island->rows = TAKE(arena, Row *, island->joint_row_count);
     island->joint_of_row = TAKE(arena, int, island->joint_row_count);
     island->impulses = TAKE(arena, double *, island->joint_row_count);
     island->last = TAKE(arena, double, island->row_count);
     island->closing = TAKE(arena, double *, island->joint_row_count);
     island->guides = world->guides;
-    island->ends = TAKE(arena, Ends, link);
+    island->ends = TAKE(arena, Ends, links);
     island->further = TAKE(arena, int, island->row_count + 1);
     island->groups = TAKE(arena, int, island->row_count);
-    int *places = TAKE(arena, int, most);
-    link = island->row_count;
-    for (int number = 0; number < island->joint_count; number++, group++) {
-        const Joint *joint = island->joints[number];
-        for (int each = 0; each < joint->row_count; each++, row++) {
-            island->rows[row] = world->rows + joint->first_row + each;
-            island->joint_of_row[row] = number;
-            take_impulse(world, island, row);
-            island->further[row] = link;
-            // Rows with guides have bodies of their own.
-            group += each > 0 && island->rows[row]->guide_count > 0;
-            link = lay_out_links(world, island, row, link, joint, numbers, places);
-            island->groups[row] = group;
-        }
-    }
-    for (int number = 0, joint = island->joint_count; number < island->bearing_count; number++) {
-        Bearing *bearing = island->bearings + number;
-        if (bearing->rolling > 0.0) {
-            add_roll(world, island, row, joint++, bearing);
-            island->ends[row] = (Ends){number_in(world, island, numbers, places, bearing->a),
-                                       number_in(world, island, numbers, places, bearing->b)};
-            island->further[row] = link;
-            island->groups[row++] = group++;
-        }
-    }
-    for (int side = 0; side < 2; side++) {
-        for (int number = 0; number < island->bearing_count; number++, row++) {
-            const Bearing *bearing = island->bearings + number;
-            bool same = number > 0 && bearing->a == bearing[-1].a && bearing->b == bearing[-1].b;
-            group += same ? 0 : 1;
-            island->last[row] = side == 0 ? bearing->point->jnAcc : bearing->point->jtAcc;
-            island->ends[row] = (Ends){number_in(world, island, numbers, places, bearing->a),
-                                       number_in(world, island, numbers, places, bearing->b)};
-            island->further[row] = link;
-            island->groups[row] = group;
-        }
-    }
-    island->further[row] = link;
-    assert(row == island->row_count && island->body_count <= most);
+    Numbering numbering = {world, island, numbers, TAKE(arena, int, most), .link = island->row_count};
+    add_joint_rows(&numbering);
+    add_bearing_rows(&numbering);
+    island->further[numbering.row] = numbering.link;
+    assert(numbering.row == island->row_count && numbering.link == links && island->body_count <= most);
     for (int number = 0; number < island->body_count; number++) {
-        numbers[places[number]] = 0;
+        numbers[numbering.places[number]] = 0;
     }
 }
 

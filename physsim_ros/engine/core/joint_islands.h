@@ -32,7 +32,7 @@ typedef struct Turn {
 typedef struct Island {
     int joint_count, joint_row_count, bearing_count, body_count, row_count;
     const Joint **joints; // then one for each row of rolling resistance
-    const Row **rows;     // (joint_row_count)
+    Row **rows;           // (joint_row_count)
     int *joint_of_row;
     double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
     double *last;      // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]
@@ -41,14 +41,21 @@ typedef struct Island {
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
     bool *jointed;   // (body_count)
     Inverse *inverses;
-    Pose *poses;
     Turn *turns;
-    Twist *velocities;
     const Guide *guides; // of all rows
     Ends *ends;          // (link_count)
     int *further;        // (row_count + 1): the first further link of each row (`saddle_point.h`)
     int *groups;         // (row_count): one for rows of a joint between the same bodies, and for a pair that touches
 } Island;
+
+// The rows of a bearing: along its normal, and across it.
+static inline int normal_row(const Island *island, int bearing) {
+    return island->joint_row_count + bearing;
+}
+
+static inline int tangent_row(const Island *island, int bearing) {
+    return island->joint_row_count + island->bearing_count + bearing;
+}
 
 typedef struct Islands {
     int count;

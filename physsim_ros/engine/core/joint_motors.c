@@ -33,14 +33,15 @@ static double interpolated(CommandPoint a, CommandPoint b, double time) {
 // The value of a command after some time [s]: beyond its ends it stays.
 static double command_at(const Motor *motor, double time) {
     const CommandPoint *points = motor->points;
-    int last = motor->point_count - 1, next = 0;
-    while (next <= last && points[next].time <= time) {
-        next++;
+    int last = motor->point_count - 1, low = 0, high = last;
+    if (time < points[0].time || time >= points[last].time) {
+        return points[time < points[0].time ? 0 : last].value;
     }
-    if (next == 0 || next > last) {
-        return points[next == 0 ? 0 : last].value;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        *(points[middle].time <= time ? &low : &high) = middle;
     }
-    return interpolated(points[next - 1], points[next], time);
+    return interpolated(points[low], points[high], time);
 }
 
 // The position of a joint where Chipmunk will move its bodies to [m, rad], 0 where they were joined: of an angle, that

@@ -11,6 +11,7 @@
 static const double across_arm = 1.0;
 // The constraint of a slider that limits its travel, after those across its line and of its turn.
 enum { LIMIT_PART = 2 };
+
 double *impulse_at(const Part *part, int component) {
     switch (part->kind) {
     case PART_PIVOT: {
@@ -40,11 +41,6 @@ Vec impulse_of_part(const Part *part) {
     return vec(*impulse_at(part, 0), part->kind == PART_PIVOT ? *impulse_at(part, 1) : 0.0);
 }
 
-// Where Chipmunk will move a body to.
-static Pose ahead(const cpBody *body, double dt) {
-    return moved(pose_of(body), twist_of(body), dt);
-}
-
 // Put the point from which a limit measures on the axis through the first anchor, as far along it as it was, so that it
 // acts along the axis however far the anchor is off its line.
 static void put_on_axis(const Joint *joint, const Anchors *anchors, cpSlideJoint *limit) {
@@ -63,7 +59,8 @@ void prepare_parts(World *world) {
             continue;
         }
         cpPinJoint *pin = (cpPinJoint *)world->parts[joint->first_part].constraint;
-        Pose a = ahead(world->bodies[joint->a].engine, world->dt), b = ahead(world->bodies[joint->b].engine, world->dt);
+        Pose a = pose_after(world->bodies[joint->a].engine, world->dt);
+        Pose b = pose_after(world->bodies[joint->b].engine, world->dt);
         Anchors anchors = anchors_at(joint, a, b);
         Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
         Vec beside = sub(add(anchors.arm_b, anchors.offset), scaled(across, across_arm));

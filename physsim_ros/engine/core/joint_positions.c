@@ -15,13 +15,10 @@
 // each other they are of any size and cancel in these poses alone; a step that started from them after a turn of its
 // bodies would gain the difference.
 
-#include "joint_positions.h"
+#include "island_solve.h"
 #include "mixed_lcp.h"
 #include <string.h>
 
-// The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a thrown one, and
-// joints that contradict each other move their bodies no further than that.
-static const double fastest_correction = 20.0;
 // E as a share of the diagonal of J M⁻¹ Jᵀ: of joints, and of contacts, which yield where joints contradict them.
 static const double joint_position_softness = 1e-7, contact_position_softness = 1e-3;
 // The first Newton step is made where a gap is wider than `negligible`, and a further one where it is wider than
@@ -71,7 +68,7 @@ static void take_pushes(Solve *solve) {
     const Island *island = solve->island;
     Twist *momenta = TAKE(solve->arena, Twist, island->body_count);
     for (int number = 0; number < island->bearing_count; number++) {
-        int row = island->joint_row_count + number;
+        int row = normal_row(island, number);
         add_momenta(solve->jacobians[row], island->ends[row], island->bearings[number].point->jBias, momenta);
     }
     for (int body = 0; body < island->body_count; body++) {
@@ -93,7 +90,6 @@ static void take_pushes(Solve *solve) {
 }
 
 static Displacement begin_displacement(Solve *solve) {
-    const cpSpace *space = solve->space;
     const Island *island = solve->island;
     Arena *arena = solve->arena;
     Displacement move = {.start = TAKE(arena, Pose, island->body_count),
@@ -117,14 +113,13 @@ static Displacement begin_displacement(Solve *solve) {
         move.deferred[row] = gap - clamped(gap, -most, most);
     }
     // Of an overlap Chipmunk's share of a step is pushed out; nothing gets deeper.
-    double stays = pow(space->collisionBias, solve->dt);
     for (int number = 0; number < island->bearing_count; number++) {
         const Bearing *bearing = island->bearings + number;
-        Ends ends = island->ends[island->joint_row_count + number];
+        Ends ends = island->ends[normal_row(island, number)];
         Vec a = add(move.start[ends.a].p, bearing->arm_a), b = add(move.start[ends.b].p, bearing->arm_b);
         double room = dot(sub(b, a), bearing->normal) + bearing->slop;
-        move.room[number] = room - least(room, 0.0) * stays;
-        move.guess[island->joint_row_count + number] = -move.room[number];
+        move.room[number] = room - least(room, 0.0) * solve->overlap_kept;
+        move.guess[normal_row(island, number)] = -move.room[number];
     }
     return move;
 }
@@ -139,7 +134,7 @@ static void measure_gaps(const Solve *solve, Displacement *move) {
         move->widest = greatest(move->widest, fabs(move->gaps[row]));
     }
     for (int number = 0; number < island->bearing_count; number++) {
-        int row = island->joint_row_count + number;
+        int row = normal_row(island, number);
         Ends ends = island->ends[row];
         Twist displacements[2] = {displacement(move->start[ends.a], solve->poses[ends.a]),
                                   displacement(move->start[ends.b], solve->poses[ends.b])};
@@ -162,18 +157,17 @@ static void keep_better(const Solve *solve, const Displacement *move, Best *best
 static Solution newton_step(Solve *solve, const Displacement *move) {
     const Island *island = solve->island;
     Arena *arena = solve->arena;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double *wanted = TAKE(arena, double, island->row_count), *soft = TAKE(arena, double, island->row_count);
     double *lower = TAKE(arena, double, island->row_count), *upper = TAKE(arena, double, island->row_count);
     Solution solution = solution_for(&solve->system, arena);
     for (int row = 0; row < island->row_count; row++) {
-        soft[row] = row < normal ? joint_position_softness : contact_position_softness;
-        if (row < normal) {
+        soft[row] = row < island->joint_row_count ? joint_position_softness : contact_position_softness;
+        if (row < island->joint_row_count) {
             wanted[row] = -move->gaps[row];
             lower[row] = lower_bound(island->rows[row], solve->holds[row], move->gaps[row]);
             upper[row] = upper_bound(island->rows[row], solve->holds[row], move->gaps[row]);
-        } else if (row < tangent) {
-            wanted[row] = -move->distances[row - normal];
+        } else if (row < tangent_row(island, 0)) {
+            wanted[row] = -move->distances[row - island->joint_row_count];
             upper[row] = INFINITY;
         }
         solution.sides[row] = side_by_guess(move->guess[row], lower[row], upper[row]);
@@ -227,7 +221,7 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     }
     for (int number = 0; number < island->bearing_count; number++) {
         Bearing *bearing = island->bearings + number;
-        bearing->closing = impulses[island->joint_row_count + number] * share / solve->dt;
+        bearing->closing = impulses[normal_row(island, number)] * share / solve->dt;
         bearing->point->jnAcc += bearing->closing;
     }
 }

@@ -3,16 +3,14 @@
 
 // Reports of joints on a step: the impulses of their parts, how far apart they still are, and which broke.
 
+#include "island_solve.h"
 #include "joint_parts.h"
-#include "joint_rows.h"
 #include "stages.h"
 
-// An unstepped joint has come together where its rows are no more than this out of their bounds [m, rad]: ten times the
-// slop of limits.
-static const double drawn_slop = 1e-3;
-// The least speed at which it is drawn together [m/s, rad/s], a quarter of the greatest (`joint_positions.c`): a joint
-// that comes nearer more slowly is held apart by others.
-static const double drawn_least = 5.0;
+// Slops of limits by which the rows of an unstepped joint that has come together are out of their bounds, at most.
+static const double drawn_slops = 10.0;
+// Share of the fastest correction below which an unstepped joint is held apart by others.
+static const double least_drawn = 0.25;
 
 static double joint_impulse(const World *world, const Joint *joint) {
     double most = 0.0;
@@ -107,14 +105,15 @@ void measure_drawn_joints(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         Joint *joint = world->joints + number;
         double excess = joint->unstepped ? greatest_excess(world, joint) : 0.0;
-        joint->excess = excess > drawn_slop ? excess : 0.0;
+        joint->excess = excess > drawn_slops * limit_slop ? excess : 0.0;
     }
 }
 
 // Whether an unstepped joint has come nearer in the step, and is still apart.
 static bool is_drawn(const World *world, const Joint *joint) {
     double excess = greatest_excess(world, joint);
-    return excess > drawn_slop && joint->excess - excess > drawn_least * (double)SUB_STEPS * world->dt;
+    return excess > drawn_slops * limit_slop &&
+           joint->excess - excess > least_drawn * fastest_correction * (double)SUB_STEPS * world->dt;
 }
 
 void find_broken(World *world) {

@@ -49,11 +49,10 @@ static double first_link_at(const Row *row, const Joint *joint, const Anchors *a
         *jacobian = (Jacobian){{{0.0, 0.0}, -1.0}, {{0.0, 0.0}, joint->ratio}};
         return joint->ratio * b.yaw - a.yaw;
     case ROW_DISTANCE: {
-        double distance = length(anchors->offset);
         // Anchors on each other have no direction; any one parts them.
-        Vec direction = distance > 0.0 ? scaled(anchors->offset, 1.0 / distance) : vec(1.0, 0.0);
+        Vec direction = unit_or(anchors->offset, vec(1.0, 0.0));
         *jacobian = line_jacobian(direction, anchors->arm_a, anchors->arm_b);
-        return distance;
+        return length(anchors->offset);
     }
     case ROW_ACROSS:
         return position_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
@@ -83,7 +82,7 @@ static Vec tangent_between(Vec from, double radius, Vec to, double other_radius,
     if (distance <= fabs(across)) {
         // Wheels that lie in each other have no common tangent.
         *span = 0.0;
-        return distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(1.0, 0.0);
+        return unit_or(apart, vec(1.0, 0.0));
     }
     *span = sqrt(distance * distance - across * across);
     return rotated(scaled(apart, 1.0 / distance), (Rotation){*span / distance, across / distance});
@@ -135,8 +134,7 @@ double row_after(const World *world, const Joint *joint, const Row *row, double 
         int place = number >= first_guide ? world->guides[row->first_guide + number - first_guide].body
                     : number == 0         ? joint->a
                                           : joint->b;
-        const cpBody *engine = world->bodies[place].engine;
-        poses[number] = moved(pose_of(engine), twist_of(engine), lapse);
+        poses[number] = pose_after(world->bodies[place].engine, lapse);
     }
     Ends *ends = TAKE(arena, Ends, link_count);
     Jacobian *jacobians = TAKE(arena, Jacobian, link_count);

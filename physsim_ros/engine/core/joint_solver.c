@@ -12,8 +12,7 @@
 // Cost: 5 µs a step for a pendulum, 150 µs for a chain of fifty axles.
 // Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail.
 
-#include "joint_positions.h"
-#include "joint_velocities.h"
+#include "island_solve.h"
 #include "stages.h"
 
 // Whether springs, dampers and friction alone join an island: sleeping.c finds whether it rests.
@@ -28,11 +27,11 @@ static bool of_springs(const Island *island) {
 
 // Move the upper bounds that have a rate: by that as long as the joint holds, else no further than to where x will be
 // in the next step.
-static void move_bounds(World *world, const Solve *solve) {
+static void move_bounds(const Solve *solve) {
     const Island *island = solve->island;
     for (int number = 0; number < island->joint_row_count; number++) {
-        if (island->rows[number]->law == LAW_BOUNDS && island->rows[number]->rate != 0.0) {
-            Row *row = world->rows + (island->rows[number] - world->rows);
+        Row *row = island->rows[number];
+        if (row->law == LAW_BOUNDS && row->rate != 0.0) {
             double next = clamped(row->upper + row->rate * solve->dt, row->least, row->greatest);
             double ahead = row_rate(&solve->system, solve->jacobians, number, solve->velocities) * solve->dt;
             double given = row->upper + solve->excess[number] + ahead - limit_slop;
@@ -41,17 +40,17 @@ static void move_bounds(World *world, const Solve *solve) {
     }
 }
 
-static void correct_island(World *world, Solve *solve) {
+static void correct_island(Solve *solve) {
     const Island *island = solve->island;
     for (int body = 0; body < island->body_count; body++) {
-        island->poses[body] = pose_of(island->engine[body]);
+        solve->poses[body] = pose_of(island->engine[body]);
     }
     solve_positions(solve);
-    move_bounds(world, solve);
+    move_bounds(solve);
     bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {
-            Pose now = pose_of(island->engine[body]), next = island->poses[body];
+            Pose now = pose_of(island->engine[body]), next = solve->poses[body];
             if (next.p.x != now.p.x || next.p.y != now.p.y || next.yaw != now.yaw) {
                 set_pose(island->engine[body], next);
             }
@@ -111,7 +110,7 @@ void solve_joints(World *world) {
 
 void correct_joint_positions(World *world) {
     for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->now.joint_islands->count; number++) {
-        correct_island(world, world->own->now.joint_islands->solves + number);
+        correct_island(world->own->now.joint_islands->solves + number);
     }
 }
 

@@ -23,10 +23,14 @@
 // the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
 // pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that holds, as a taut
 // rope does, also gets the curvature term if that loads it more.
+//
+// Springs: those with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the
+// impulse of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the
+// damper; Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
 // Cost: that of `joint_solver.c`.
 
-#include "joint_velocities.h"
 #include "contact.h"
+#include "island_solve.h"
 #include "mixed_lcp.h"
 #include "stages.h"
 #include <string.h>
@@ -49,10 +53,6 @@ static const double slip_error = 1e-4, slip_share = 1e-3;
 // Share of its rate that a damper takes in a step, at least: the row of a spring without one is soft by this, and
 // swings on for a million seconds.
 static const double least_damping = 1e-9;
-
-// Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse
-// of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper;
-// Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
 
 // The rows of an island in velocities: those of joints, then the two edges of the friction cone of each contact. The
 // impulse along an edge, λ >= 0, is one along the normal and μ times as much across it, to one side or the other.
@@ -100,16 +100,15 @@ static Jacobian edge_jacobian(Jacobian normal, Jacobian tangent, double share) {
 // Velocities without the impulses that Chipmunk gave to the rows.
 static void take_back(const Solve *solve, Twist *without) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
-    for (int row = 0; row < normal; row++) {
+    for (int row = 0; row < island->joint_row_count; row++) {
         double impulse = *island->impulses[row] * factor_of(island->rows[row], solve->excess[row]);
         add_row_momenta(&solve->system, solve->jacobians, row, -impulse, without);
     }
     for (int number = 0; number < island->bearing_count; number++) {
         const cpContact *point = island->bearings[number].point;
-        Ends ends = island->ends[normal + number];
-        add_momenta(solve->jacobians[normal + number], ends, -point->jnAcc, without);
-        add_momenta(solve->jacobians[tangent + number], ends, -point->jtAcc, without);
+        Ends ends = island->ends[normal_row(island, number)];
+        add_momenta(solve->jacobians[normal_row(island, number)], ends, -point->jnAcc, without);
+        add_momenta(solve->jacobians[tangent_row(island, number)], ends, -point->jtAcc, without);
     }
     for (int body = 0; body < island->body_count; body++) {
         Inverse inverse = island->inverses[body];
@@ -121,16 +120,15 @@ static void take_back(const Solve *solve, Twist *without) {
 // λ of the step before.
 static double *last_impulses(const Solve *solve) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double *last = TAKE(solve->arena, double, island->row_count);
-    for (int row = 0; row < normal; row++) {
+    for (int row = 0; row < island->joint_row_count; row++) {
         last[row] = island->last[row] * factor_of(island->rows[row], solve->excess[row]);
     }
     for (int number = 0; number < island->bearing_count; number++) {
-        double along = island->last[normal + number], across = island->last[tangent + number];
+        double along = island->last[normal_row(island, number)], across = island->last[tangent_row(island, number)];
         Edges edges = edges_of(island->bearings[number].friction, along, across);
-        last[normal + number] = edges.left;
-        last[tangent + number] = edges.right;
+        last[normal_row(island, number)] = edges.left;
+        last[tangent_row(island, number)] = edges.right;
     }
     return last;
 }
@@ -150,10 +148,9 @@ static void begin_joints(const Solve *solve, VelocityRows *rows, double *soft) {
 // it is found.
 static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft, double *prior, const Twist *without) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     for (int number = 0; number < island->bearing_count; number++) {
         const Bearing *bearing = island->bearings + number;
-        int left = normal + number, right = tangent + number;
+        int left = normal_row(island, number), right = tangent_row(island, number);
         Ends ends = island->ends[left];
         Jacobian along = solve->jacobians[left], across = solve->jacobians[right];
         rows->jacobians[left] = edge_jacobian(along, across, bearing->friction);
@@ -200,8 +197,7 @@ static VelocityRows velocity_rows(Solve *solve, const Twist *without) {
 // Aim at the targets of joints, and at those of contacts that slide by `slips`.
 static void set_targets(const Solve *solve, VelocityRows *rows, const double *bounce) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
-    for (int row = 0; row < normal; row++) {
+    for (int row = 0; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
         double pull = solve->springs[row] ? of_joint->stiffness * solve->excess[row] / damping_of(solve, row) : 0.0;
         rows->wanted[row] = bound_rate(of_joint) - pull - rows->rates[row];
@@ -210,19 +206,18 @@ static void set_targets(const Solve *solve, VelocityRows *rows, const double *bo
         const Bearing *bearing = island->bearings + number;
         double least_rate = bounce[number] - bearing->friction * rows->slips[number];
         double slide = bearing->friction * bearing->slide;
-        rows->wanted[normal + number] = least_rate - slide - rows->rates[normal + number];
-        rows->wanted[tangent + number] = least_rate + slide - rows->rates[tangent + number];
+        rows->wanted[normal_row(island, number)] = least_rate - slide - rows->rates[normal_row(island, number)];
+        rows->wanted[tangent_row(island, number)] = least_rate + slide - rows->rates[tangent_row(island, number)];
     }
 }
 
 // Take slips from a solution; return whether targets change by it.
 static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
-    int tangent = island->joint_row_count + island->bearing_count;
     bool changed = false;
     for (int number = 0; number < island->bearing_count; number++) {
-        Ends ends = island->ends[tangent + number];
-        double change = link_rate(solve->jacobians[tangent + number], ends, solution->changes);
+        Ends ends = island->ends[tangent_row(island, number)];
+        double change = link_rate(solve->jacobians[tangent_row(island, number)], ends, solution->changes);
         double slip = fabs(rows->free_slips[number] + change);
         slip = slip < least_slip ? 0.0 : slip;
         changed = changed || fabs(slip - rows->slips[number]) > slip_error + slip_share * slip;
@@ -235,13 +230,12 @@ static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution 
 // a body that rattles on a machine touches it in every other step.
 static void guess_sides(const Solve *solve, const VelocityRows *rows, int8_t *sides) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
-    for (int row = 0; row < normal; row++) {
+    for (int row = 0; row < island->joint_row_count; row++) {
         sides[row] = side_by_guess(rows->last[row], rows->lower[row], rows->upper[row]);
     }
     for (int number = 0; number < island->bearing_count; number++) {
         const Bearing *bearing = island->bearings + number;
-        int left = normal + number, right = tangent + number;
+        int left = normal_row(island, number), right = tangent_row(island, number);
         Edges edges = edges_of(bearing->friction, bearing->point->jnAcc, bearing->point->jtAcc);
         sides[left] = side_by_guess(edges.left, rows->lower[left], rows->upper[left]);
         sides[right] = side_by_guess(edges.right, rows->lower[right], rows->upper[right]);
@@ -270,9 +264,8 @@ static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double
 // Chipmunk measures the approach before gravity and springs act on it, so that it may have been as fast as `bounce`.
 static double work_of(const Solve *solve, const VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double work = 0.0;
-    for (int row = 0; row < normal; row++) {
+    for (int row = 0; row < island->joint_row_count; row++) {
         double before = rows->rates[row];
         double after = before + row_rate(&solve->system, solve->jacobians, row, solution->changes);
         // A spring gives back what it has taken, and a drive gives energy.
@@ -280,7 +273,7 @@ static double work_of(const Solve *solve, const VelocityRows *rows, const Soluti
         work += bounds ? solution->impulses[row] * (before + after) / 2.0 : 0.0;
     }
     for (int number = 0; number < island->bearing_count; number++) {
-        int left = normal + number, right = tangent + number;
+        int left = normal_row(island, number), right = tangent_row(island, number);
         double friction = island->bearings[number].friction;
         double along = solution->impulses[left] + solution->impulses[right];
         double across = friction * (solution->impulses[left] - solution->impulses[right]);
@@ -366,7 +359,6 @@ static VelocityRows copy_of(const Solve *solve, const VelocityRows *rows) {
 // impulses. A light finger that a motor presses on a body would bounce without end.
 static void press_on(Solve *solve, VelocityRows *rows) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     if (!is_driven_in_impact(island, rows)) {
         return;
     }
@@ -379,7 +371,7 @@ static void press_on(Solve *solve, VelocityRows *rows) {
     Solution impact = solve_with_bounce(solve, &hit, rows->bounce);
     for (int number = 0; number < island->bearing_count; number++) {
         if (bounces_off(island, rows, number)) {
-            int left = normal + number, right = tangent + number;
+            int left = normal_row(island, number), right = tangent_row(island, number);
             after.lower[left] = after.upper[left] = impact.impulses[left];
             after.lower[right] = after.upper[right] = impact.impulses[right];
         }
@@ -387,8 +379,8 @@ static void press_on(Solve *solve, VelocityRows *rows) {
     Solution pressed = solve_with_bounce(solve, &after, rows->bounce);
     for (int number = 0; number < island->bearing_count; number++) {
         if (bounces_off(island, rows, number)) {
-            Jacobian jacobian = solve->jacobians[normal + number];
-            Ends ends = island->ends[normal + number];
+            Jacobian jacobian = solve->jacobians[normal_row(island, number)];
+            Ends ends = island->ends[normal_row(island, number)];
             double gained = link_rate(jacobian, ends, pressed.changes) - link_rate(jacobian, ends, impact.changes);
             double share = island->bearings[number].remaining / solve->dt + 0.5;
             rows->bounce[number] = greatest(rows->bounce[number] + gained * share, 0.0);
@@ -467,17 +459,18 @@ static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *ve
 static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solution *solution,
                               const Twist *velocities) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
     double *wanted = TAKE(solve->arena, double, island->row_count);
     bool late = false;
     for (int number = 0; number < island->bearing_count; number++) {
         double remaining = island->bearings[number].remaining;
-        Ends ends = island->ends[normal + number];
+        Ends ends = island->ends[normal_row(island, number)];
         Twist displacements[] = {
             displacement_gained(body_of(island->engine[ends.a]), velocities[ends.a], remaining, solve->dt),
             displacement_gained(body_of(island->engine[ends.b]), velocities[ends.b], remaining, solve->dt)};
-        wanted[normal + number] = link_rate(rows->jacobians[normal + number], (Ends){0, 1}, displacements);
-        wanted[tangent + number] = link_rate(rows->jacobians[tangent + number], (Ends){0, 1}, displacements);
+        wanted[normal_row(island, number)] =
+            link_rate(rows->jacobians[normal_row(island, number)], (Ends){0, 1}, displacements);
+        wanted[tangent_row(island, number)] =
+            link_rate(rows->jacobians[tangent_row(island, number)], (Ends){0, 1}, displacements);
         late = late || remaining > 0.0;
     }
     if (late) {
@@ -490,12 +483,12 @@ static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solu
 
 static void write_impulses(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
-    int normal = island->joint_row_count, tangent = normal + island->bearing_count;
-    for (int row = 0; row < normal; row++) {
+    for (int row = 0; row < island->joint_row_count; row++) {
         *island->impulses[row] = solution->impulses[row] / factor_of(island->rows[row], solve->excess[row]);
     }
     for (int number = 0; number < island->bearing_count; number++) {
-        double left = solution->impulses[normal + number], right = solution->impulses[tangent + number];
+        double left = solution->impulses[normal_row(island, number)],
+               right = solution->impulses[tangent_row(island, number)];
         island->bearings[number].point->jnAcc = left + right;
         island->bearings[number].point->jtAcc = island->bearings[number].friction * (left - right);
     }

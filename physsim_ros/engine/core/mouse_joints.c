@@ -32,10 +32,9 @@ static Softness softness(double dt) {
 }
 
 // Solve one grip on a body that has a velocity, which is changed. Return its impulse, which was `before` [N s].
-static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Vec arm, Pose pose, Twist *twist,
-                      Vec before) {
+static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Softness soft, Vec arm, Pose pose,
+                      Twist *twist, Vec before) {
     double mass_inverse = body->engine->m_inv, moment_inverse = body->engine->i_inv;
-    Softness soft = softness(world->dt);
     // dC/dt + bias_rate C
     Vec gap = sub(add(pose.p, arm), grip->target);
     Vec u = add(velocity_at(*twist, arm), scaled(gap, soft.bias_rate));
@@ -64,15 +63,17 @@ static void pull_body(World *world, Body *body, const Grip *grips, int count) {
     // Chipmunk moves bodies first, and accelerates them then.
     Twist twist = twist_of(body->engine);
     Pose pose = moved(pose_of(body->engine), twist, world->dt);
-    twist = twist_sum((Twist){scaled(twist.v, world->own->kept), twist.w * world->own->kept}, body->state.lead, 2.0);
+    twist = twist_sum(twist_scaled(twist, world->own->kept), body->state.lead, 2.0);
     Rotation by = rotation(pose.yaw);
+    Softness soft = softness(world->dt);
     for (int number = 0; number < count; number++) {
         arms[number] = rotated(grips[number].anchor, by);
     }
     int sweeps = count < world->space->iterations ? count : world->space->iterations;
     for (int sweep = 0; sweep < sweeps; sweep++) {
         for (int number = 0; number < count; number++) {
-            impulses[number] = solve_grip(world, body, grips + number, arms[number], pose, &twist, impulses[number]);
+            impulses[number] =
+                solve_grip(world, body, grips + number, soft, arms[number], pose, &twist, impulses[number]);
         }
     }
     for (int number = 0; number < count; number++) {

@@ -123,7 +123,7 @@ static HalfPlane avoiding(const Disc *self, const Disc *other, double horizon) {
     Vec from = sub(relative, scaled(apart, 1.0 / time));
     double size = length(from), ahead = dot(from, apart);
     if (square <= radius * radius || (ahead < 0.0 && ahead * ahead > radius * radius * size * size)) {
-        n = size > 0.0 ? scaled(from, 1.0 / size) : vec(1.0, 0.0);
+        n = unit_or(from, vec(1.0, 0.0));
         change = scaled(n, radius / time - size);
     } else {
         // The tangent from the origin to the disc of the other one, on the side of the relative velocity.
@@ -139,8 +139,8 @@ static HalfPlane avoiding(const Disc *self, const Disc *other, double horizon) {
 // neither can give way; standing is always allowed.
 static HalfPlane damper_of(const Disc *self, const Disc *other) {
     Vec apart = sub(other->point, self->point);
-    double distance = length(apart), room = distance - self->radius - other->radius;
-    Vec towards = distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(1.0, 0.0);
+    double room = length(apart) - self->radius - other->radius;
+    Vec towards = unit_or(apart, vec(1.0, 0.0));
     double share = other->walks ? 0.5 : 1.0, retreat = greatest(dot(other->velocity, towards), 0.0);
     return (HalfPlane){negated(towards), -(retreat + share * greatest(room, 0.0) / parting_time)};
 }

@@ -12,11 +12,12 @@
 #include "stages.h"
 
 void set_overlap_biases(World *world) {
+    double rate = (1.0 - world->own->overlap_kept) / world->dt;
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         for (int point = 0; point < arbiter->count; point++) {
             cpContact *contact = arbiter->contacts + point;
-            contact->bias = -world->own->bias_rate * least(gap_at(arbiter, contact) + slop_of(arbiter), 0.0);
+            contact->bias = -rate * least(gap_at(arbiter, contact) + slop_of(arbiter), 0.0);
             contact->jBias = 0.0;
         }
     }

@@ -146,17 +146,13 @@ static Twist remaining_displacement(const World *world, const Body *body) {
     return body->scratch.remaining_move;
 }
 
-static bool is_displaced(Twist displacement) {
-    return displacement.v.x != 0.0 || displacement.v.y != 0.0 || displacement.w != 0.0;
-}
-
 // Have the remaining displacements of bodies end where they meet others.
 static void stop_remaining_moves(World *world) {
     Sweep sweep = sweep_of(world, remaining_displacement);
     int *far = TAKE(&world->own->arena, int, sweep.count), count = 0;
     for (int number = 0; number < sweep.count; number++) {
         Mover *mover = sweep.movers + number;
-        mover->movable = is_displaced(mover->rate);
+        mover->movable = !is_zero(mover->rate);
         if (is_far(world, mover->body, mover->body->scratch.remaining_move)) {
             far[count++] = number;
         }
@@ -186,7 +182,7 @@ void finish_moves(World *world) {
     }
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        if (is_displaced(body->scratch.remaining_move)) {
+        if (!is_zero(body->scratch.remaining_move)) {
             set_pose(body->engine, moved(pose_of(body->engine), body->scratch.remaining_move, 1.0));
         }
     }

@@ -36,11 +36,7 @@ static Twist displacement_in_step(const Body *body) {
 
 // A body as the sub-step began, with its displacement since.
 static Mover mover_in_step(Body *body) {
-    Mover mover = mover_of(body, displacement_in_step(body));
-    mover.pose = body->scratch.begin;
-    mover.pivot = body->scratch.begin.p;
-    fit_box(&mover);
-    return mover;
+    return mover_of(body, body->scratch.begin, displacement_in_step(body));
 }
 
 static double meeting_of(World *world, const Mover *body, const Mover *sensor) {

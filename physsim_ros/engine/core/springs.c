@@ -78,14 +78,12 @@ static Spring spring_of(const World *world, const Joint *joint) {
     const cpBody *a = world->bodies[joint->a].engine, *b = world->bodies[joint->b].engine;
     const Row *row = joint->row_count > 0 ? world->rows + joint->first_row : NULL;
     Anchors anchors = anchors_at(joint, pose_of(a), pose_of(b));
-    double distance = length(anchors.offset);
-    Vec direction = distance > 0.0 ? scaled(anchors.offset, 1.0 / distance) : vec(0.0, 0.0);
-    Jacobian jacobian = line_jacobian(direction, anchors.arm_a, anchors.arm_b);
+    Jacobian jacobian = line_jacobian(unit_or(anchors.offset, vec(0.0, 0.0)), anchors.arm_a, anchors.arm_b);
     return (Spring){joint,
                     jacobian,
                     {{scaled(jacobian.a.v, a->m_inv), jacobian.a.w * a->i_inv},
                      {scaled(jacobian.b.v, b->m_inv), jacobian.b.w * b->i_inv}},
-                    distance - engine->restLength,
+                    length(anchors.offset) - engine->restLength,
                     row ? row->stiffness : engine->stiffness,
                     row ? row->damping : 0.0,
                     engine->constraint.maxForce};

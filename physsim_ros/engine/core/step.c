@@ -191,7 +191,7 @@ int32_t core_step(World *world, int32_t count) {
     CallTime time = {.began = now, .ended = now};
     int32_t made = 0;
     own->kept = pow(world->space->damping, world->dt);
-    own->bias_rate = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
+    own->overlap_kept = pow(world->space->collisionBias, world->dt);
     world->has_broken = world->has_lost = false;
     do {
         own->call_step = made;

@@ -54,7 +54,7 @@ static const double farthest_seen = 10.0;
 
 // Whether a pedestrian passes through a body, instead of avoiding it.
 static inline bool passes_through(const Body *self, const Body *other) {
-    return self == other || (self->group != 0 && self->group == other->group);
+    return self == other || share_group(self, other);
 }
 
 // The robot of an actor; NULL if it is none.

@@ -202,12 +202,11 @@ bool come_near(const Mover *one, const Mover *other) {
     return since <= until && enters <= least(leaves, 1.0) && leaves >= 0.0;
 }
 
-// A body that moves by a displacement in the step.
-Mover mover_of(Body *body, Twist displacement) {
+Mover mover_of(Body *body, Pose begin, Twist displacement) {
     Mover mover = {.body = body,
                    .movable = body->dynamic,
-                   .pose = pose_of(body->engine),
-                   .pivot = body->engine->p,
+                   .pose = begin,
+                   .pivot = begin.p,
                    .depth = body->safe_depth,
                    .turning = body->turning_radius,
                    .shapes = body->pieces,
@@ -229,7 +228,8 @@ Sweep sweep_of(World *world, DisplacementOf *displacement_of) {
     Box *boxes = TAKE(arena, Box, world->body_count);
     for (int place = 0; place < world->body_count; place++) {
         if (is_solid(world->bodies + place)) {
-            Mover mover = mover_of(world->bodies + place, displacement_of(world, world->bodies + place));
+            Body *body = world->bodies + place;
+            Mover mover = mover_of(body, pose_of(body->engine), displacement_of(world, body));
             mover.island = sweep.count;
             boxes[sweep.count] = mover.box;
             sweep.movers[sweep.count++] = mover;

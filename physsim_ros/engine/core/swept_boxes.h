@@ -50,7 +50,7 @@ static inline bool is_far(const World *world, const Body *body, Twist displaceme
 }
 
 // A body that moves by a displacement in the step.
-Mover mover_of(Body *body, Twist displacement);
+Mover mover_of(Body *body, Pose begin, Twist displacement);
 
 // All bodies, each with its displacement in the step.
 Sweep sweep_of(World *world, DisplacementOf *displacement_of);

@@ -8,6 +8,7 @@
 
 #include "core.h"
 #include <math.h>
+#include <stdbool.h>
 
 typedef cpVect Vec;
 
@@ -74,6 +75,20 @@ static inline Vec velocity_at(Twist twist, Vec arm) {
 
 static inline Twist twist_sum(Twist a, Twist b, double share) {
     return (Twist){add(a.v, scaled(b.v, share)), a.w + b.w * share};
+}
+
+static inline Twist twist_scaled(Twist a, double share) {
+    return (Twist){scaled(a.v, share), a.w * share};
+}
+
+static inline bool is_zero(Twist a) {
+    return a.v.x == 0.0 && a.v.y == 0.0 && a.w == 0.0;
+}
+
+// The unit vector along another one, which may have no direction.
+static inline Vec unit_or(Vec a, Vec otherwise) {
+    double size = length(a);
+    return size > 0.0 ? scaled(a, 1.0 / size) : otherwise;
 }
 
 static inline double least(double a, double b) {

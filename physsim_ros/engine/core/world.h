@@ -34,9 +34,9 @@ typedef struct Private {
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
-    double kept;        // share of its velocity that a body keeps in a sub-step
-    double bias_rate;   // at which an overlap is pushed out [1/s]
-    double least_depth; // least safe depth of a body that is no sensor [m]
+    double kept;         // share of its velocity that a body keeps in a sub-step
+    double overlap_kept; // share of an overlap that it keeps, the rest is pushed out
+    double least_depth;  // least safe depth of a body that is no sensor [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
     struct Statics *statics;
@@ -103,6 +103,11 @@ static inline Body *active_at(const World *world, int number) {
     return world->own->all_active ? world->bodies + number : body_of(world->space->dynamicBodies->arr[number]);
 }
 
+// Whether two bodies are of one group, and pass through each other.
+static inline bool share_group(const Body *a, const Body *b) {
+    return a->group != 0 && a->group == b->group;
+}
+
 static inline Pose pose_of(const cpBody *body) {
     return (Pose){body->p, body->a};
 }
@@ -129,6 +134,11 @@ void set_pose(cpBody *body, Pose pose);
 // A pose after a displacement.
 static inline Pose moved(Pose pose, Twist displacement, double share) {
     return (Pose){add(pose.p, scaled(displacement.v, share)), pose.yaw + displacement.w * share};
+}
+
+// Where Chipmunk moves a body to in a time [s].
+static inline Pose pose_after(const cpBody *body, double lapse) {
+    return moved(pose_of(body), twist_of(body), lapse);
 }
 
 // The next contact in the list of a body.

@@ -20,6 +20,7 @@ from physsim_ros.model.checks import (
     LONGEST,
     OfClass,
     text,
+    texts,
 )
 from physsim_ros.model.colors import check_color, Color
 from physsim_ros.model.declarations import check_key, Checked
@@ -31,7 +32,6 @@ from physsim_ros.model.requests.request import (
     OfNamespace,
     Request,
     several,
-    texts,
     UNSET,
 )
 from physsim_ros.model.shapes import Shape

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated, Any
 
-from physsim_ros.model.checks import check_point, OfClass, shown, text
+from physsim_ros.model.checks import check_point, OfClass, shown, text, texts
 from physsim_ros.model.declarations import Checked, without_unset
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
 from physsim_ros.model.joints import (
@@ -21,14 +21,7 @@ from physsim_ros.model.joints import (
 from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
-from physsim_ros.model.requests.request import (
-    AtPoint,
-    OfNamespace,
-    Request,
-    several,
-    texts,
-    UNSET,
-)
+from physsim_ros.model.requests.request import AtPoint, OfNamespace, Request, several, UNSET
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point
 

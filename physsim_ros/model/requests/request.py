@@ -12,7 +12,6 @@ from physsim_ros.model.checks import check_point, OfClass, shown, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.settings import check_setting, WorldSettings
-from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Point
 
 UNSET = 'names of properties to reset to their defaults'
@@ -61,13 +60,6 @@ def several(bodies: Collection[object], joints: Collection[object]) -> str:
     """Return the object of a phrase about bodies, joints or both."""
     kinds = ['bodies'] * bool(bodies) + ['joints'] * bool(joints)
     return f'several {" and ".join(kinds)}'
-
-
-def texts(value: object, name: str) -> tuple[str, ...]:
-    """Return a list of texts, or refuse it."""
-    if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
-        raise Malformed(f'{name} must be a list of texts, not {shown(value)}', field=name)
-    return tuple(map(canonical, value))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

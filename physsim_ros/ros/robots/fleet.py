@@ -291,7 +291,8 @@ class Fleet:
         there = {body.name: body.robot for body in bodies}
         for name, topics in [*self.robots.items()]:
             if (topics.robot, topics.lasers) != (there.get(name), self._lasers):
-                self.robots.pop(name).close()
+                with self._boundary.output('robots'):
+                    self.robots.pop(name).close()
                 yield
         for body, robot in zip(bodies, scene.robots, strict=True):
             with self._boundary.output('robots'):

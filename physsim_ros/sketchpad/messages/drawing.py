@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 import time
 from typing import Any, Literal
@@ -16,7 +16,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import LONGEST, number, shown
 from physsim_ros.model.colors import Color
-from physsim_ros.model.errors import BadProperty, Malformed, NotRecognised
+from physsim_ros.model.errors import BadProperty, Confidences, Malformed, NotRecognised
 from physsim_ros.model.requests import Grab, LetGo, MoveHand
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.transform import Point
@@ -99,18 +99,18 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[Check], Reading])
     try:
         reading = read(check)
     except NotRecognised as refusal:
-        page.send(_reading_content(origin, refusal.values))
+        page.send(_reading_content(origin, refusal.guesses))
         raise
-    page.send(_reading_content(origin, reading.values, reading))
+    page.send(_reading_content(origin, reading.confidences, reading))
     reading = replace(reading, requests=page.with_material(reading.requests))
     submit_reading(page.world.simulation, page.drawing, reading, origin)
 
 
 def _reading_content(
-    origin: Origin, values: tuple[tuple[str, str], ...], built: Reading | None = None
+    origin: Origin, confidences: Confidences, built: Reading | None = None
 ) -> dict[str, Any]:
     """Return the message of guesses, and of the reading that is built, if one is."""
-    guesses = _guesses(dict(values))
+    guesses = [(meaning, round(confidence, 3)) for meaning, confidence in confidences]
     (meaning, confidence), (second, second_confidence) = [*guesses, ('', 0.0), ('', 0.0)][:2]
     return {
         'type': 'reading',
@@ -124,16 +124,6 @@ def _reading_content(
         'outline': built.outline.tolist() if built else (),
         'built': built is not None,
     }
-
-
-def _guesses(values: Mapping[str, str]) -> list[tuple[str, float]]:
-    """Return the meanings of a reading with their confidences, the likeliest first."""
-    ranked = (
-        ('reading', 'confidence'),
-        ('runner_up', 'runner_up_confidence'),
-        ('third', 'third_confidence'),
-    )
-    return [(values[name], float(values[share])) for name, share in ranked if values.get(name)]
 
 
 # Click tools

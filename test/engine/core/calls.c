@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// What tests call; it stands behind all sources of the core, in one translation unit (`one_unit.py`).
+// What tests call; it stands behind all sources of the core, in one translation unit (`conftest.py`).
 
 #include "calls.h"
 #include "boxes.h"
@@ -14,12 +14,66 @@
 #include <stdlib.h>
 #include <string.h>
 
-void call_ldl(int size, const int *starts, const int *rows, double *values, double *diagonal, double *x) {
+static bool take_full(Arena *arena, int size) {
+    unsigned char *piece = TAKE(arena, unsigned char, size);
+    bool good = (uintptr_t)piece % 16 == 0;
+    for (int byte = 0; byte < size; byte++) {
+        good = good && piece[byte] == 0;
+        piece[byte] = 255;
+    }
+    return good;
+}
+
+_Bool call_arena(int count, const int *sizes, int kept) {
     Arena arena = {0};
-    Ldl system = {.size = size, .starts = starts, .rows = rows, .values = values, .diagonal = diagonal};
-    ldl_analyse(&system, &arena);
-    ldl_factor(&system);
-    ldl_solve(&system, x);
+    bool good = true;
+    for (int step = 0; step < 3; step++) {
+        size_t mark = 0;
+        for (int number = 0; number < 2 * count - kept; number++) {
+            if (number == kept) {
+                mark = arena_mark(&arena);
+            }
+            if (number == count) {
+                arena_release(&arena, mark);
+            }
+            good = take_full(&arena, sizes[number < count ? number : number - count + kept]) && good;
+        }
+        good = good && (step == 0 || arena.extra == NULL);
+        arena_reset(&arena);
+    }
+    arena_free(&arena);
+    return good;
+}
+
+void call_sets(int count, int pair_count, const int *pairs, int *roots) {
+    Private own = {0};
+    World world = {.body_count = count, .own = &own};
+    int *parents = sets_of(&world);
+    for (int pair = 0; pair < pair_count; pair++) {
+        unite(parents, pairs[2 * pair], pairs[2 * pair + 1]);
+    }
+    for (int number = 0; number < count; number++) {
+        roots[number] = root_of(parents, number);
+    }
+    arena_free(&own.arena);
+}
+
+void call_ldl(int size, const int *starts, const int *rows, double *former_values, double *former_diagonal,
+              double *values, double *diagonal, double *x) {
+    Arena arena = {0};
+    Ldl ldl = {.size = size, .starts = starts, .rows = rows, .values = former_values, .diagonal = former_diagonal};
+    ldl_analyse(&ldl, &arena);
+    ldl_factor(&ldl);
+    for (int column = 0; column < size; column++) {
+        ldl.changed[column] = diagonal[column] != former_diagonal[column];
+        for (int entry = starts[column]; entry < starts[column + 1]; entry++) {
+            ldl.changed[column] = ldl.changed[column] || values[entry] != former_values[entry];
+        }
+    }
+    ldl.values = values;
+    ldl.diagonal = diagonal;
+    ldl_factor(&ldl);
+    ldl_solve(&ldl, x);
     arena_free(&arena);
 }
 
@@ -56,20 +110,21 @@ void call_elimination_order(int count, const int *weights, const int *starts, co
 }
 
 typedef struct Found {
-    int *numbers, count;
+    int *numbers, count, most;
 } Found;
 
 static bool add_found(int number, void *data) {
     Found *found = data;
     found->numbers[found->count++] = number;
-    return true;
+    return found->count < found->most;
 }
 
-int call_boxes(int count, const double *boxes, int changed, const double *replacement, const double *box, int *found) {
+int call_boxes(int count, const double *boxes, int changed, const double *replacement, const double *box, int most,
+               int *found) {
     Arena arena = {0};
     Tree tree = tree_of((const Box *)boxes, count, &arena);
     tree_set(&tree, changed, *(const Box *)replacement);
-    Found all = {found, 0};
+    Found all = {found, 0, most};
     tree_query(&tree, *(const Box *)box, add_found, &all);
     arena_free(&arena);
     return all.count;
@@ -78,25 +133,44 @@ int call_boxes(int count, const double *boxes, int changed, const double *replac
 // What a mover of one convex shape points to.
 typedef struct Shaped {
     int kind;
-    cpPolyShape polygon;
+    union {
+        cpShape shape;
+        cpCircleShape disc;
+        cpSegmentShape segment;
+        cpPolyShape polygon;
+    };
     cpBody engine;
     Body body;
     Mover mover;
 } Shaped;
 
 static void shape_case(Shaped *shaped, const Case *given, Arena *arena) {
-    shaped->kind = SHAPE_POLYGON;
-    shaped->polygon.shape.klass = &shaped->kind;
-    shaped->polygon.r = given->radius;
-    shaped->polygon.count = given->count;
-    shaped->polygon.planes = TAKE(arena, cpSplittingPlane, 2 * given->count);
-    for (int number = 0; number < given->count; number++) {
-        const double *corner = given->corners + (ptrdiff_t)2 * number, *normal = given->normals + (ptrdiff_t)2 * number;
-        shaped->polygon.planes[given->count + number] =
-            (cpSplittingPlane){{corner[0], corner[1]}, {normal[0], normal[1]}};
-    }
+    const Vec *corners = (const Vec *)given->corners, *normals = (const Vec *)given->normals;
+    shaped->kind = given->count == 1 ? SHAPE_CIRCLE : given->count == 2 ? SHAPE_SEGMENT : SHAPE_POLYGON;
+    shaped->shape.klass = &shaped->kind;
+    shaped->shape.body = &shaped->engine;
+    shaped->engine.shapeList = &shaped->shape;
     shaped->body.engine = &shaped->engine;
-    shaped->mover = (Mover){.body = &shaped->body, .shape = &shaped->polygon.shape};
+    for (int number = 0; number < given->count; number++) {
+        shaped->body.reach = greatest(shaped->body.reach, length(corners[number]) + given->radius);
+    }
+    if (given->count == 1) {
+        shaped->disc.c = corners[0];
+        shaped->disc.r = given->radius;
+    } else if (given->count == 2) {
+        shaped->segment.a = corners[0];
+        shaped->segment.b = corners[1];
+        shaped->segment.n = normals[1];
+        shaped->segment.r = given->radius;
+    } else {
+        shaped->polygon.r = given->radius;
+        shaped->polygon.count = given->count;
+        shaped->polygon.planes = TAKE(arena, cpSplittingPlane, 2 * given->count);
+        for (int number = 0; number < given->count; number++) {
+            shaped->polygon.planes[given->count + number] = (cpSplittingPlane){corners[number], normals[number]};
+        }
+    }
+    shaped->mover = (Mover){.body = &shaped->body, .shape = &shaped->shape};
     shaped->mover.pose = (Pose){{given->pose[0], given->pose[1]}, given->pose[2]};
     shaped->mover.pivot = shaped->mover.pose.p;
     shaped->mover.rate = (Twist){{given->change[0], given->change[1]}, given->change[2]};
@@ -116,21 +190,28 @@ double call_time_of_impact(const Case *one, const Case *other, double slop, doub
     return share;
 }
 
-double call_immersed(const Case *given, const Case *region) {
+void call_immersed(const Case *given, const Case *region, double *found) {
     Arena arena = {0};
     Shaped inner = {0}, outer = {0};
     shape_case(&inner, given, &arena);
-    shape_case(&outer, region, &arena);
-    outer.polygon.shape.body = &outer.engine;
-    inner.engine.shapeList = &inner.polygon.shape;
-    for (int number = 0; number < given->count; number++) {
-        Vec corner = corner_on_body(&inner.polygon.shape, number).point;
-        inner.body.reach = greatest(inner.body.reach, length(corner));
+    Basin basin = {0};
+    if (region != NULL) {
+        shape_case(&outer, region, &arena);
+        basin = basin_of(NULL, &outer.shape, outer.mover.pose, &arena);
     }
-    Basin basin = basin_of(NULL, &outer.polygon.shape, outer.mover.pose, &arena);
-    double area = immersed(&inner.body, inner.mover.pose, &basin, true, &arena).area;
+    Immersion wet = immersed(&inner.body, inner.mover.pose, region == NULL ? NULL : &basin, true, &arena);
+    double outline = 0.0;
+    for (int number = 0; number < wet.side_count; number++) {
+        outline += length(sub(wet.sides[number].end, wet.sides[number].begin));
+    }
+    for (int number = 0; number < wet.bow_count; number++) {
+        outline += wet.bows[number].radius * (wet.bows[number].to - wet.bows[number].from);
+    }
+    found[0] = wet.area;
+    found[1] = wet.first_moment.x;
+    found[2] = wet.first_moment.y;
+    found[3] = outline;
     arena_free(&arena);
-    return area;
 }
 
 int call_join_impacts(int pair_count) {
@@ -149,7 +230,7 @@ int call_join_impacts(int pair_count) {
         double side = number % 2 == 0 ? -1.0 : 1.0;
         div_t pair = div(number / 2, 100);
         engine.p = vec(10.0 * pair.rem + 0.6 * side, 10.0 * pair.quot);
-        sweep.movers[number] = mover_of(&body, (Twist){{-side, 0.0}, 0.0});
+        sweep.movers[number] = mover_of(&body, pose_of(&engine), (Twist){{-side, 0.0}, 0.0});
         sweep.movers[number].island = fast[number] = number;
         boxes[number] = sweep.movers[number].box;
     }

@@ -31,6 +31,37 @@ def call(parts):
     return Parts(parts)
 
 
+# Memory of a step
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_memory_is_empty_when_it_is_taken_and_grows_to_what_a_step_needs(call, seed):
+    random = np.random.default_rng(seed)
+    sizes = random.integers(1, 400, int(random.integers(1, 20)))
+    kept = int(random.integers(len(sizes)))
+
+    assert call.lib.call_arena(len(sizes), call.array(sizes, 'int')[1], kept)
+
+
+# Sets
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_the_root_of_a_set_is_the_least_of_all_that_pairs_tie_together(call, seed):
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 30))
+    pairs = random.integers(count, size=(int(random.integers(30)), 2))
+    roots, pointer = call.array(np.zeros(count), 'int')
+
+    call.lib.call_sets(count, len(pairs), call.array(pairs, 'int')[1], pointer)
+
+    wanted = np.arange(count)
+    for _ in pairs:
+        for a, b in pairs:
+            wanted[[a, b]] = min(wanted[[a, b]])
+    assert roots.tolist() == wanted.tolist()
+
+
 # Factors of a sparse matrix
 
 
@@ -43,31 +74,55 @@ def columns_of(matrix):
     return starts, [r for each in rows for r in each], values
 
 
-@pytest.mark.parametrize('seed', SEEDS)
-def test_factors_solve_what_a_dense_solver_does(call, seed):
-    random = np.random.default_rng(seed)
+def sparse(random):
+    """Return a random quasi-definite matrix."""
     size = int(random.integers(1, 14))
     matrix = random.normal(size=(size, size)) * (random.random((size, size)) < 0.4)
     matrix = np.triu(matrix, 1)
-    # Quasi-definite: masses, then rows, of which only those couple that are of different kinds.
+    # Masses, then rows, of which only those couple that are of different kinds.
     signs = random.choice([-1.0, 1.0], size)
     matrix *= signs[:, None] != signs[None, :]
-    diagonal = signs * random.uniform(0.1, 3.0, size)
-    whole = matrix + matrix.T + np.diag(diagonal)
-    side = random.normal(size=size)
-    starts, rows, values = columns_of(matrix)
-    x, pointer = call.array(side)
+    return matrix + matrix.T + np.diag(signs * random.uniform(0.1, 3.0, size))
 
+
+def factored(call, former, matrix, side):
+    """Return the solution by factors of a former matrix, made anew where columns differ."""
+    starts, rows, values = columns_of(matrix)
+    _, _, former_values = columns_of(former)
+    x, pointer = call.array(side)
     call.lib.call_ldl(
-        size,
-        call.array(starts, 'int')[1],
-        call.array(rows or [0], 'int')[1],
-        call.array(values or [0.0])[1],
-        call.array(diagonal)[1],
+        len(matrix),
+        *(call.array(each, 'int')[1] for each in (starts, rows or [0])),
+        *(call.array(each)[1] for each in (former_values or [0.0], np.diag(former))),
+        *(call.array(each)[1] for each in (values or [0.0], np.diag(matrix))),
         pointer,
     )
+    return x
 
-    assert x == pytest.approx(np.linalg.solve(whole, side), rel=1e-9, abs=1e-9)
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_factors_solve_what_a_dense_solver_does(call, seed):
+    random = np.random.default_rng(seed)
+    matrix = sparse(random)
+    side = random.normal(size=len(matrix))
+
+    x = factored(call, matrix, matrix, side)
+
+    assert x == pytest.approx(np.linalg.solve(matrix, side), rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_factors_that_are_made_anew_where_columns_change_are_those_of_the_whole(call, seed):
+    random = np.random.default_rng(seed)
+    former = sparse(random)
+    side = random.normal(size=len(former))
+    factors = np.where(random.random(len(former)) < 0.3, 1.25, 1.0)
+    changed = np.triu(former) * factors
+    changed += np.triu(changed, 1).T
+
+    x = factored(call, former, changed, side)
+
+    assert x.tolist() == factored(call, changed, changed, side).tolist()
 
 
 # Contacts that press or part
@@ -306,18 +361,17 @@ def test_a_tree_finds_the_boxes_that_overlap_and_no_others(call, seed):
     boxes, replacement, asked = boxes[:count], boxes[count], boxes[count + 1]
     changed = int(random.integers(count))
     found, pointer = call.array(np.zeros(count), 'int')
+    at_boxes = call.array(boxes)[1]
+    others = [call.array(each)[1] for each in (replacement, asked)]
 
-    number = call.lib.call_boxes(
-        count,
-        call.array(boxes)[1],
-        changed,
-        *(call.array(each)[1] for each in (replacement, asked)),
-        pointer,
-    )
+    number = call.lib.call_boxes(count, at_boxes, changed, *others, count + 1, pointer)
 
     boxes[changed] = replacement
     wanted = np.all(boxes[:, :2] <= asked[2:], axis=1) & np.all(asked[:2] <= boxes[:, 2:], axis=1)
     assert sorted(found[:number]) == np.flatnonzero(wanted).tolist()
+    for most in range(1, number):
+        # Whoever has found enough ends the search.
+        assert call.lib.call_boxes(count, at_boxes, changed, *others, most, pointer) == most
 
 
 # Times of impact
@@ -415,6 +469,15 @@ def test_shapes_meet_when_they_first_overlap_by_the_slop(call, seed, turns):
 # Parts of bodies in a region
 
 
+def immersed(call, corners, pose, region, *, radius=0.0):
+    """Return area, first moment and outline of what of a shape is in a region, or None for all."""
+    found, pointer = call.array(np.zeros(4))
+    given = case_of(call, corners, pose, radius=radius)
+    at_region = call.ffi.NULL if region is None else case_of(call, region, (0.0, 0.0, 0.0))
+    call.lib.call_immersed(given, at_region, pointer)
+    return found
+
+
 @pytest.mark.parametrize('seed', SEEDS)
 def test_corners_on_the_edge_of_a_region_are_before_and_behind_it_in_turn(call, seed):
     random = np.random.default_rng(seed)
@@ -427,8 +490,74 @@ def test_corners_on_the_edge_of_a_region_are_before_and_behind_it_in_turn(call, 
     for region, area in ((below, 0.0), (above, 4.0)):
         world = region @ [[cos, sin], [-sin, cos]] + pose[:2]
 
-        found = call.lib.call_immersed(
-            case_of(call, corners, pose), case_of(call, world, (0.0, 0.0, 0.0))
-        )
+        found, *_ = immersed(call, corners, pose, world)
 
         assert found == pytest.approx(area, abs=1e-9)
+
+
+def rounded(corners, radius):
+    """Return the corners of a polygon that is a disc or a segment but for 1e-5 of its size."""
+    angles = np.linspace(0.0, 2 * np.pi, 1440, endpoint=False)
+    circle = radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    ahead = circle @ (corners[-1] - corners[0])
+    if not ahead.any():
+        return corners[0] + circle
+    first = int(np.flatnonzero((ahead >= 0) & (np.roll(ahead, 1) < 0))[0])
+    circle, ahead = np.roll(circle, -first, axis=0), np.roll(ahead, -first)
+    return np.where((ahead >= 0)[:, None], corners[-1], corners[0]) + circle
+
+
+def clipped(corners, region):
+    """Return what of a polygon lies in a convex region (Sutherland and Hodgman)."""
+    for start, end in zip(region, np.roll(region, -1, axis=0), strict=True):
+        edge = end - start
+        heights = edge[0] * (corners[:, 1] - start[1]) - edge[1] * (corners[:, 0] - start[0])
+        kept = []
+        for k in range(len(corners)):
+            before, now = heights[k - 1], heights[k]
+            if (before < 0) != (now < 0):
+                share = before / (before - now)
+                kept.append(corners[k - 1] + share * (corners[k] - corners[k - 1]))
+            if now >= 0:
+                kept.append(corners[k])
+        if not kept:
+            return np.zeros((1, 2))
+        corners = np.array(kept)
+    return corners
+
+
+def area_and_moment(corners):
+    following = np.roll(corners, -1, axis=0)
+    crossed = corners[:, 0] * following[:, 1] - corners[:, 1] * following[:, 0]
+    return crossed.sum() / 2, (crossed[:, None] * (corners + following)).sum(axis=0) / 6
+
+
+@pytest.mark.parametrize('corner_count', [1, 2])
+@pytest.mark.parametrize('seed', SEEDS)
+def test_a_round_body_is_wet_where_it_lies_in_a_region(call, seed, corner_count):
+    random = np.random.default_rng(seed)
+    corners, radius = random.uniform(-0.5, 0.5, (corner_count, 2)), random.uniform(0.1, 0.6)
+    angles = (np.arange(3) + random.uniform(-0.3, 0.3, 3)) * 2 * np.pi / 3
+    region = random.uniform(-0.5, 0.5, 2) + np.column_stack([np.cos(angles), np.sin(angles)])
+
+    area, *moment, _ = immersed(call, corners, (0.0, 0.0, 0.0), region, radius=radius)
+
+    wanted_area, wanted_moment = area_and_moment(clipped(rounded(corners, radius), region))
+    assert area == pytest.approx(wanted_area, abs=2e-5)
+    assert moment == pytest.approx(wanted_moment, abs=2e-5)
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_what_is_dry_and_what_is_wet_is_the_whole_body(call, seed):
+    random = np.random.default_rng(seed)
+    corners, radius = convex(random)
+    pose = random.uniform(-0.5, 0.5, 3)
+    above = np.array([[-9.0, 0.0], [9.0, 0.0], [9.0, 9.0], [-9.0, 9.0]])
+    all_around = np.array([[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]])
+
+    parts = [immersed(call, corners, pose, each, radius=radius) for each in (above, -above)]
+
+    whole = immersed(call, corners, pose, all_around, radius=radius)
+    *_, outline = immersed(call, corners, pose, None, radius=radius)
+    assert sum(parts) == pytest.approx(whole, abs=1e-9)
+    assert whole[3] == pytest.approx(outline, abs=1e-9)

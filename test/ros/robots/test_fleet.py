@@ -19,6 +19,7 @@ import pytest
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import BatteryState, Image, Imu, JointState, LaserScan, NavSatFix, Range
 from std_msgs.msg import Bool
+from visualization_msgs.msg import Marker
 
 from .driver import driver_of
 from ..journey import Journey
@@ -287,3 +288,16 @@ def test_topics_of_many_robots_are_made_and_taken_back_tick_by_tick(
     node.simulation.undo()
     flat.step()
     assert [*node.fleet.robots] == [f'robot/{number}' for number in range(5)]
+
+
+def test_topics_that_cannot_be_taken_back_leave_the_other_robots_theirs(flat: PhysSim) -> None:
+    def fail() -> None:
+        raise RuntimeError('topics of old')
+
+    for name in ('a/0', 'b/0'):
+        flat.robot('turtlebot3_burger', name=name)
+    flat.node.fleet.robots['a/0'].close = fail
+    with pytest.raises(RuntimeError, match='topics of old'):
+        flat.spawn(Marker(action=Marker.DELETEALL))
+    flat.step()
+    assert not flat.node.fleet.robots
