@@ -171,6 +171,8 @@ def test_a_plot_has_axes_of_choice_and_several_bodies(sheet: Sheet) -> None:
     height, speed = pointed(sheet, 0.5)
     # v² is 2 g h.
     assert speed == pytest.approx(-math.sqrt(2.0 * G * (8.0 - height)), abs=0.03)
+    sheet.page.get_by_label('Upwards').select_option(label='ay [m/s²]')
+    assert pointed(sheet, 0.5)[1] == pytest.approx(-G, abs=0.05)
     sheet.press('Bodies, sum, table')
     sheet.page.get_by_label('Add a body').select_option('ball/1')
     sheet.wait('physsim.records["ball/1"] && physsim.records["ball/1"][0] > 20')
