@@ -681,20 +681,6 @@ def test_a_drive_that_is_no_drive_is_refused(browser: Browser) -> None:
     assert browser.physsim.digest() == digest
 
 
-def test_driving_in_the_past_begins_another_course(browser: Browser) -> None:
-    physsim, page = browser.physsim, browser.open_page()
-    spawned_robot(page)
-    page.send('drive', name='tb3/0', velocity=[0.2, 0, 0])
-    page.ask('drop')
-    physsim.run(0.5)
-    assert page.ask('seek', time=0.1)['ok']
-    page.send('drive', name='tb3/0', velocity=[-0.2, 0, 0])
-    page.ask('drop')
-    physsim.run(0.4)
-    assert physsim.pose('tb3/0').x < 0.0
-    page.until_last('timeline', lambda timeline: timeline['courses'])
-
-
 def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
     spawned_robot(page)

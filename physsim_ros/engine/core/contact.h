@@ -6,8 +6,8 @@
 // state: `ARBITER_FIRST_COLLISION` where it begins, by Chipmunk or by the end of being ignored (`first_touch.c`).
 // data: not NULL where it is ignored in this sub-step (`first_touch.c`); it has no points then.
 // n, r1, r2: as the sub-step ends, by Chipmunk; of one that begins, as its bodies first met (`first_touch.c`).
-// nMass, tMass: effective masses, by Chipmunk, or `prepare_contact` for another normal; nMass is less where friction is
-//     steep (`steep_friction.c`).
+// nMass, tMass: effective masses, by Chipmunk, or `prepare_contact` for another normal; from `steep_friction.c` on,
+//     just before the solvers, nMass is that of their rounds, which is less where friction is steep.
 // bounce: restitution times the velocity along the normal, < 0 where its bodies approach, by Chipmunk or
 //     `prepare_contact`; of an impact, for the moment of it (`rest_of_step.c`); INFINITY of one that is deferred
 //     (`impact_propagation.c`); a share of it where an impact would gain energy (`block_solver.c`).

@@ -65,18 +65,17 @@ void end_rolling(World *world);
 
 // Between narrow phase and solver, in this order, for each has what the ones before have made of contacts: those that
 // begin (`first_touch.c`), their slop (`overlap_bias.c`), surfaces that move along their outlines (`belts.c`), the
-// first of two points (`contact_order.c`), rounds of the solver (`steep_friction.c`), the greatest load
-// (`impact_loads.c`), when impacts were (`rest_of_step.c`), contacts next to an impact (`impact_propagation.c`), points
-// that are hit at once
-// (`block_solver.c`), contacts that roll (`rolling.c`).
+// first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), when impacts were
+// (`rest_of_step.c`), contacts next to an impact (`impact_propagation.c`), rounds of the solvers
+// (`steep_friction.c`), points that are hit at once (`block_solver.c`), contacts that roll (`rolling.c`).
 void correct_first_touches(World *world);
 void set_overlap_biases(World *world);
 void move_belts(World *world);
 void order_points(World *world);
-void damp_steep_friction(World *world);
 void bound_loads(World *world);
 void time_impacts(World *world);
 void defer_contacts(World *world);
+void damp_steep_friction(World *world);
 void solve_impacts(World *world);
 void find_rolls(World *world);
 // The rest of the step after impacts (`rest_of_step.c`): how long it is for two bodies that met in this step [s]; by

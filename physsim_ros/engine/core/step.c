@@ -67,10 +67,10 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     set_overlap_biases(world);
     move_belts(world);
     order_points(world);
-    damp_steep_friction(world);
     bound_loads(world);
     time_impacts(world);
     defer_contacts(world);
+    damp_steep_friction(world);
     solve_impacts(world);
     find_joint_islands(world);
     find_rolls(world);
