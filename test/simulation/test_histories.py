@@ -66,6 +66,25 @@ def test_a_world_is_loaded_as_it_was_saved_where_a_body_flies_though_it_touches_
     )
 
 
+def test_a_world_that_returns_to_its_last_request_passes_the_same_checkpoints():
+    # Found by seed 1269.
+    discs = [
+        Spawn(name=f'a/{row}', shape=Disc(radius=0.3), pose=(0.1 * row, 0.5 + 0.7 * row, 0.0))
+        for row in range(5)
+    ]
+    play(
+        [
+            ('begin', 240.0, 60.0, 0.1, False),
+            *(('ask', disc) for disc in discs),
+            ('undo',),
+            ('run', 1.0, 40),
+            ('redo',),
+            ('undo',),
+            ('run', 1.0, 40),
+        ]
+    )
+
+
 def test_lines_that_have_run_on_from_a_saved_moment_show_what_they_have_shown():
     discs = [
         Spawn(name=f'a/{row}', shape=Disc(radius=0.3), pose=(0.1 * row, 1.0 + 0.7 * row, 0.0))
