@@ -522,13 +522,3 @@ def test_a_half_drawn_polygon_shows_its_sides_and_where_a_click_closes_it() -> N
     assert {round(math.hypot(*point), 12) for point in ring} == {0.3}
     assert ring[0] == pytest.approx(ring[-1])
     assert hand.preview.label == 'polygon'
-
-
-def test_looking_changes_nothing() -> None:
-    world = populated(disc('a/0', 0.0, 0.0, velocity=(1.0, 0.0)), disc('a/1', 3.0, 0.0))
-    before = world.digest()
-    for tool in set(TOOLS) - {Tool.GRAVITY, Tool.KNIFE}:
-        hand = pen(tool)
-        for point in ((0.0, 0.0), (3.0, 0.0)):
-            hand.click(point, '', world.snapshot())
-    assert world.digest() == before

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Kinematic bodies, sensors, groups, and material of bodies in the engine."""
+"""Kinematic bodies, sensors and groups in the engine."""
 
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Anchor
@@ -10,7 +10,7 @@ from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, command, DISC, ELL, G, pose, ROUNDING_OF_SUMS, spawn, TRIANGLE, twist
+from ..building import BOX, command, DISC, ELL, G, pose, ROUNDING_OF_SUMS, spawn, twist
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 
@@ -123,17 +123,3 @@ def test_a_group_is_kept_where_the_body_is_changed(world):
     world.step(240)
 
     assert twist(world, 'a/0').tolist() == [3.0, 0.0, 0.0]
-
-
-# Material
-
-
-@pytest.mark.parametrize('mass', [1.0, 250.0])
-def test_a_mass_is_the_mass_whatever_the_shape(mass, world):
-    spawn(world, 'a/0', TRIANGLE, mass=mass)
-
-    command(world, 'a/0', wrench=(mass, 0.0, 0.0))
-    world.step(24)
-
-    assert twist(world, 'a/0')[0] == pytest.approx(0.1, abs=ROUNDING_OF_SUMS)
-    assert world.snapshot().scene.inertia[0, 0] == mass

@@ -5,6 +5,7 @@
 
 import numpy as np
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -30,6 +31,17 @@ def test_a_joint_that_is_strong_enough_does_not_break():
     world.step(480)
     assert world.take_broken() == []
     assert len(joints(world)) == 1
+
+
+def test_a_joint_that_is_held_apart_breaks_under_its_load():
+    world = World()
+    spawn(world, 'plate/0', Box(width=4.0, height=0.2), (0.0, 1.0, 0.0), anchored=True)
+    spawn(world, 'a/0', DISC, mass=1.0)
+    # Too short by 1.7 m when the disc has come up to the plate.
+    said = {'length': 2.0, 'break_force': 0.5 * G}
+    join(world, 'rope', [(0.0, 0.0), (0.0, 4.0)], a='a/0', b='world', **said)
+    world.step(240)
+    assert [name for name, _ in world.take_broken()] == ['joint/0']
 
 
 def test_a_commanded_velocity_does_not_load_a_joint_by_itself():

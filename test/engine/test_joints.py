@@ -72,23 +72,6 @@ def test_a_click_gives_the_joint_the_lowest_free_name(request_, kind):
 # Constraints
 
 
-@pytest.mark.parametrize('kind', ['pin', 'axle', 'motor'])
-def test_a_joint_at_a_point_keeps_it_closed(kind):
-    world = pair()
-    join(world, kind, [(0.4, 0.0)])
-    world.step(480)
-    gap = world.snapshot().ends[0, 0] - world.snapshot().ends[0, 1]
-    assert np.hypot(*gap) < 1e-4
-
-
-def test_a_pin_keeps_bodies_from_turning_against_each_other():
-    world = pair()
-    join(world, 'pin', [(0.4, 0.0)])
-    world.apply(Command(names=('a/0',), twists=((0.0, 0.0, 5.0),)))
-    world.step(480)
-    assert pose(world, 'a/0')[2] - pose(world, 'a/1')[2] == pytest.approx(0.5, abs=1e-6)
-
-
 def test_joined_bodies_pass_through_each_other_unless_they_collide():
     apart = []
     for collide in (False, True):

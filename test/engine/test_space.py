@@ -11,7 +11,7 @@ from physsim_ros.engine import bodies
 from physsim_ros.model.errors import Anchored
 from physsim_ros.model.requests import Command, Delete
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Chain, Polygon
+from physsim_ros.model.shapes import Chain
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 import pymunk
@@ -33,9 +33,6 @@ from ..building import (
 )
 
 REST = (0.0, 0.0, 0.0)
-# Off-centre along one of the axes.
-BESIDE = Polygon(outline=((0.0, -0.5), (1.0, -0.5), (1.0, 0.5), (0.0, 0.5)))
-ABOVE = Polygon(outline=((-0.5, 0.0), (0.5, 0.0), (0.5, 1.0), (-0.5, 1.0)))
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 
 
@@ -56,24 +53,6 @@ def test_free_flight_is_exact_for_any_shape(shape):
     )
     assert twist(world, 'a/0') == pytest.approx((3.0, 4.0 - G, 5.0), abs=ROUNDING_OF_SUMS)
     assert pose(world, 'a/0')[2] == pytest.approx(0.3 + 5.0, abs=ROUNDING_OF_SUMS)
-
-
-@pytest.mark.parametrize('shape', [ELL, BESIDE, ABOVE], ids=['ell', 'beside', 'above'])
-def test_an_off_centre_body_turns_about_its_centre_of_mass(shape, world):
-    spawn(world, 'a/0', shape, (1.0, 2.0, 0.3), spin=math.pi / 2)
-    x, y = shape.form.centroid
-    cos, sin = math.cos(0.3), math.sin(0.3)
-    center = (1.0 + cos * x - sin * y, 2.0 + sin * x + cos * y)
-    assert world.snapshot().centers[0] == pytest.approx(center, abs=1e-12)
-
-    world.step(240)
-
-    # A quarter turn: the origin is where a quarter turn about the centre brings it.
-    expected = (center[0] + (2.0 - center[1]) * -1.0, center[1] + (1.0 - center[0]))
-    assert pose(world, 'a/0') == pytest.approx(
-        (*expected, 0.3 + math.pi / 2), abs=ROUNDING_OF_SUMS
-    )
-    assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, math.pi / 2), abs=ROUNDING_OF_SUMS)
 
 
 def test_a_commanded_pose_is_the_origins_and_a_commanded_twist_the_centres(world):
@@ -129,18 +108,6 @@ def test_an_anchored_body_takes_a_pose_only(world):
         with pytest.raises(Anchored):
             command(world, 'a/0', **rows)
     assert pose(world, 'a/0').tolist() == [1.0, 2.0, 0.3]
-
-
-def test_a_command_is_carried_out_whole_or_not_at_all(world):
-    for number in range(3):
-        spawn(world, f'a/{number}', DISC, (5.0 * number, 0.0, 0.0), anchored=number == 2)
-    before = world.digest()
-
-    rows = ((1.0, 1.0, 1.0),) * 3
-    with pytest.raises(Anchored):
-        world.apply(Command(names=('a/0', 'a/1', 'a/2'), poses=rows, twists=rows))
-
-    assert world.digest() == before
 
 
 def test_a_command_moves_many_bodies_at_once(world):

@@ -43,6 +43,31 @@ def test_atwoods_machine(report, wheel):
         report.check(65, 'Atwood, spin of its wheel', spin, acceleration, 5e-3, 'rad/s')
 
 
+@pytest.mark.parametrize('side', [1.0, -1.0])
+@pytest.mark.parametrize('first', [True, False], ids=['from the bob', 'to the bob'])
+def test_a_rope_whose_end_swings_winds_and_unwinds_as_much_as_it_is_longer(report, first, side):
+    sim, radius = simulation(), 0.5
+    spawn(sim, 'wheel/0', Disc(radius=radius), anchored=True)
+    bob = spawn(sim, 'bob/0', Disc(radius=0.1), (2.0 * side, -2.0, 0.0))
+    spawn(sim, 'post/0', BOX, (-radius * side, -3.0, 0.0), anchored=True)
+    points = [(2.0 * side, -2.0), (0.0, 0.0), (-radius * side, -3.0)]
+    names, order = ('bob/0', 'post/0'), 1 if first else -1
+    a, b = names[::order]
+    join(sim, 'rope/0', 'rope', points[::order], a=a, b=b, over=('wheel/0',))
+
+    lengths, angles = [], []
+    for snapshot in steps(sim, 480):
+        x, y = side * snapshot.poses[bob, 0], snapshot.poses[bob, 1]
+        far = math.hypot(x, y)
+        # Of the point at which the rope leaves the wheel, from the x axis on.
+        angles.append(math.atan2(y, x) + math.acos(radius / far))
+        lengths.append(math.sqrt(far**2 - radius**2) - radius * angles[-1])
+
+    assert max(angles) - min(angles) > 1.0
+    off = max(lengths) - min(lengths)
+    report.check(65, 'rope whose end swings, length', off, 0.0, 1e-5, 'm')
+
+
 @pytest.mark.parametrize('strands', [2, 3, 4])
 @pytest.mark.parametrize('pull', [1.0, 1.2])
 def test_a_block_and_tackle_lifts_by_the_number_of_its_strands(report, strands, pull):

@@ -171,6 +171,8 @@ def test_a_plot_has_axes_of_choice_and_several_bodies(sheet: Sheet) -> None:
     height, speed = pointed(sheet, 0.5)
     # v² is 2 g h.
     assert speed == pytest.approx(-math.sqrt(2.0 * G * (8.0 - height)), abs=0.03)
+    sheet.page.get_by_label('Upwards').select_option(label='ay [m/s²]')
+    assert pointed(sheet, 0.5)[1] == pytest.approx(-G, abs=0.05)
     sheet.press('Bodies, sum, table')
     sheet.page.get_by_label('Add a body').select_option('ball/1')
     sheet.wait('physsim.records["ball/1"] && physsim.records["ball/1"][0] > 20')
@@ -272,8 +274,11 @@ def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None
     paused = sheet.play_until(1.0)
     time = 0.5
     x, y = sheet.place(-7.5 + 2.0 * time, 8.0 - G * time**2 / 2)
-    for color in ('--faint', '--accent', '--weight'):
+    for color in ('--accent', '--weight'):
         sheet.until(lambda color=color: sheet.page.evaluate(HAS_COLOR, [x, y, 30, color]), color)
+    # Its outline, away from its way and the arrows.
+    rim = sheet.place(-7.5 + 2.0 * time - 0.3, 8.0 - G * time**2 / 2)
+    assert sheet.page.evaluate(HAS_COLOR, [*rim, 4, '--faint'])
     # The ball is not yet at its place of a quarter of a second later.
     time = paused + 0.25
     x, y = sheet.place(-7.5 + 2.0 * time, 8.0 - G * time**2 / 2)

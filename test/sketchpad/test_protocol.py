@@ -226,7 +226,7 @@ def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
     for each, x in ((page, 0.0), (other, 3.0)):
         each.send('click', tool='circle', point=[x, 5.0])
         each.ask('click', tool='circle', point=[x + 0.5, 5.0])
-    page.ask('copy', name=physsim.names[0], to=[6.0, 5.0])
+    page.ask('copy_machine', names=physsim.names[:1], by=[6.0, 0.0])
     page.until_last('scene', lambda scene: len(scene['bodies']) == 3)
     scene = page.last('scene')
     assert [body['density'] for body in scene['bodies']] == [7.0, 1.0, 7.0]
@@ -679,20 +679,6 @@ def test_a_drive_that_is_no_drive_is_refused(browser: Browser) -> None:
         assert answer['code'] == code, fields
         assert not field or answer['field'] == field
     assert browser.physsim.digest() == digest
-
-
-def test_driving_in_the_past_begins_another_course(browser: Browser) -> None:
-    physsim, page = browser.physsim, browser.open_page()
-    spawned_robot(page)
-    page.send('drive', name='tb3/0', velocity=[0.2, 0, 0])
-    page.ask('drop')
-    physsim.run(0.5)
-    assert page.ask('seek', time=0.1)['ok']
-    page.send('drive', name='tb3/0', velocity=[-0.2, 0, 0])
-    page.ask('drop')
-    physsim.run(0.4)
-    assert physsim.pose('tb3/0').x < 0.0
-    page.until_last('timeline', lambda timeline: timeline['courses'])
 
 
 def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> None:

@@ -8,6 +8,9 @@ from __future__ import annotations
 from physsim_ros.model.shapes import Disc, Polygon
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.view.recording import REPEAT
+from physsim_ros.view.scenery import Scenery
+import pytest
+import rerun as rr
 
 from .picture_file import body, chunk, frame, scene, STEP_NS
 
@@ -104,6 +107,17 @@ def test_every_answer_is_an_event_and_a_refusal_an_error(recording):
     levels = [row.value.item() for row in recording.rows('events', 'TextLog:level')]
     assert texts == ['box/0  spawned  (~/spawn)', 'nothing_there  no body there  (~/pin)']
     assert levels == ['INFO', 'ERROR']
+
+
+def test_a_world_is_as_large_in_the_picture_wherever_it_lies():
+    units = []
+    for x, y in ((0.0, 0.0), (-70.0, 50.0), (30.0, -90.0)):
+        scenery = Scenery(rr.RecordingStream('test'))
+        two = scene(body(), body('disc/0', Disc(radius=1.0)))
+        scenery.aim(frame(two, [(x, y, 0.0), (x + 4.0, y + 1.0, 0.0)]).snapshot)
+        units.append(scenery.unit)
+
+    assert units == pytest.approx([units[0]] * 3)
 
 
 def test_a_recording_is_called_like_the_world_that_was_loaded_last(recording):

@@ -31,6 +31,7 @@ CORE = PACKAGE / 'engine/core'
 FURTHER = {
     'engine': ('laws', 'relations', 'sensing', 'simulation'),
     'model': ('laws', 'simulation'),
+    'sensing': ('simulation',),
 }
 # Number of files that are run first, the likeliest, which notice most mutations.
 FIRST = 10

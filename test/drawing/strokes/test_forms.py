@@ -87,17 +87,6 @@ def test_what_is_drawn_by_ruler_is_recognised(primitive: str, way: Floats) -> No
     assert best.weight > 2 * max((other.weight for other in others), default=0.0)
 
 
-@pytest.mark.parametrize('turn', [0.4, 1.3, 2.9, 4.6])
-@pytest.mark.parametrize('name', ['circle', 'plank', 'wedge', 'zigzag', 'arrow', 'scribble'])
-def test_turned_mirrored_backwards_and_in_any_size_it_is_the_same(name: str, turn: float) -> None:
-    primitive, way = RULED[name]
-    cos, sin = math.cos(turn), math.sin(turn)
-    turned = way @ np.array([(cos, sin), (sin, -cos)])
-
-    for other in (turned, turned[::-1], 100.0 * turned, 0.01 * turned):
-        assert forms_drawn(other)[0].name == primitive
-
-
 @pytest.mark.parametrize(
     ('draw', 'least'),
     [

@@ -47,19 +47,6 @@ def test_a_crooked_rectangle_is_made_level(world: World) -> None:
     assert request.shape.height == pytest.approx(0.95, abs=0.05)
 
 
-def test_a_tilted_rectangle_stays_tilted(world: World) -> None:
-    cos, sin = math.cos(0.5), math.sin(0.5)
-    way = [(cos * x - sin * y, sin * x + cos * y) for x, y in rectangle(0, 0, 3, 1)]
-
-    assert built(draw(world, way)).pose[2] == pytest.approx(0.5, abs=0.01)
-
-
-def test_nearly_a_square_is_a_square(world: World) -> None:
-    shape = built(draw(world, rectangle(0.0, 0.0, 1.0, 0.94)), Box).shape
-
-    assert shape.width == shape.height
-
-
 def test_raw_geometry_can_be_asked_for(world: World) -> None:
     reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1), beautify=0.0)
 

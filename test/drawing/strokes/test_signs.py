@@ -17,7 +17,7 @@ from physsim_ros.simulation.world import World
 import pytest
 
 from .ways import built, carry_out, cross, draw, scribble
-from ...building import BOX, DISC, NOWHERE, spawn, spawning
+from ...building import BOX, NOWHERE, spawn, spawning
 
 
 @pytest.mark.parametrize('size', [0.3, 1.0, 5.0, 20.0])
@@ -142,16 +142,6 @@ def test_a_pentagram_and_a_zigzag_of_five_lines_over_a_body_delete_nothing(
 def test_a_scribble_in_the_open_is_refused(world: World) -> None:
     with pytest.raises(NothingThere, match='there are none'):
         draw(world, scribble(0.0, 0.0, 1.0, 1.0))
-
-
-def test_an_arrow_from_a_body_is_its_velocity(world: World) -> None:
-    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
-
-    reading = draw(world, [(0.0, 0.0), (3.0, 1.0), (2.5, 1.1), (3.0, 1.0), (2.7, 0.6)])
-    carry_out(world, reading)
-
-    assert reading.meaning == 'velocity'
-    assert world.snapshot().twists[0] == pytest.approx((3.0, 1.0, 0.0), abs=0.05)
 
 
 def test_hatching_makes_a_body_heavier_and_changes_nothing_else(world: World) -> None:
