@@ -19,20 +19,6 @@ from physsim_ros.model.scene import Body
 from physsim_ros.model.transform import Point, Pose
 
 
-def copy(name: str, position: Point, scene: SceneQuery) -> tuple[Request, ...]:
-    """
-    Return the requests for a copy of a body, or of the robot of which it is a part, at rest.
-
-    :param name: of the body
-    :param position: of its copy [m]
-    :raises UnknownBody: there is no such body
-    """
-    (name,) = _known((name,), scene, 'name')
-    x, y, _ = scene.pose(name)
-    requests, _ = _copies((name,), (position[0] - x, position[1] - y), scene)
-    return tuple(requests)
-
-
 def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Request, ...]:
     """
     Return the requests for copies of bodies, at rest, and of the joints among them.
@@ -46,7 +32,7 @@ def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Re
     :raises UnknownBody: there is no such body
     :raises Malformed: one is named twice
     """
-    requests, copies = _copies(_known(names, scene, 'names'), by, scene)
+    requests, copies = _copies(_known(names, scene), by, scene)
     poses = {name: scene.pose(name) for name in copies}
     # A robot is spawned with its joints.
     own = {joint for name in copies for joint in scene.joints_of_robot(name)}
@@ -108,18 +94,17 @@ def _copies(
     return requests, copies
 
 
-def _known(names: Sequence[str], scene: SceneQuery, field: str) -> Sequence[str]:
+def _known(names: Sequence[str], scene: SceneQuery) -> Sequence[str]:
     """
     Return names of bodies.
 
-    :param field: of the message that has them
     :raises UnknownBody: there is no such body
     :raises Malformed: one is named twice
     """
     known = set(scene.names)
     for name in names:
         if name not in known:
-            raise no_body(name, scene.names, field)
+            raise no_body(name, scene.names, 'names')
     if len(set(names)) < len(names):
-        raise Malformed('a body is named twice', field=field)
+        raise Malformed('a body is named twice', field='names')
     return names

@@ -233,19 +233,6 @@ class DrawingSession:
         self._reserve_names(reading.requests)
         return reading
 
-    def copy(self, name: str, position: Point, snapshot: Snapshot) -> tuple[Request, ...]:
-        """
-        Return the requests for a copy of a body, or of the robot of which it is a part, at rest.
-
-        :param name: of the body
-        :param position: of the copy [m]
-        :param snapshot: of the world
-        :raises UnknownBody: there is no such body
-        """
-        requests = copies.copy(name, position, self._query(snapshot))
-        self._reserve_names(requests)
-        return requests
-
     def copy_machine(
         self, names: Sequence[str], by: Point, snapshot: Snapshot
     ) -> tuple[Request, ...]:

@@ -156,19 +156,19 @@ class CoreWorld:
 
     # Steps
 
-    def step(self, count: int, *, number: int, age: int, reports_contacts: bool) -> int:
+    def step(self, count: int, *, step: int, age: int, reports_contacts: bool) -> int:
         """
         Make steps.
 
         :param count: of them
-        :param number: count of steps that the world has made
+        :param step: count of steps that the world has made
         :param age: count of steps since the space was built; stages that act every n steps count
             by it, so that a space restored from a checkpoint goes on alike
         :return: count of the steps that were made: fewer where a joint breaks, a body is lost, or
             the time of a call is over
         """
         world = self._world
-        world.step, world.age, world.reports_contacts = number, age, reports_contacts
+        world.step, world.age, world.reports_contacts = step, age, reports_contacts
         made: int = lib.core_step(world, count)
         return made
 

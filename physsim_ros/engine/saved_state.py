@@ -44,13 +44,14 @@ def saved_state(checkpoint: Checkpoint, dt: float) -> WorldState:
     """
     step, bodies = checkpoint.step, []
     # A contact may have ended as a stage moved a body, with its impulses still in the cache. A
-    # rebuilt space does not find it, and what is loaded must be saved as it was.
-    space = restore_checkpoint(checkpoint, dt)
-    memory = take_checkpoint(space, step).memory
+    # rebuilt space does not find it, and what is loaded must be saved as it was. So must be which
+    # bodies fly: one that is loaded in flight counts as thrown.
+    space = restore_checkpoint(replace(checkpoint, thrown=checkpoint.free), dt)
+    begun = take_checkpoint(space, step)
     robots, actors = checkpoint.scene.robot_rows.tolist(), checkpoint.scene.actor_rows.tolist()
     driven = dict(zip(robots, states_in(checkpoint.robots, RobotState), strict=True))
     acting = dict(zip(actors, states_in(checkpoint.actors, ActorState), strict=True))
-    motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
+    motions = zip(begun.state.tolist(), begun.free.tolist(), strict=True)
     leads, commands = _leads_of(checkpoint), space.commands.coming
     _, twists = space.core.observe()
     rigids = enumerate(space.bodies.by_name.values())
@@ -78,7 +79,7 @@ def saved_state(checkpoint: Checkpoint, dt: float) -> WorldState:
         joints=space.joints.drawn_now(),
         commands=_shifted(checkpoint.commands, -step),
         lesson=checkpoint.scene.lesson,
-        memory=memory,
+        memory=begun.memory,
     )
 
 

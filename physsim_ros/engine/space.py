@@ -364,11 +364,11 @@ class Space:
 
     # Steps
 
-    def step(self, number: int, count: int, *, reports_contacts: bool) -> tuple[int, list[str]]:
+    def step(self, step: int, count: int, *, reports_contacts: bool) -> tuple[int, list[str]]:
         """
         Make steps.
 
-        :param number: count of steps that the world has made
+        :param step: count of steps that the world has made
         :param count: of the steps to make
         :param reports_contacts: whether contacts are reported
         :return: count of the steps that were made: fewer where something has to be done between
@@ -379,21 +379,16 @@ class Space:
             self._remove_leaving()
             return 0, []
         if self._wrenched:
-            self._end_wrenches(number)
+            self._end_wrenches(step)
         if self.commands.are_coming:
-            self.commands.begin(number)
-        table, core, made = self.table, self.core, self._steps_until_event(number, count)
+            self.commands.begin(step)
+        table, core, made = self.table, self.core, self._steps_until_event(step, count)
         if table.columns.moving:
             if not self.grips.is_told:
                 core.use(grips=self.grips.records(self.bodies.by_name))
                 self.grips.is_told = True
-            table.make_noise(number, made)
-            made = core.step(
-                made,
-                number=number,
-                age=self._age,
-                reports_contacts=reports_contacts,
-            )
+            table.make_noise(step, made)
+            made = core.step(made, step=step, age=self._age, reports_contacts=reports_contacts)
         self._age += made
         self.bodies.note_moved()
         if core.is_within_step:
@@ -404,7 +399,7 @@ class Space:
                 self.broken.append((name, force))
         lost = table.lost() if core.has_lost else []
         # In a fixed order: the engine solves its constraints in an order that removals change.
-        expired = table.columns.expiries.get(number + made, ())
+        expired = table.columns.expiries.get(step + made, ())
         self._leaving = [*dict.fromkeys((*lost, *expired))]
         self._remove_leaving()
         return made, lost
@@ -419,13 +414,13 @@ class Space:
         """Return whether a step is begun and not ended; nothing is read or changed until then."""
         return self._core.is_within_step or bool(self._leaving)
 
-    def _end_wrenches(self, number: int) -> None:
+    def _end_wrenches(self, step: int) -> None:
         """End the wrenches that act up to a step."""
         for rigid in list(self._wrenched.values()):
-            if rigid.wrench_until is not None and rigid.wrench_until <= number:
+            if rigid.wrench_until is not None and rigid.wrench_until <= step:
                 self.set_wrench(rigid, NO_WRENCH, None)
 
-    def _steps_until_event(self, number: int, count: int) -> int:
+    def _steps_until_event(self, step: int, count: int) -> int:
         """Return how many of some steps follow each other without anything between them."""
         expiries = self.table.columns.expiries
         if not (self._wrenched or self.commands.are_coming or expiries):
@@ -435,7 +430,7 @@ class Space:
             *(rigid.wrench_until for rigid in self._wrenched.values()),
             *self.commands.steps,
         )
-        ahead = (event - number for event in events if event is not None and event > number)
+        ahead = (event - step for event in events if event is not None and event > step)
         return min([count, *ahead])
 
     # Inside

@@ -168,7 +168,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         calls = ServiceCalls(simulation.requests, loop.make_call, boundary)
         create_services(self, control.services, calls, on_success=control.note_change)
         self._parameter_services = ParameterServices(self, self._live, calls)
-        create_simulation_services(self, control, calls)
+        self._closing.callback(create_simulation_services(self, control, calls))
 
     def start(self) -> None:
         """Start viewer and diagnostics, and show the first frame; `tick` advances time."""

@@ -25,6 +25,9 @@ from rclpy.subscription import Subscription
 # Reliable, KEEP_ALL: a burst of thousands of messages loses none.
 LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 
+# Of services, whose calls wait to be read: 50 clients with 20 calls each.
+CALLS = QoSProfile(depth=1000)
+
 
 class NodeWithoutQosEvents(Node):
     """A node whose publishers and subscriptions have no QoS event handlers."""

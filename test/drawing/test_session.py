@@ -679,7 +679,7 @@ def test_a_copy_has_all_properties_of_its_body_and_a_namespace_of_its_own() -> N
     session = DrawingSession(DrawingSettings())
 
     for name in ('a/0', 'b/0'):
-        for request in session.copy(name, (9.0, 0.0), sim.world.snapshot()):
+        for request in session.copy_machine((name,), (9.0, 0.0), sim.world.snapshot()):
             sim.perform(request)
 
     one, robot, copied, other = sim.world.scene.bodies

@@ -10,7 +10,7 @@ HISTORIES says how many histories are played, 20 where it does not; `histories` 
 import os
 
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.requests import MoveBodies, Spawn
 from physsim_ros.model.shapes import Disc
 import pytest
 
@@ -44,6 +44,45 @@ def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body(
             ('save',),
         ]
     )  # fmt: skip
+
+
+def test_a_world_is_loaded_as_it_was_saved_where_a_body_flies_though_it_touches_another():
+    # Found by seed 1017: a body that is loaded in flight counts as thrown.
+    falling = Properties(velocity=(-0.12, -0.95), spin=0.34)
+    disc = Spawn(name='a/0', shape=Disc(radius=0.3), pose=(-0.07, 0.44, -0.2), properties=falling)
+    play(
+        [
+            ('begin', 60.0, 60.0, 1.0, True),
+            ('load_shipped', 'galton'),
+            ('ask', disc),
+            ('run', 1.0, 8),
+            ('reset',),
+            ('undo',),
+            ('ask', MoveBodies(names=('ball/100',), by=(1.82, 1.0))),
+            ('run', 4.0, 10),
+            ('run', -4.0, 10),
+            ('save',),
+        ]
+    )
+
+
+def test_a_world_that_returns_to_its_last_request_passes_the_same_checkpoints():
+    # Found by seed 1269.
+    discs = [
+        Spawn(name=f'a/{row}', shape=Disc(radius=0.3), pose=(0.1 * row, 0.5 + 0.7 * row, 0.0))
+        for row in range(5)
+    ]
+    play(
+        [
+            ('begin', 240.0, 60.0, 0.1, False),
+            *(('ask', disc) for disc in discs),
+            ('undo',),
+            ('run', 1.0, 40),
+            ('redo',),
+            ('undo',),
+            ('run', 1.0, 40),
+        ]
+    )
 
 
 def test_lines_that_have_run_on_from_a_saved_moment_show_what_they_have_shown():

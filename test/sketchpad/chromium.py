@@ -180,8 +180,6 @@ class Sheet:
         """
         # The first messages change its bars, and so the place of the world.
         self.wait('heard.people && Object.keys(physsim.bodies).length > 0')
-        # The first panel, too, may move the world as soon as it is asked for.
-        self.page.evaluate("import('/page/panels/contents.js').then(() => {})")
         before = self.page.evaluate('heard.shown.length')
         self.press('Pause')
         self.press('Reset')

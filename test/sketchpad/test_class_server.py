@@ -247,33 +247,60 @@ def names_on(sheet: Sheet) -> list[str]:
     return names
 
 
-def come(chromium: Any, address: str, name: str) -> Sheet:
-    """Come to the class as a pupil, and wait for the world."""
-    sheet = Sheet(chromium, address)
-    sheet.page.get_by_role('textbox', name='Your name').fill(name)
-    sheet.press('Go to my world')
-    # Of the page that it is sent to: a script on the one before would end with it.
-    sheet.page.locator('#world').wait_for(state='attached')
-    sheet.wait('"physsim" in window && "heavy/0" in physsim.bodies')
-    return sheet
+class RunningClass:
+    """
+    A class of two worlds.
+
+    :ivar program: of the class
+    :ivar sheets: pages that were opened in it
+    :ivar pupils: address of pupils
+    :ivar teacher: address of a teacher
+    """
+
+    def __init__(self, chromium: Any, program: Program) -> None:
+        self.program = program
+        lines = [program.wait_for('/login?token=') for _ in range(2)]
+        self.pupils, self.teacher = (re.search(r'http\S+', line)[0] for line in lines)
+        self._chromium = chromium
+        self.sheets: list[Sheet] = []
+
+    def open(self, address: str, **options: Any) -> Sheet:  # noqa: A003 - of a page
+        """Open a page."""
+        self.sheets.append(Sheet(self._chromium, address, **options))
+        return self.sheets[-1]
+
+    def come(self, name: str) -> Sheet:
+        """Come to the class as a pupil, and wait for the world."""
+        sheet = self.open(self.pupils)
+        sheet.page.get_by_role('textbox', name='Your name').fill(name)
+        sheet.press('Go to my world')
+        # Of the page that it is sent to: a script on the one before would end with it.
+        sheet.page.locator('#world').wait_for(state='attached')
+        sheet.wait('"physsim" in window && "heavy/0" in physsim.bodies')
+        return sheet
+
+    def end(self) -> None:
+        """End the class."""
+        assert self.program.interrupt() == 0
 
 
 @pytest.fixture
-def run_class(outside: Outside) -> tuple[Program, str, str]:
-    """Give a test a class of two worlds: its program, the address of pupils, and a teacher's."""
+def run_class(chromium: Any, outside: Outside) -> Iterator[RunningClass]:
+    """Give a test a class of two worlds."""
     outside.environment['XDG_DATA_HOME'] = str(outside.directory)
     arguments = ['--pupils', 2, '--port', 0, '--ros-args', '-p', 'world_file:=free_fall']
-    program = outside.start_installed('physsim_class', *arguments)
-    lines = [program.wait_for('/login?token=') for _ in range(2)]
-    pupils, teacher = (re.search(r'http\S+', line)[0] for line in lines)
-    return program, pupils, teacher
+    running = RunningClass(chromium, outside.start_installed('physsim_class', *arguments))
+    yield running
+    for sheet in running.sheets:
+        sheet.close()
+    if running.program.process.poll() is None:
+        running.end()
 
 
 def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
-    chromium: Any, run_class: tuple[Program, str, str]
+    run_class: RunningClass,
 ) -> None:
-    program, pupils, teacher = run_class
-    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
+    anna, ben = run_class.come('Anna'), run_class.come('Ben')
     before = anna.names()
     # A lesson begins with the hand, and without the pen.
     anna.press('All tools')
@@ -281,20 +308,20 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     anna.drag(*circle(0.0, 3.0, 0.6))
     drawn = anna.wait_for_new(before)
     assert drawn not in ben.names()
-    late = Sheet(chromium, pupils)
+    late = run_class.open(run_class.pupils)
     late.page.get_by_role('textbox', name='Your name').fill('Cleo')
     late.press('Go to my world')
     late.page.get_by_role('alert').get_by_text('every world').wait_for()
     # The browser tells of the refusal, too.
     assert all('409' in each for each in late.errors)
-    late.context.close()
+    late.errors.clear()
 
-    sheet = Sheet(chromium, teacher)
+    sheet = run_class.open(run_class.teacher)
     links = sheet.page.get_by_role('listitem').get_by_role('link')
     links.nth(1).wait_for()
     sheet.until(lambda: links.all_inner_texts() == ['Anna', 'Ben'], 'who is where')
     sheet.press('Pupils come here')
-    assert sheet.page.locator('#pupils').inner_text() == pupils
+    assert sheet.page.locator('#pupils').inner_text() == run_class.pupils
     sheet.press('Close')
     # A lesson for all.
     sheet.page.get_by_label('Lesson').select_option('slope')
@@ -328,35 +355,32 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     # One undo takes the lesson back.
     ben.press('Undo')
     ben.page.locator('#lesson').get_by_text('1. Free fall').wait_for()
-    for each in (sheet, anna, ben):
-        each.close()
-    assert program.interrupt() == 0
 
 
 def test_a_pupil_who_gets_no_world_is_told_why_in_the_language_of_the_page(
-    chromium: Any, run_class: tuple[Program, str, str]
+    run_class: RunningClass,
 ) -> None:
-    program, pupils, _ = run_class
-    for sheet in [come(chromium, pupils, name) for name in ('Anna', 'Ben')]:
-        sheet.close()
-    late = Sheet(chromium, pupils, locale='de-DE')
+    for name in ('Anna', 'Ben'):
+        run_class.come(name)
+    late = run_class.open(run_class.pupils, locale='de-DE')
     late.page.get_by_role('textbox', name='Dein Name').fill('Dora')
     late.press('Zu meiner Welt')
     told = late.page.get_by_role('alert')
     told.get_by_text('Alle Welten der Klasse sind besetzt').wait_for()
-    assert program.interrupt() == 0
+    for sheet in run_class.sheets[:2]:
+        sheet.close()
+    run_class.end()
     late.press('Zu meiner Welt')
     told.get_by_text('Die Klasse ist nicht erreichbar').wait_for()
     # The browser tells of both, too.
     assert all('Failed to load' in each for each in late.errors)
-    late.context.close()
+    late.errors.clear()
 
 
 def test_a_body_that_leaves_what_its_lesson_shows_stays_in_its_picture(
-    chromium: Any, run_class: tuple[Program, str, str]
+    run_class: RunningClass,
 ) -> None:
-    program, pupils, teacher = run_class
-    anna, boss = come(chromium, pupils, 'Anna'), Sheet(chromium, teacher)
+    anna, boss = run_class.come('Anna'), run_class.open(run_class.teacher)
     boss.page.get_by_text('1 of 2 here').wait_for()
     boss.page.get_by_label('Lesson').select_option('horizontal_throw')
     boss.press('Open the lesson for all')
@@ -366,17 +390,13 @@ def test_a_body_that_leaves_what_its_lesson_shows_stays_in_its_picture(
     anna.play_until(4.0)
     assert anna.pose('dropped/0')[0] > 7.0
     boss.until(lambda: [228, 87, 86] in seen(), 'the red ball')
-    for each in (anna, boss):
-        each.close()
-    assert program.interrupt() == 0
 
 
 def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
-    chromium: Any, run_class: tuple[Program, str, str]
+    run_class: RunningClass,
 ) -> None:
-    program, pupils, teacher = run_class
-    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
-    sheet = Sheet(chromium, teacher)
+    anna, ben = run_class.come('Anna'), run_class.come('Ben')
+    sheet = run_class.open(run_class.teacher)
     sheet.page.get_by_text('2 of 2 here').wait_for()
     anna.page.get_by_role('textbox', name='Your answer').fill('1.01')
     anna.press('Check')
@@ -420,17 +440,17 @@ def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
     sheet.press('Close')
     ben.close()
     assert sheet.errors == []
-    assert program.interrupt() == 0
+    run_class.end()
     sheet.page.get_by_text('The class is not reachable').wait_for()
-    sheet.context.close()
+    sheet.errors.clear()
 
 
 def test_a_pupil_whose_seat_is_freed_is_told_and_leaves_the_world_to_the_next_one(
-    chromium: Any, run_class: tuple[Program, str, str]
+    run_class: RunningClass,
 ) -> None:
-    program, pupils, teacher = run_class
-    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
-    boss = Sheet(chromium, teacher)
+    anna = run_class.come('Anna')
+    run_class.come('Ben')
+    boss = run_class.open(run_class.teacher)
     boss.page.get_by_text('2 of 2 here').wait_for()
     boss.page.locator('#seats li').first.get_by_role('button', name='More').click()
     boss.press('Free this seat')
@@ -439,23 +459,19 @@ def test_a_pupil_whose_seat_is_freed_is_told_and_leaves_the_world_to_the_next_on
     left = anna.page.evaluate('physsim.time')
     boss.page.get_by_text('1 of 2 here').wait_for()
     # It is alone there, and the page before does not come back.
-    cleo = come(chromium, pupils, 'Cleo')
+    cleo = run_class.come('Cleo')
     assert urlsplit(cleo.page.url).port == urlsplit(anna.page.url).port
     boss.page.get_by_text('2 of 2 here').wait_for()
     cleo.wait(f'physsim.time > {left}')
     assert anna.page.evaluate('physsim.time') == left
     assert cleo.page.get_by_role('button', name='People').is_hidden()
     assert told.is_visible()
-    for each in (anna, ben, cleo, boss):
-        each.close()
-    assert program.interrupt() == 0
 
 
 def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
-    chromium: Any, run_class: tuple[Program, str, str]
+    run_class: RunningClass,
 ) -> None:
-    program, pupils, teacher = run_class
-    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
+    anna, ben = run_class.come('Anna'), run_class.come('Ben')
     for sheet in (anna, ben):
         sheet.begin(2)
     anna.tap(*anna.pose('heavy/0')[:2])
@@ -465,9 +481,9 @@ def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
     for sheet in (anna, ben):
         sheet.play_until(0.9)
 
-    boss = Sheet(chromium, 'about:blank')
+    boss = run_class.open('about:blank')
     boss.page.add_init_script(STATES)
-    boss.page.goto(teacher)
+    boss.page.goto(run_class.teacher)
     boss.page.get_by_text('2 of 2 here').wait_for()
     # Nobody is said to be away, and no world to be silent, before anybody has looked.
     assert not re.search('not here|not answer', boss.page.evaluate('states'))
@@ -500,6 +516,3 @@ def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
     # A picture that is closed is drawn no more.
     boss.wait('pictures.seats > 0')
     assert boss.page.evaluate('pictures.together') == 0
-    for sheet in (anna, ben, boss):
-        sheet.close()
-    assert program.interrupt() == 0

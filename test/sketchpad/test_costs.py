@@ -64,7 +64,7 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('move_bodies', {'names': UNKNOWN, 'by': [0.01, 0.0]}),
     # As many as a message of this size names with their poses.
     ('place', {'names': UNKNOWN[:30_000], 'poses': [[0.0, 0.0, 0.0]] * 30_000}),
-    ('copy', {'name': 'b/0', 'to': [0.0, 400.0]}),
+    ('copy_machine', {'names': ['b/0'], 'by': [0.0, 400.0]}),
     ('copy_machine', {'names': NAMES, 'by': [0.0, 500.0]}),
     ('copy_machine', {'names': ['b/0'] * 100_000, 'by': [0.0, 500.0]}),
     ('delete', {'names': UNKNOWN}),

@@ -60,8 +60,9 @@ ATTEMPTS: dict[str, list[dict[str, Any]]] = {
     ],
     'move_bodies': [{'names': ['b/0', name], 'by': [1, 0]} for name in ('a/0', 'a/1/upper/0')],
     'place': [{'names': ['b/0', 'a/0'], 'poses': [[0, 0, 0], [1, 0, 0]]}],
-    'copy': [{'name': 'a/0', 'to': [0, 20]}, {'name': 'a/1', 'to': [0, 30]}],
-    'copy_machine': [{'names': ['a/0', 'b/0'], 'by': [0, 40]}],
+    'copy_machine': [
+        {'names': names, 'by': [0, 40]} for names in (['a/0', 'b/0'], ['a/0'], ['a/1'])
+    ],
     # The rod of `b/0` is that of `a/0`, too.
     'delete': [{'names': [name]} for name in ('a/0', 'a/1', 'a/1/upper/0', 'b/0')],
     'drive': [{'name': name, 'velocity': [1, 0, 1]} for name in ('a/0', 'a/4')],

@@ -347,6 +347,11 @@ def test_the_panel_of_several_bodies_is_of_those_that_are_there(sheet: Sheet) ->
         panel.get_by_role('heading', name=title).wait_for()
         sheet.press('Undo')
     panel.wait_for(state='hidden')
+    # Pages of this world have nothing to redo then.
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((0.0, 5.0), (0.5, 5.0))
+    sheet.wait_for_new(before)
 
 
 def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:

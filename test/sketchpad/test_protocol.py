@@ -226,7 +226,7 @@ def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
     for each, x in ((page, 0.0), (other, 3.0)):
         each.send('click', tool='circle', point=[x, 5.0])
         each.ask('click', tool='circle', point=[x + 0.5, 5.0])
-    page.ask('copy', name=physsim.names[0], to=[6.0, 5.0])
+    page.ask('copy_machine', names=physsim.names[:1], by=[6.0, 0.0])
     page.until_last('scene', lambda scene: len(scene['bodies']) == 3)
     scene = page.last('scene')
     assert [body['density'] for body in scene['bodies']] == [7.0, 1.0, 7.0]

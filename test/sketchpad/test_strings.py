@@ -358,7 +358,7 @@ def typed(number: float) -> Iterator[dict[str, Any]]:
     yield {'type': 'gravity', 'gravity': [0, number]}
     yield {'type': 'change_joint', 'name': 'slider/0', 'properties': {'lower': 2, 'upper': 1}}
     yield {'type': 'move_bodies', 'names': ['a/0'], 'by': [number, 0]}
-    yield {'type': 'copy', 'name': 'a/0', 'to': [number, 0]}
+    yield {'type': 'copy_machine', 'names': ['a/0'], 'by': [number, 0]}
     yield {'type': 'open', 'name': 'nowhere'}
 
 

@@ -17,3 +17,8 @@ PROGRAMS = ('__main__', 'irsim_world')
 @pytest.mark.parametrize('name', [each for each in MODULES if not each.endswith(PROGRAMS)])
 def test_a_module_is_imported(name: str) -> None:
     assert import_module(name).__name__ == name
+
+
+def test_the_gallery_draws_nothing_where_a_name_is_that_of_no_picture() -> None:
+    with pytest.raises(SystemExit, match='no picture typo'):
+        import_module('tools.gallery.__main__').main(['page', 'typo'])

@@ -25,6 +25,7 @@ from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
 from physsim_ros.ros.encoders.streams import SceneEncoder
 from physsim_ros.ros.marker_shapes import geometry_of, THIN
 from physsim_ros.ros.planar import pose_message
+from physsim_ros.ros.qos_safe_node import CALLS
 from rclpy.node import Node
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header
@@ -64,7 +65,8 @@ class InteractiveMarkers:
         self._frame_id = frame_id
         self._server = node.get_fully_qualified_name()
         self._publisher = node.create_publisher(InteractiveMarkerUpdate, self.name, _DEPTH)
-        node.create_service(GetInteractiveMarkers, '~/drag/get_interactive_markers', self._tell)
+        service = '~/drag/get_interactive_markers'
+        node.create_service(GetInteractiveMarkers, service, self._tell, qos_profile=CALLS)
         self._poses = InteractivePosesEncoder(frame_id, self._server)
         self._frame: Frame | None = None
         self._number = 0

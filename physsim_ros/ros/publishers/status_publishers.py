@@ -26,9 +26,9 @@ from rclpy.serialization import serialize_message
 # Depth of `~/events`. A full history loses messages that are not yet acknowledged; so the answers
 # of a longer burst wait until earlier ones have been acknowledged.
 EVENTS_DEPTH = 1000
-# The longest wait for an acknowledgement [s]: 20 heartbeats of `fastdds_profiles.xml`, each of
-# which asks for one.
-ACK_TIMEOUT = 1.0
+# The longest wait for an acknowledgement [s], as for that of a page or a viewer: a busy machine
+# may stop a subscriber for seconds. `fastdds_profiles.xml` has one asked for 20 times a second.
+ACK_TIMEOUT = 10.0
 # Answers in each period [s] while a subscriber has stopped: ten times as many as the node
 # answers. A subscriber that reads has five heartbeats to ask for answers that it has missed.
 STOPPED_PERIOD, STOPPED_ANSWERS = 0.05, EVENTS_DEPTH // 2

@@ -18,16 +18,14 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.model.slices import at_once, in_slices, Sliced, Slices
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros.qos_safe_node import CALLS
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
 import rclpy.service
 from rclpy.task import Future
 from std_srvs.srv import Trigger
 
-# Depth of the calls that wait to be read: 50 clients with 20 calls each.
-_QOS = QoSProfile(depth=1000)
 # Fills in a response, with a refusal where the call is not carried out, and returns the answers.
 Fill = Callable[[Refusal | None], Sequence[Answer] | Slices[Sequence[Answer]]]
 # Makes a call at its time among the requests, and calls the last function when it is told.
@@ -123,7 +121,7 @@ class ServiceCalls:
 
         :param respond: returns the future of a response, of a request and the empty response
         """
-        self.reply_when_done(node.create_service(kind, topic, respond, qos_profile=_QOS))
+        self.reply_when_done(node.create_service(kind, topic, respond, qos_profile=CALLS))
 
 
 def create_services(

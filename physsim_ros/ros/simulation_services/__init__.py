@@ -14,6 +14,8 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from physsim_ros.ros.node_control import NodeControl
     from physsim_ros.ros.requests.services import ServiceCalls
     from rclpy.node import Node
@@ -21,16 +23,20 @@ if TYPE_CHECKING:
 __all__ = ['create_simulation_services']
 
 
-def create_simulation_services(node: Node, control: NodeControl, calls: ServiceCalls) -> None:
+def create_simulation_services(
+    node: Node, control: NodeControl, calls: ServiceCalls
+) -> Callable[[], object]:
     """
     Offer the services below `~/simulation/`, if their package is installed.
 
     :param node: that offers them
     :param control: what they do to the node
     :param calls: of services
+
+    :return: ends what `Node.destroy_node` does not
     """
     if find_spec('simulation_interfaces') is None:
-        return
+        return lambda: None
     from physsim_ros.ros.simulation_services.services import SimulationServices  # noqa: PLC0415
 
-    SimulationServices(node, control, calls)
+    return SimulationServices(node, control, calls).close

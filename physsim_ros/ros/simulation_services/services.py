@@ -13,6 +13,7 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.slices import in_slices, Slices
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.node_control import NodeControl
+from physsim_ros.ros.qos_safe_node import CALLS
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
 from physsim_ros.ros.simulation_services.named_poses import NamedPoses
@@ -76,13 +77,22 @@ class SimulationServices:
         }
         for name, (kind, perform) in services.items():
             self._create(node, f'~/simulation/{name}', kind, perform)
-        ActionServer(
+        self._action = ActionServer(
             node,
             SimulateSteps,
             _STEPS,
             execute_callback=lambda _: None,
             handle_accepted_callback=self._simulate_steps,
+            goal_service_qos_profile=CALLS,
+            result_service_qos_profile=CALLS,
+            cancel_service_qos_profile=CALLS,
+            # That of a goal comes at once.
+            feedback_pub_qos_profile=CALLS,
         )
+
+    def close(self) -> None:
+        """Destroy the action, whose node else remains on the graph (rclpy 7.1)."""
+        self._action.destroy()
 
     def _create(self, node: Node, topic: str, kind: Any, perform: _Perform) -> None:
         self._calls.create(node, kind, topic, partial(self._add, topic, perform))

@@ -187,8 +187,8 @@ class Cursor(Replay):
         self._work: _Work | None = None
         # Whether the world is where no way along the line in force leads to the goal of a seek.
         self._is_elsewhere = False
-        # A tip, and the step up to which it needs neither a request nor a checkpoint.
-        self._stretch: tuple[Node | None, int] = (None, 0)
+        # A tip, and the steps from which it needs neither a request nor a checkpoint.
+        self._stretch: tuple[Node | None, range] = (None, range(0))
 
     # The moment
 
@@ -429,13 +429,13 @@ class Cursor(Replay):
             if step < tree.head:
                 yield from self._replay_to_stop(min(end, tree.head))
                 continue
-            tip, until = self._stretch
-            if tip is not tree.tip or self.serial != tip.serial or step >= until:
+            tip, steps = self._stretch
+            if tip is not tree.tip or self.serial != tip.serial or step not in steps:
                 yield from self._apply_logged(tree.serial_at(step))
                 yield from self._make_checkpoint()
-                until = tree.next_stop(step, step + tree.spacing)
-                self._stretch = tree.tip, until
-            yield from self._make_steps(min(end, until), is_new=True)
+                steps = range(step, tree.next_stop(step, step + tree.spacing))
+                self._stretch = tree.tip, steps
+            yield from self._make_steps(min(end, steps.stop), is_new=True)
 
     # Checkpoints
 

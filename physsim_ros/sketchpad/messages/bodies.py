@@ -29,7 +29,6 @@ from physsim_ros.model.requests import (
     DriveRobot,
     Join,
     MoveBodies,
-    Request,
     Spawn,
     Unjoin,
 )
@@ -107,25 +106,14 @@ def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list
     page.submit(origin, (Command(names=names, poses=np.array(poses)),))
 
 
-@message('copy', '~/spawn', name=fields.text, to=fields.point)
-def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
-    """Add a body like another one, of a part the whole robot, at rest, at a point [m]."""
-    requests = page.drawing.copy(name, to, page.world.current_snapshot())
-    _submit_copies(page, origin, requests)
-
-
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
 def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Add bodies like others, with the joints among them, at rest, at a distance [m]."""
     requests = page.drawing.copy_machine(names, by, page.world.current_snapshot())
-    _submit_copies(page, origin, requests)
-
-
-def _submit_copies(page: PageSession, origin: Origin, requests: tuple[Request, ...]) -> None:
-    """Submit the requests for copies; before several answers stands one for all."""
     if len(requests) == 1:
         page.submit(origin, requests)
         return
+    # Before several answers stands one for all.
     robots = [each.properties.robot is not None for each in requests if isinstance(each, Spawn)]
     message = 'copied a robot' if robots == [True] else f'copied {counted(len(robots), "body")}'
     page.submit(origin, requests, message=message, values=(request_count(len(requests)),))

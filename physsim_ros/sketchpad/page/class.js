@@ -7,7 +7,7 @@
 import {unionOf} from './view/body_path.js';
 import {Camera} from './view/camera.js';
 import {personWord} from './people.js';
-import {sayForm} from './ui/classroom.js';
+import {sayForm} from './ui/people_dialog.js';
 import {Connection} from './connection.js';
 import {Dialog} from './ui/dialog.js';
 import {choice, createElement, elementOf, iconButton, inRow, languageField, showText, soon, textButton} from './dom.js';
@@ -50,30 +50,25 @@ class Card {
     this.hand.hidden = true;
     const canvas = createElement('canvas', {role: 'img'}), more = iconButton(t('More'), 'more', () => this.showMore());
     this.element = createElement('li', {}, inRow(this.name, this.state, this.hand, more), canvas, inRow(this.lesson, this.answer));
-    const connection = this.connection = new Connection(`/ws/${number}`), camera = new Camera();
+    const connection = this.connection = new Connection(`/ws/${number}`);
     this.world = new WorldState(connection);
-    this.view = new SceneView(canvas, this.world, camera);
-    this.canvas = canvas;
+    this.view = new SceneView(canvas, this.world, new Camera());
     this.words = new Words(connection);
     /** @type {?Classmate | undefined} null until the world has told who is there */
     this.pupil = null;
+    this.view.overlays.push(() => this.#frame());
+    this.#listen();
+    connection.connect();
+  }
+
+  #listen() {
+    const {connection} = this;
     connection.on('scene', () => this.show());
     connection.on('frame', () => {
       const {paused} = this.world;
       if (this.running !== paused) return;
       this.running = !paused;
       this.show();
-    });
-    this.view.overlays.push((view) => {
-      const {scene: {bounds, epoch}, count} = this.world;
-      this.#noteLeft();
-      // A world without bounds keeps its frame until it changes.
-      const shown = `${epoch} ${camera.width} ${camera.height} ${this.left}`;
-      if (shown === this.framed || !count) return;
-      this.framed = shown;
-      const extent = this.world.extent();
-      camera.fit(this.left && bounds.length ? unionOf([extent, bounds]) : extent, {left: GAP, top: GAP, right: GAP, bottom: GAP});
-      view.dirty = true;
     });
     connection.on('class', ({people, frozen}) => {
       this.pupil = people.find((/** @type {Classmate} */ {role}) => role === 'draw');
@@ -87,7 +82,19 @@ class Card {
         this.show();
       });
     }
-    connection.connect();
+  }
+
+  /** Frame what the lesson shows first; once a body has left that, the whole world. */
+  #frame() {
+    const {world: {scene: {bounds, epoch}, count}, view} = this, {camera} = view;
+    this.#noteLeft();
+    // A world without bounds keeps its frame until it changes.
+    const shown = `${epoch} ${camera.width} ${camera.height} ${this.left}`;
+    if (shown === this.framed || !count) return;
+    this.framed = shown;
+    const extent = this.world.extent();
+    camera.fit(this.left && bounds.length ? unionOf([extent, bounds]) : extent, {left: GAP, top: GAP, right: GAP, bottom: GAP});
+    view.dirty = true;
   }
 
   /** Note whether a body has left what its lesson shows first. */
@@ -119,7 +126,7 @@ class Card {
   show() {
     const {pupil, person, element, world: {scene: {lesson}}} = this, answered = pupil?.answered;
     showText(this.name, person || t('free'));
-    this.canvas.ariaLabel = worldOf(person);
+    this.view.canvas.ariaLabel = worldOf(person);
     element.classList.toggle('free', !person);
     element.classList.toggle('away', !pupil);
     element.classList.toggle('raised', this.raisedAt > 0);

@@ -21,7 +21,7 @@ const TICK = 500; // ms between two looks whether something has come; a browser 
 const ASKS = 1, TELLS = 6, LEAVES = 15;
 const REACHED = 3000; // ms within which a server that is there answers a request
 /** Messages that mean the same in a while: they are sent again where they were not received. */
-const AGAIN = ['stroke', 'spawn', 'change', 'change_joint', 'delete', 'unjoin', 'copy', 'copy_machine', 'move_bodies', 'place', 'answered', 'say'];
+const AGAIN = ['stroke', 'spawn', 'change', 'change_joint', 'delete', 'unjoin', 'copy_machine', 'move_bodies', 'place', 'answered', 'say'];
 const LASTING = 60000; // ms for which they do
 /** Messages that have no answer, or that nobody misses. */
 export const PASSING = ['show', 'here', 'move', 'watch', 'drive', 'let_go', 'drop', 'list', 'ping', 'person', 'draw_with', 'raise_hand', 'follow'];

@@ -54,10 +54,10 @@ export function chooseLanguage(chosen) {
 }
 
 /**
- * @param {string} text
+ * @param {string} text with the names of values in braces
  * @param {Record<string, string | number>} values
  */
-function filled(text, values) {
+export function filled(text, values) {
   return text.replace(/\{(\w+)\}/g, (braces, name) => {
     const value = values[name] ?? braces;
     return typeof value === 'number' ? localized(String(value)) : value;

@@ -5,7 +5,7 @@
  */
 
 import {GESTURES, SENTENCES, THINGS, VERBS} from './sentences.js';
-import {localized, refusalText, t} from './strings.js';
+import {filled, localized, refusalText, t} from './strings.js';
 
 /** @import {Body, Connection} from './types.js' */
 
@@ -121,17 +121,9 @@ export class Words {
       .replace(DRAWN, (_, kind, name) => the(kind ? thingWord(kind) : this.of(name)));
     return named.replace(GESTURE, (_, before, verb, thing, more) => {
       const told = more ? `several ${verb === 'join' ? 'joints' : 'bodies'}` : thing;
-      return before + filled(GESTURES.get(verb), THINGS.get(told) ?? told);
+      return before + filled(GESTURES.get(verb) ?? '', {thing: THINGS.get(told) ?? told});
     }).replace(/(^|: )reset$/, `$1${t('Reset')}`).replace(/(^|: )open world$/, `$1${t('Open the world')}`);
   }
-}
-
-/**
- * @param {string | undefined} sentence
- * @param {string} thing that it is about
- */
-function filled(sentence, thing) {
-  return (sentence ?? '').replace('{thing}', () => thing);
 }
 
 /**
@@ -139,7 +131,7 @@ function filled(sentence, thing) {
  * @param {string} thing
  */
 function said(verb, thing) {
-  return filled(VERBS.get(verb), thing);
+  return filled(VERBS.get(verb) ?? '', {thing});
 }
 
 /**

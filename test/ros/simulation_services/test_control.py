@@ -11,6 +11,7 @@ from typing import Any
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.ros import frame_loop
+from physsim_ros.ros.qos_safe_node import CALLS
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rclpy.action import ActionClient
@@ -129,6 +130,28 @@ def test_an_action_goes_on_by_steps_and_tells_each(caller: Caller) -> None:
     set_parameter(caller.physsim, 'speed', 1.0)
     result, told = simulate_steps(caller, 3)
     assert (result.result, told) == (OPERATION_FAILED, [])
+
+
+def test_a_burst_of_goals_is_answered(caller: Caller) -> None:
+    from simulation_interfaces.action import SimulateSteps  # noqa: PLC0415
+
+    services = ('goal', 'result', 'cancel')
+    client = ActionClient(
+        caller.client.node,
+        SimulateSteps,
+        '/physsim/simulation/simulate_steps',
+        **{f'{name}_service_qos_profile': CALLS for name in services},
+    )
+    caller.client.spin_until(client.server_is_ready)
+    # More than a service keeps by default.
+    sent = [client.send_goal_async(SimulateSteps.Goal(steps=1)) for _ in range(20)]
+    caller.client.spin_until(lambda: all(each.done() for each in sent))
+    results = [each.result().get_result_async() for each in sent]
+    caller.client.spin_until(lambda: all(each.done() for each in results))
+    client.destroy()
+    assert {each.result().result.result.result for each in results} == {OK}
+    world = caller.physsim.node.simulation
+    assert world.step == 20 * world.frame_steps
 
 
 def test_steps_are_made_when_they_are_told_though_a_seek_was_under_way(

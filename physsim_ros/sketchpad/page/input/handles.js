@@ -171,7 +171,7 @@ export class Handles extends Gesture {
     if (!this.last || this.dragged !== 'turn' && this.dragged !== 'scale') return;
     const {turn, scale} = this.#change(), {world, selection} = this.parts, row = world.row(selection.name);
     view.outline(row, palette.accent, [0, 0], {turn, scale});
-    view.tell(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeOf(world.scene.bodies[row], scale), this.last);
+    view.tell(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeText(world.scene.bodies[row], scale), this.last);
   }
 
   /**
@@ -210,7 +210,7 @@ function poseAbout({world}, row, turn, scale = 1) {
  * @param {number} scale
  * @returns {string} its size, scaled
  */
-function sizeOf({shape: {kind, radius, width, height}}, scale) {
+function sizeText({shape: {kind, radius, width, height}}, scale) {
   if (kind === 'disc') return t('radius {length} m', {length: threeDigits(scale * radius)});
   if (width && height) return `${threeDigits(scale * width)} × ${threeDigits(scale * height)} m`;
   return `× ${threeDigits(scale)}`;

@@ -5,7 +5,7 @@ import {checkField, choice, createElement, inRow, numberField, textButton, textF
 import {actorLines, drawWay} from './driving.js';
 import {mediumFields} from './field_fields.js';
 import {forceFields} from './force_fields.js';
-import {sizeOf} from '../view/label_view.js';
+import {labelSize} from '../view/label_view.js';
 import {t} from '../strings.js';
 import {inclineFields} from '../tools/incline.js';
 import {sendNote} from '../tools/note.js';
@@ -30,7 +30,7 @@ export function bodyContent(parts, [name], render) {
   const label = textField({value: body.label, onchange: () => {
     const value = textOf(label), {height = 0} = body.shape, row = parts.world.row(name);
     if (body.name.startsWith('note/') && height) {
-      sendNote(parts, name, value, [...parts.world.place(row, [0, 0]), parts.world.frame.yaw[row]], height / sizeOf(parts.view.ctx, body.label)[1]);
+      sendNote(parts, name, value, [...parts.world.place(row, [0, 0]), parts.world.frame.yaw[row]], height / labelSize(parts.view.ctx, body.label)[1]);
     } else change({label: value});
   }});
   const material = materialFields(body, change);

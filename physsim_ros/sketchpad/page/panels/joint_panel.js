@@ -36,7 +36,7 @@ const RING = 9; // px: at its ends
  * @returns {?Content} null where it is gone
  */
 export function jointContent({world, connection, selection, meters, words}, [name]) {
-  const numberOf = () => world.scene.joints.findIndex((each) => each.name === name), joint = world.scene.joints[numberOf()];
+  const findNumber = () => world.scene.joints.findIndex((each) => each.name === name), joint = world.scene.joints[findNumber()];
   if (!joint) return null;
   const change = (/** @type {Record<string, number | string | null>} */ properties) => connection.send('change_joint', {name, properties});
   const unit = joint.kind === 'slider' ? 'm' : 'rad', force = createElement('p');
@@ -58,7 +58,7 @@ export function jointContent({world, connection, selection, meters, words}, [nam
     meters.jointField(name),
     inRow(textButton(t('Delete joint'), () => selection.deleteSelected(), 'danger')),
   ], live: (view) => {
-    const number = numberOf(), now = world.scene.joints[number];
+    const number = findNumber(), now = world.scene.joints[number];
     if (!now) return;
     showText(force, t('Force now: {force}', {force: jointTexts(world, now).join(' · ')}));
     view.ring(world.place(now.a, now.points[0]), RING, view.palette.accent);

@@ -6,11 +6,15 @@
  * numbers; what can be changed is behind one line, until somebody unfolds it.
  */
 
+import {bodyContent} from './body_panel.js';
 import {createElement, elementOf, foldButton, iconButton, replaceContent} from '../dom.js';
+import {jointContent} from './joint_panel.js';
+import {severalContent} from './several_panel.js';
+import {worldContent} from './world_panel.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 
-/** @import {CONTENTS} from './contents.js' */
+/** @import {Kind} from '../input/selection.js' */
 /** @import {PanelParts, SceneView} from '../types.js' */
 
 /**
@@ -19,6 +23,8 @@ import {t} from '../strings.js';
  *   frame to frame, and draws it
  */
 
+/** By the names of the subject; null where that is gone. @type {Record<Exclude<Kind, ''>, (parts: PanelParts, names: string[], render: () => void) => ?Content>} */
+const CONTENTS = {body: bodyContent, several: severalContent, joint: jointContent, world: worldContent, measure: ({stopwatch}) => stopwatch.content()};
 const UNFOLDED = 'physsim-panel'; // key
 
 export class Panel {
@@ -27,8 +33,6 @@ export class Panel {
     this.parts = parts;
     this.element = elementOf('panel');
     this.shown = ''; // kind and names of the subject
-    /** @type {?typeof CONTENTS} null until a panel is asked for */
-    this.contents = null;
     /** As somebody has chosen in this browser; a small page has no room for all of it at once. */
     this.unfolded = localStorage.getItem(UNFOLDED) === '1' && isRoomy();
     /** @type {(view: SceneView) => void} */
@@ -69,16 +73,9 @@ export class Panel {
   render() {
     const {parts, element} = this, {kind, subject} = parts.selection;
     this.isStale = false;
-    if (kind && !this.contents) {
-      parts.notes.load(import('./contents.js'), ({CONTENTS}) => {
-        this.contents = CONTENTS;
-        this.render();
-      });
-      return;
-    }
     element.hidden = !kind;
-    if (!kind || !this.contents) return;
-    const content = this.contents[kind](parts, subject, () => this.render());
+    if (!kind) return;
+    const content = CONTENTS[kind](parts, subject, () => this.render());
     if (!content) {
       parts.selection.select([]);
       return;

@@ -167,14 +167,14 @@ export class ClickTool extends Gesture {
     // A finger that is lifted leaves nothing else.
     for (const {at} of this.points) view.ring(at, MARK, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
-    view.tell(this.#sizeOf(points), this.pointed);
+    view.tell(this.#sizeText(points), this.pointed);
   }
 
   /**
    * @param {Point[]} points [m]
    * @returns {string} what the gesture measures up to now
    */
-  #sizeOf(points) {
+  #sizeText(points) {
     const [p, q, r] = points, [a, b] = points.slice(-2);
     const side = distance(p, q), length = distance(a, b);
     if (!length) return '';

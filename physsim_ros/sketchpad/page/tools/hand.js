@@ -74,10 +74,8 @@ export class Hand extends Gesture {
       if (this.moved) parts.hints.completeStep('throw');
     }
     if (!this.moved) parts.selection.selectAt(touch);
-    else if (state === 'carrying' && start) parts.connection.send('move_bodies', {names: [this.name], by: this.#carried(start, touch)});
-    else if (state === 'copying' && start) {
-      const row = parts.world.row(this.name), [dx, dy] = this.#carried(start, touch), {x, y} = parts.world.frame;
-      if (row >= 0) parts.connection.send('copy', {name: this.name, to: [x[row] + dx, y[row] + dy]});
+    else if (start && (state === 'carrying' || state === 'copying')) {
+      parts.connection.send(state === 'copying' ? 'copy_machine' : 'move_bodies', {names: [this.name], by: this.#carried(start, touch)});
     }
   }
 

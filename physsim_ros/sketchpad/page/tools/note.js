@@ -3,7 +3,7 @@
 
 import {elementOf, textOf, textField} from '../dom.js';
 import {Gesture} from './gesture.js';
-import {sizeOf} from '../view/label_view.js';
+import {labelSize} from '../view/label_view.js';
 import {t} from '../strings.js';
 
 /** @import {Parts, Touch} from '../types.js' */
@@ -38,6 +38,6 @@ export class Note extends Gesture {
  * @param {object} look other properties
  */
 export function sendNote({view, connection}, name, label, at, em, look = {}) {
-  const [wide, high] = sizeOf(view.ctx, label);
+  const [wide, high] = labelSize(view.ctx, label);
   connection.send('spawn', {body: {name, label, at, box: {width: wide * em, height: high * em}, ...look}});
 }

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
+/** The people in this world: names, colours, cursors, raised hands; whether a teacher has frozen it. */
 
-import {createElement, elementOf, fieldForm, iconButton, inRow, soon, textButton} from '../dom.js';
-import {NAME, ownName, personWord, TEACHER} from '../people.js';
+import {createElement, elementOf, iconButton, soon, textButton} from '../dom.js';
+import {NAME, ownName, personWord} from '../people.js';
 import {t} from '../strings.js';
 
 /** @import {Parts, Point, SceneView} from '../types.js' */
 
-const LONGEST = 24; // characters
 const PERIOD = 100; // ms between messages of the cursor
 const SHOWN = 10000; // ms: a cursor that rests
-const TITLE = t('People');
+export const TITLE = t('People');
 const GOLDEN = 137.5; // degrees from one hue to the next: the golden angle, so that the first ones are far from each other
-const LOOKS_IN = 'physsim-class'; // whose world it is that a teacher of a class looks into, in this tab
+export const LOOKS_IN = 'physsim-class'; // whose world it is that a teacher of a class looks into, in this tab
 
 export class Classroom {
   /** @param {Parts<'camera' | 'connection' | 'dialog' | 'lessons' | 'notes' | 'people' | 'selection' | 'view'>} parts */
@@ -87,43 +86,7 @@ export class Classroom {
   }
 
   #showPeople() {
-    const {parts, parts: {connection, people: {page: here, state, teacher}}} = this;
-    const own = state.people.find(({page}) => page === here)?.name ?? '';
-    const input = createElement('input', {value: ownName(), placeholder: personWord(own), required: true,
-      maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': t('Your name')});
-    const form = fieldForm(input, t('Use this name'), (name) => {
-      localStorage.setItem(NAME, name);
-      connection.send('person', {name});
-      parts.dialog.close();
-    });
-    const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, color, role, answered, raised}) => {
-      const shown = personWord(name), you = page === here ? ` (${t('you')})` : '';
-      const teaches = role === 'teach' && name !== TEACHER ? `, ${t('teacher')}` : '';
-      return createElement('li', {}, dot(color), `${shown}${you}${teaches}`,
-        ...raised ? [createElement('strong', {}, t('hand raised')),
-          ...teacher ? [textButton(t('Lower the hand'), () => connection.send('lower_hand', {page}))] : []] : [],
-        ...teacher && answered ? [createElement('span', {}, `${answered.answer} ${answered.right ? '✓' : '✗'}`)] : [],
-        ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
-    }));
-    parts.dialog.show(TITLE, ...parts.people.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
-  }
-
-  /** @returns {Node[]} what a teacher may do */
-  #powers() {
-    const {connection, selection, people: {state: {frozen, locked}}} = this.parts, chosen = [...selection.names];
-    const freeze = textButton(frozen ? t('Let them draw again') : t('Freeze all pupils'), () => connection.send('freeze', {frozen: !frozen}));
-    const lockThem = (/** @type {string[]} */ names) => () => connection.send('lock', {names});
-    const lock = chosen.length ?
-      textButton(t('Lock what is selected ({count})', {count: chosen.length}), lockThem([...new Set([...locked, ...chosen])])) :
-      textButton(t('Lock all bodies'), lockThem(['*']));
-    return [createElement('h3', {}, t('Teacher')), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
-      ...locked.length ? [textButton(t('Unlock all'), lockThem([]))] : []),
-    ...locked.length ? [createElement('p', {}, t('Locked: {names}', {names: locked.join(', ')}))] : [],
-    inRow(textButton(t('Results'), () => this.parts.notes.load(import('./results.js'), ({showResults}) =>
-      showResults(this.parts.dialog, this.parts.lessons.list, () => connection.send('forget_results'))))),
-    // Pupils of a class come by its own page.
-    ...sessionStorage.getItem(LOOKS_IN) !== null ? [] : [createElement('h3', {}, t('Pupils come here')),
-      createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})]];
+    this.parts.notes.load(import('./people_dialog.js'), ({showPeople}) => showPeople(this.parts));
   }
 
   /** @param {SceneView} view */
@@ -147,25 +110,6 @@ export class Classroom {
       ctx.fillText(shown, x + 16, y + 26);
     }
   }
-}
-
-/**
- * @param {(text: string) => void} say
- * @param {string} label to whom
- */
-export function sayForm(say, label = t('Message to all')) {
-  const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off', placeholder: label, 'aria-label': label});
-  return fieldForm(input, t('Send'), (text) => {
-    say(text);
-    input.value = '';
-  });
-}
-
-/** @param {number} number of the colour of a person */
-function dot(number) {
-  const element = createElement('i', {'aria-hidden': 'true'});
-  element.style.background = colorOf(number);
-  return element;
 }
 
 /**

@@ -3,7 +3,7 @@
 
 import {createElement, icon, inRow} from '../dom.js';
 import {t} from '../strings.js';
-import {noteSeen, strokeCard} from './strokes.js';
+import {strokeCard} from './strokes.js';
 import {EDIT, TIME} from './time_bar.js';
 import {TOOLS} from '../tools/tools.js';
 
@@ -49,7 +49,6 @@ export function showHelp(dialog, settings) {
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
   const tools = TOOLS.flat().map(({id, name, hint}) => [icon(id), `${name}: ${hint}`]);
   const strokes = [createElement('h3', {}, t('What the pen understands')), strokeCard()];
-  noteSeen();
   const parts = [strokes, section(t('Keys'), keys)];
   if (TOUCHED.matches) parts.splice(1, 0, section(t('Gestures'), GESTURES), section(t('Tools'), tools));
   dialog.show(t('Help'), inRow(...settings), ...parts.flat());

@@ -55,14 +55,14 @@ export class Hints {
   /** @param {string} id of the step that was done; those before are known then too */
   completeStep(id) {
     if (this.#isDone(id)) return;
-    this.step = placeOf(id) + 1;
+    this.step = indexOf(id) + 1;
     localStorage.setItem(KEY, String(this.step));
     this.#showStep();
   }
 
   /** @param {string} id of a step */
   #isDone(id) {
-    return placeOf(id) < this.step;
+    return indexOf(id) < this.step;
   }
 
   /** @returns {typeof STEPS[0] | undefined} the next one that is true now */
@@ -114,6 +114,6 @@ export class Hints {
 }
 
 /** @param {string} id of a step */
-function placeOf(id) {
+function indexOf(id) {
   return STEPS.findIndex(([each]) => each === id);
 }

@@ -15,7 +15,7 @@ const APART = 0.25; // s without a touch after which a pair touches anew
 const MOVES = 0.05, RESTS = 0.02; // m/s: faster is motion, slower rest
 const STILL = 0.5; // s of rest after which it is told
 
-/** @typedef {{moves: boolean, since: number}} Motion since: when the body was faster than a body at rest [s] */
+/** @typedef {{moves: boolean, since: number}} Followed since: when the body was faster than a body at rest [s] */
 
 export class Narrator {
   /** @param {Parts<'connection' | 'selection' | 'settings' | 'words' | 'world'>} parts */
@@ -25,7 +25,7 @@ export class Narrator {
     this.time = 0; // of the last frame [s]
     /** @type {Map<string, number>} when pairs of bodies touched last [s] */
     this.touched = new Map();
-    /** @type {Map<string, Motion>} by name of the body */
+    /** @type {Map<string, Followed>} by name of the body */
     this.motions = new Map();
     /** @type {string[]} */
     this.sentences = [];

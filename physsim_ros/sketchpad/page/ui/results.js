@@ -109,17 +109,17 @@ function histogramOf(results) {
   const least = Math.max(sorted[0], lower - fence), most = Math.min(sorted[sorted.length - 1], upper + fence);
   const step = roundUp((most - least) / BINS || 1);
   // 9.7 / 0.1 is 96.99999999999999, and counts from 9.7.
-  const placeOf = (/** @type {number} */ figure) => Math.floor(Number((figure / step).toPrecision(12)));
-  const first = placeOf(least), last = placeOf(most);
+  const binOf = (/** @type {number} */ figure) => Math.floor(Number((figure / step).toPrecision(12)));
+  const first = binOf(least), last = binOf(most);
   return Array.from({length: last - first + 1}, (_, i) => {
-    const there = answers.filter(({figure}) => Math.min(Math.max(placeOf(figure), first), last) === first + i);
+    const there = answers.filter(({figure}) => Math.min(Math.max(binOf(figure), first), last) === first + i);
     const bars = [true, false].map((isRight) => {
       const bar = createElement('i', {className: isRight ? 'right' : ''});
       bar.style.width = `${100 * there.filter(({right}) => right === isRight).length / answers.length}%`;
       return bar;
     });
-    const [from, to] = [first + i, first + i + 1].map((place) => digits(place * step, 4));
-    const range = there.some(({figure}) => placeOf(figure) > last) ? `≥ ${from}` : there.some(({figure}) => placeOf(figure) < first) ? `< ${to}` : `${from} … ${to}`;
+    const [from, to] = [first + i, first + i + 1].map((bin) => digits(bin * step, 4));
+    const range = there.some(({figure}) => binOf(figure) > last) ? `≥ ${from}` : there.some(({figure}) => binOf(figure) < first) ? `< ${to}` : `${from} … ${to}`;
     return createElement('li', {}, range, createElement('span', {}, ...bars), String(there.length || ''));
   });
 }

@@ -26,7 +26,6 @@ const STROKES = [
   [t('hatching: heavier'), 'M22 26 34 14M26 28 38 16', 'M14 9h32v22H14z'],
   [t('scribble: delete'), 'M10 30 20 8 24 32 32 8 37 32 44 8 50 30', 'M16 11h28v18H16z'],
 ];
-const SEEN = 'physsim-strokes';
 
 /** The card beside a canvas on which nothing can move yet, until somebody has drawn or closes it. It is faint in a gesture, which may pass under it. */
 export class EmptyCard {
@@ -56,24 +55,12 @@ export class EmptyCard {
     if (hidden) return;
     element.replaceChildren(createElement('header', {}, createElement('h2', {}, t('Draw with the pen')),
       iconButton(t('Close'), 'close', () => this.#close())), strokeCard());
-    noteSeen();
   }
 }
 
 /** @returns {HTMLElement} */
 export function strokeCard() {
-  const fresh = !localStorage.getItem(SEEN);
-  return createElement('ul', {className: 'strokes'}, ...STROKES.map(([name, stroke, before]) => {
-    const item = createElement('li', {}, picture(stroke, before), name);
-    // Animated at its first use, and when it is pointed at.
-    item.classList.toggle('fresh', fresh);
-    return item;
-  }));
-}
-
-/** Note that the card was seen: from now on only the picture that is pointed at moves. */
-export function noteSeen() {
-  localStorage.setItem(SEEN, '1');
+  return createElement('ul', {className: 'strokes'}, ...STROKES.map(([name, stroke, before]) => createElement('li', {}, picture(stroke, before), name)));
 }
 
 /**

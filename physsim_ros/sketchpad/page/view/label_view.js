@@ -35,7 +35,7 @@ export function drawLabels(view) {
   for (let row = 0; row < world.count; row++) {
     const body = world.scene.bodies[row], appearance = bodies.appearance(body);
     if (!body.label || !bodies.isOnPage(world.frame, row, appearance)) continue;
-    const [wide, high] = sizeOf(ctx, body.label), {width = 0, height = 0, thickness} = body.shape;
+    const [wide, high] = labelSize(ctx, body.label), {width = 0, height = 0, thickness} = body.shape;
     const room = width ? Math.min(width / wide, height / high) :
       (thickness ?? 2 * appearance.inner) / Math.hypot(wide, high);
     const size = Math.min(Math.max(room * camera.scale, SMALLEST), LARGEST);
@@ -70,7 +70,7 @@ function labelBox({camera, world}, row, lines, half, below) {
  * @param {string} label
  * @returns {[number, number]} width and height of a box that it fills [em]
  */
-export function sizeOf(ctx, label) {
+export function labelSize(ctx, label) {
   let size = sizes.get(label);
   if (!size) {
     const lines = label.split('\n');
