@@ -303,7 +303,9 @@ class Player:
         :param calls: that have too little time for more than a part of it
         """
         before = self._position()
-        gestures = list(dict.fromkeys(each.gesture for each in before.made[: before.moment[1]]))
+        # That of a saved moment before all others is nobody's.
+        made = (each.gesture for each in before.made[: before.moment[1]] if each.gesture)
+        gestures = list(dict.fromkeys(made))
         if self.dropped or not gestures:
             return
         gesture = gestures[-min(back, len(gestures))]

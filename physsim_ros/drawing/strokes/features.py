@@ -93,7 +93,7 @@ class Features:
 
     @cached_property
     def bends(self) -> Floats:
-        """Ends and bends of the stroke as an open line, (k, 2) float64 [m]."""
+        """Return ends and bends of the stroke as an open line, (k, 2) float64 [m]."""
         return bends_of(self.stroke.points, self.path)
 
     @cached_property
