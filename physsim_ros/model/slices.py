@@ -5,7 +5,7 @@
 Work in slices: between two of them the world's thread handles messages, and may step the world.
 
 Laws: a generator ends a slice where a tick may end, as in a replay. A coroutine ends one where it
-waits for another thread, as for a file that is read.
+waits for another thread, as for a file that is read, or by `end_slice`.
 """
 
 from __future__ import annotations
@@ -20,6 +20,9 @@ _Result = TypeVar('_Result')
 Slices: TypeAlias = Coroutine[Future[Any], None, _Result]
 # A function whose work may have slices.
 Sliced: TypeAlias = Callable[[], _Result | Slices[_Result]]
+# What a slice awaits that waits for nothing.
+_NOTHING: Future[None] = Future()
+_NOTHING.set_result(None)
 
 
 async def in_slices(function: Sliced[_Result]) -> _Result:
@@ -33,6 +36,11 @@ def wrap_future(future: Future[_Result]) -> Generator[Future[_Result], None, _Re
     """Return the result of a future when that is done, or raise its error (as in asyncio)."""
     yield future
     return future.result()
+
+
+async def end_slice() -> None:
+    """End a slice; the next one waits for nothing."""
+    await wrap_future(_NOTHING)
 
 
 async def with_checks(function: Sliced[_Result], check: Callable[[], object]) -> _Result:

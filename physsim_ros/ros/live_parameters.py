@@ -10,16 +10,18 @@ after each frame the parameters equal the settings of the world, whichever of th
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
+from physsim_ros.model.checks import shown
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import BadProperty, Refusal, UnknownProperty
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.texts import abbreviated, nearest_name
 from physsim_ros.ros import parameters
 from physsim_ros.simulation.simulation import Simulation
 from rcl_interfaces.msg import SetParametersResult
@@ -65,10 +67,42 @@ class LiveParameters:
         self._simulation = simulation
         self._session = session
         self._boundary = boundary
+        # Why the last parameters were refused; rclpy hands on the text alone.
+        self._refusal: Refusal | None = None
         # The settings of the world that the parameters have; None where they may differ.
         self._mirrored: WorldSettings | None = parameters.world_settings(values)
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._note_set)
+
+    def set_together(self, given: Iterable[Parameter]) -> None:
+        """
+        Set parameters, all or none.
+
+        :raises Refusal: one is refused, which the field of the refusal names where it is about one
+        """
+        wanted = [parameters.converted(each) for each in given]
+        for each in wanted:
+            self._check_descriptor(each)
+        self._refusal = None
+        result = self._node.set_parameters_atomically(wanted)
+        if not result.successful:
+            raise self._refusal or BadProperty(result.reason)
+
+    def _check_descriptor(self, parameter: Parameter) -> None:
+        """
+        Check what rclpy checks of a parameter, and does not say of which one.
+
+        :raises Refusal: it is not declared, is fixed, or has another type or range
+        """
+        name = parameter.name
+        if not self._node.has_parameter(name):
+            nearest = nearest_name(abbreviated(name), parameters.SPECS)
+            raise UnknownProperty(f'there is no parameter {shown(name)}{nearest}', field=name)
+        parameters.check(parameter)
+        # rclpy 7.1 has no public name for it.
+        result = self._node._apply_descriptor(parameter)  # noqa: SLF001
+        if not result.successful:
+            raise BadProperty(result.reason, field=name)
 
     def show(self, _: Frame) -> None:
         """Set the parameters to the settings and speed of the world at a frame."""
@@ -89,6 +123,7 @@ class LiveParameters:
             with self._boundary.reading('parameters'):
                 self._check_and_prepare(changed)
         except Refusal as refusal:
+            self._refusal = refusal
             return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
         return SetParametersResult(successful=True)
 

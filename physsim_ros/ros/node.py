@@ -61,7 +61,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     :ivar outputs: the topics, the viewer and the sketchpad
     :ivar fleet: the topics of robots
     :ivar loop: applies requests, advances time, shows frames
-    :ivar requests: the topics of requests
+    :ivar request_topics: the topics of requests
     :ivar control: what services, topics and pages do besides single requests
     :ivar diagnostics: publishes `/diagnostics`
     """
@@ -152,11 +152,10 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Create topics and services of requests."""
         simulation, outputs, loop = self.simulation, self.outputs, self.loop
         boundary, frame_id = self.boundary, self._values['frame_id']
-        self.requests = topics = RequestTopics(self, simulation.requests, boundary, frame_id)
+        self.request_topics = topics = RequestTopics(self, simulation.requests, boundary, frame_id)
         self.diagnostics = Diagnostics(self, simulation, outputs, topics, boundary)
         drawing = DrawingTopics(topics, simulation, self._session, frame_id=frame_id, loop=loop)
         self.control = control = NodeControl(
-            self,
             simulation,
             loop=loop,
             outputs=outputs,
@@ -168,7 +167,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         control.subscribe(topics)
         calls = ServiceCalls(simulation.requests, loop.make_call, boundary)
         create_services(self, control.services, calls, on_success=control.note_change)
-        self._parameter_services = ParameterServices(self, calls)
+        self._parameter_services = ParameterServices(self, self._live, calls)
         self._closing.callback(create_simulation_services(self, control, calls))
 
     def start(self) -> None:

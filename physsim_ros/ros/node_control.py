@@ -32,7 +32,7 @@ from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import Beginning, beginning_of
-from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 
@@ -41,7 +41,6 @@ class NodeControl:
     """
     The control of a node; a returned text is a message about what was done.
 
-    :param node: whose parameters are set
     :param simulation: of the node
     :param loop: of the node, which makes single frames
     :param outputs: of the node, with the statistics of frames
@@ -58,7 +57,6 @@ class NodeControl:
 
     def __init__(
         self,
-        node: Node,
         simulation: Simulation,
         *,
         loop: FrameLoop,
@@ -72,7 +70,6 @@ class NodeControl:
         self.values: Mapping[str, Any] = live.values
         self.on_quit: Callable[[], object] | None = None
         self._is_quitting = False
-        self._node = node
         self._loop = loop
         self.current_snapshot = loop.current_snapshot
         self.make_call = loop.make_call
@@ -140,7 +137,7 @@ class NodeControl:
 
         :raises Refusal: it is refused
         """
-        parameters.set_value(self._node, name, value)
+        self._live.set_together([Parameter(name, value=value)])
 
     # Requests
 

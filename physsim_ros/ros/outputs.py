@@ -106,9 +106,9 @@ class Outputs:
         """Show the last frame to late subscribers; called at ticks without a new frame."""
         if self.frame is None:
             return
-        for stream in self.topics.streams:
-            with self._boundary.output(stream.name):
-                stream.show_late(self.frame)
+        for output in self.topics.late:
+            with self._boundary.output(output.name):
+                output.show_late(self.frame)
 
     def report_answers(self, answers: tuple[Answer, ...]) -> None:
         """Publish and log answers that no frame carries, and show a preview that has changed."""

@@ -238,7 +238,8 @@ class RequestQueue:
         """
         Apply the entries up to a seek or an amendment; those after it wait for its end.
 
-        :param is_spent: whether there is no time for a further entry; asked after each
+        :param is_spent: whether there is no time for a further entry, or slice of a call; asked
+            after each
         :return: whether no seek and no call is under way, and no request waits
         """
         for entry in self._take(is_spent):
@@ -282,7 +283,9 @@ class RequestQueue:
             return
         self._is_applying = True
         try:
-            self._continue_calls(self._under_way)
+            while self._continue_calls(self._under_way):
+                if is_spent():
+                    return
             while (first := self._waiting.first) and self._is_ready(first):
                 self.note_arrival()
                 entry = self._waiting.take()
@@ -309,11 +312,13 @@ class RequestQueue:
         """Whether a call that has read the world is under way, for which other calls wait."""
         return any(each.call.wait is Wait.TO_READ for each in self._under_way)
 
-    def _continue_calls(self, calls: Iterable[_UnderWay]) -> None:
-        """Go on with those calls that have what they wait for."""
-        for each in [each for each in calls if each.awaited.done()]:
+    def _continue_calls(self, calls: Iterable[_UnderWay]) -> bool:
+        """Go on, by a slice, with those calls that have what they wait for; return whether any."""
+        ready = [each for each in calls if each.awaited.done()]
+        for each in ready:
             self._under_way.remove(each)
             self._carry_out(each.call, each.slices)
+        return bool(ready)
 
     def _carry_out(self, call: Call, slices: Slices[Sequence[Answer]]) -> None:
         """Carry out the next slice of a call, and collect its answers after the last one."""

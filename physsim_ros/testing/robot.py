@@ -104,8 +104,8 @@ class Robot:
     def has_controller(self) -> bool:
         """Whether another node publishes its commands and subscribes to one of its topics."""
         topics, _, _ = self._now()
-        commands = topics.commands
-        return commands is not None and commands.is_heard and topics.has_subscribers
+        drive = topics.drive_topic
+        return drive is not None and drive.has_publisher and topics.is_read
 
     def _now(self) -> tuple[RobotTopics, StampedView, int]:
         """Return its topics, the last frame, and the row of its body in the scene."""

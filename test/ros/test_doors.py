@@ -22,9 +22,10 @@ from physsim_ros.model.snapshot import Answer, Preview
 from physsim_ros.ros import parameters, world_files
 from physsim_ros.ros.encoders.preview import PreviewEncoder
 from physsim_ros.ros.encoders.streams import PosesEncoder
+from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.publishers import interactive_markers, status_publishers
 from physsim_ros.ros.publishers.status_publishers import TimelinePublisher
-from physsim_ros.ros.robots.commands import Commands
+from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.world import world
@@ -59,11 +60,11 @@ TOPICS = {
     '~/seek': Clock,
 }
 SERVICES: dict[str, tuple[object, str]] = {
-    'play': (parameters, 'set_value'),
-    'pause': (parameters, 'set_value'),
-    'rewind': (parameters, 'set_value'),
-    'fast_forward': (parameters, 'set_value'),
-    'fast_rewind': (parameters, 'set_value'),
+    'play': (LiveParameters, 'set_together'),
+    'pause': (LiveParameters, 'set_together'),
+    'rewind': (LiveParameters, 'set_together'),
+    'fast_forward': (LiveParameters, 'set_together'),
+    'fast_rewind': (LiveParameters, 'set_together'),
     'step': (Past, 'fit_memory'),
     'undo': (Past, 'undo'),
     'redo': (Past, 'redo'),
@@ -113,7 +114,7 @@ def test_all_topics_are_tried(physsim: PhysSim) -> None:
 
 
 def test_messages(doors: NodeDoors) -> None:
-    doors.fail(doors.node.requests, '_decoded')
+    doors.fail(doors.node.request_topics, '_decoded')
     for topic, kind in TOPICS.items():
         doors.client.ask(topic, kind())
     assert doors.goes_on() == [*TOPICS]
@@ -198,7 +199,7 @@ def test_a_request_of_which_half_is_done_changes_nothing(
 def test_a_command_of_a_robot(doors: NodeDoors) -> None:
     doors.physsim.spawn(disc('tb/0', text='{robot: turtlebot3_burger}'))
     publisher = doors.client.node.create_publisher(Twist, '/tb_0/cmd_vel', 10)
-    doors.fail(Commands, 'take')
+    doors.fail(DriveTopic, 'take')
     publisher.publish(Twist())
     doors.physsim.step()
     assert doors.goes_on() == ['/tb_0/cmd_vel']
@@ -260,7 +261,7 @@ def test_diagnostics_themselves(doors: NodeDoors) -> None:
 
 
 def test_in_a_test_it_is_an_error(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(physsim.node.requests, '_decoded', fail)
+    monkeypatch.setattr(physsim.node.request_topics, '_decoded', fail)
     with pytest.raises(ZeroDivisionError, match='by zero'):
         physsim.spawn(disc('a/0'))
     physsim.step()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from physsim_ros.ros.publishers import interactive_markers
 from physsim_ros.ros.publishers.interactive_markers import FRAMES
 from physsim_ros.testing import box, delete, disc, PhysSim
 import pytest
@@ -23,7 +24,9 @@ class Viewer:
         self.client = client
         self.updates: list[InteractiveMarkerUpdate] = []
         self.updates = client.listen(InteractiveMarkerUpdate, '~/drag/update')
+        self.sizes: list[int] = []
         answer = self.ask()
+        self.sizes.append(len(answer.markers))
         self.number = answer.sequence_number
         self.markers: dict[str, Any] = {each.name: each for each in answer.markers}
 
@@ -42,11 +45,12 @@ class Viewer:
             assert update.seq_num == self.number + 1
             assert update.type == InteractiveMarkerUpdate.UPDATE
             self.number = update.seq_num
+            self.sizes.append(len(update.markers))
             self.markers |= {each.name: each for each in update.markers}
             for each in update.poses:
                 self.markers[each.name].pose = each.pose
             for name in update.erases:
-                del self.markers[name]
+                self.markers.pop(name, None)
         return self.markers
 
 
@@ -88,6 +92,35 @@ def test_each_step_of_a_paused_world_is_told(physsim: PhysSim, client: Client) -
         position = viewer.catch_up()['ball/0'].pose.position
         assert (position.x, position.y) == physsim.pose('ball/0')[:2]
     assert physsim.pose('ball/0').y < 5.0
+
+
+def test_of_many_bodies_some_are_told_at_a_time_until_all_have_them(
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    most, count = 3, 10
+    monkeypatch.setattr(interactive_markers, 'MOST_NEW', most)
+    for number in range(count):
+        physsim.spawn(box(f'box/{number}', at=(3.0 * number, 5.0)))
+    client.call('~/pause')
+    physsim.node.apply_requests()
+    first = Viewer(client)
+    for now in range(count):
+        physsim.node.tick(now)
+    assert set(first.catch_up()) == set(physsim.names)
+    assert sum(first.sizes) == count
+    # Who comes later is told all, and others again; what is gone meanwhile is gone for both.
+    second = Viewer(client)
+    physsim.spawn(delete('box/9'))
+    physsim.step()
+    for now in range(count):
+        physsim.node.tick(now)
+    for viewer in (first, second):
+        markers = viewer.catch_up()
+        assert set(markers) == set(physsim.names) == {f'box/{number}' for number in range(9)}
+        for name, marker in markers.items():
+            position = marker.pose.position
+            assert (position.x, position.y) == physsim.pose(name)[:2]
+        assert max(viewer.sizes) == most
 
 
 def test_what_stands_is_not_told_again(physsim: PhysSim, client: Client) -> None:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from nav_msgs.msg import Path
+from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.requests import request_topics
 from physsim_ros.testing import disc, PhysSim
 import pytest
@@ -14,7 +15,7 @@ from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ..client import Client, Event, message_of
+from ..client import Client, Event, message_of, parameter
 
 
 def told(client: Client) -> list[Event]:
@@ -88,9 +89,38 @@ def test_what_parameters_changed_or_refused_is_told(physsim: PhysSim, client: Cl
         assert event.message.isprintable()
         assert event.field.isprintable()
         assert max(len(event.message), len(event.field), len(result.reason)) < 1000
-    assert not client.set_together(message_of('speed', 1.0), message_of('snap', -1.0)).successful
-    assert [event.code for event in told(client)] == ['bad_property', 'bad_property']
-    assert physsim.node.simulation.speed == 2.0
+
+
+def test_of_parameters_that_are_set_together_the_wrong_one_is_told(
+    physsim: PhysSim, client: Client
+) -> None:
+    def values() -> dict[str, object]:
+        return {name: parameter(physsim, name) for name in SPECS}
+
+    before = values()
+    others = [('speed', 1.5), ('density', 2.0), ('tool', 'pin')]
+    for wrong in (
+        ('snap', -1.0),
+        ('gravty', 1.0),
+        ('laser_angle', [1.0]),
+        ('frame_id', 'map'),
+        ('iterations', 'many'),
+        ('bounds', [1.0, 0.0, -1.0, 2.0]),
+    ):
+        (alone,) = client.set_parameters(message_of(*wrong))
+        (about_it,) = told(client)
+        assert about_it.field == wrong[0]
+        for place in range(len(others) + 1):
+            asked = [*others[:place], wrong, *others[place:]]
+            result = client.set_together(*(message_of(*each) for each in asked))
+            # It is told as where it is set alone, and nothing is told of the others.
+            assert (result.successful, result.reason) == (False, alone.reason)
+            assert told(client) == [about_it]
+            assert values() == before
+    result = client.set_together(*(message_of(*each) for each in others))
+    reasons = [event.message for event in told(client)]
+    assert reasons == ['speed is 1.5', 'density is 2.0', "tool is 'pin'"]
+    assert result.reason == ', '.join(reasons)
 
 
 TOPICS = {
@@ -129,7 +159,7 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
 ) -> None:
     client.ask(TOPICS[kind], kind())
     check_malformed(client, kind, data)
-    assert physsim.node.requests.undecodable == 1
+    assert physsim.node.request_topics.undecodable == 1
 
 
 @pytest.mark.parametrize('kind', LARGE)

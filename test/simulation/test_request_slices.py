@@ -10,7 +10,7 @@ from threading import Thread
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import CommandMotors, DriveRobot
-from physsim_ros.model.slices import wrap_future
+from physsim_ros.model.slices import end_slice, wrap_future
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
@@ -230,3 +230,27 @@ def test_a_frame_of_slow_steps_ends_after_any_step_and_later_calls_make_the_othe
     (frame,) = slow.advance(20 * FRAME, by_steps=True)
     (frame,) = slow.advance(21 * FRAME, by_steps=True)
     assert frame.snapshot.step == 8
+
+
+def test_slices_of_a_call_that_wait_for_nothing_go_on_while_there_is_time():
+    simulation = Simulation(settings=NOWHERE)
+    made = []
+
+    async def call() -> list[Answer]:
+        for number in range(1, COUNT + 1):
+            made.append(number)
+            await end_slice()
+        return [Answer(topic='~/call', message='done')]
+
+    tick(simulation, 0)
+    simulation.requests.submit_call(call, Wait.FOR_SEEK)
+    submit(simulation, joined=False)
+    # The first slice begins it.
+    tick(simulation, 1)
+    assert len(made) == 1
+    for number in range(2, COUNT // SLICE + 2):
+        tick(simulation, number)
+        assert len(made) == min(COUNT, 1 + SLICE * (number - 1))
+        assert len(simulation.world) == 0
+    tick(simulation, COUNT)
+    assert len(simulation.world) > 0

@@ -30,7 +30,7 @@ Type = Parameter.Type
 # Value of draw_color with which each body has another colour.
 AUTO = 'auto'
 # Values of parameters for settings that are None, which ROS does not have.
-_FOR_NONE = {'bounds': [], 'datum': [], 'laser_angle': [], 'draw_color': AUTO}
+FOR_NONE = {'bounds': [], 'datum': [], 'laser_angle': [], 'draw_color': AUTO}
 # A note of a parameter that is fixed after the start.
 READ_ONLY = 'read-only'
 
@@ -241,7 +241,7 @@ class Spec:
         """Return its value and, by that, its type."""
         name, value = self.declaration.name, self.declaration.default
         if value is None:
-            return _FOR_NONE[name]
+            return FOR_NONE[name]
         return list(value) if isinstance(value, tuple) else value
 
     @property

@@ -24,7 +24,7 @@ from physsim_ros.model.errors import BadProperty, PhysSimError, UnknownProperty
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.ros.parameters.table import AUTO, NodeSettings, SPECS, Type
+from physsim_ros.ros.parameters.table import AUTO, FOR_NONE, NodeSettings, SPECS, Type
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -45,7 +45,7 @@ def declare(node: Node) -> dict[str, Any]:
         if given.type_ == Type.NOT_SET:
             # rcl passes an empty list of the command line, or of a file, as NOT_SET.
             given = Parameter(name, Type.BYTE_ARRAY, [])
-        parameter = _converted(given)
+        parameter = converted(given)
         check(parameter)
         if parameter is not given:
             node.set_parameters([parameter])
@@ -53,7 +53,7 @@ def declare(node: Node) -> dict[str, Any]:
         values[name] = list(parameter.value) if isinstance(spec.default, list) else parameter.value
     world_settings(values)
     drawing_settings(values)
-    node.add_pre_set_parameters_callback(lambda given: [_converted(each) for each in given])
+    node.add_pre_set_parameters_callback(lambda given: [converted(each) for each in given])
     return values
 
 
@@ -118,21 +118,7 @@ def check(parameter: Parameter) -> None:
         spec.declaration.check(value, name)
 
 
-def set_value(node: Node, name: str, value: str | float) -> None:
-    """
-    Set a parameter of a node.
-
-    :raises Refusal: the value is refused; nothing has changed
-    """
-    parameter = Parameter(name, value=value)
-    # Here as well: a refusal by rclpy has no code.
-    check(parameter)
-    (result,) = node.set_parameters([parameter])
-    if not result.successful:
-        raise BadProperty(result.reason, field=name)
-
-
-def _converted(parameter: Parameter) -> Parameter:
+def converted(parameter: Parameter) -> Parameter:
     """Return a parameter with an integer or an empty list converted to the declared type."""
     spec = SPECS.get(parameter.name)
     if spec is None:
@@ -186,7 +172,9 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
         value = getattr(settings, name)
         if isinstance(value, tuple):
             value = list(value)
-        parameters.append(Parameter(name, SPECS[name].kind, [] if value is None else value))
+        elif value is None:
+            value = FOR_NONE[name]
+        parameters.append(Parameter(name, SPECS[name].kind, value))
     return parameters
 
 
@@ -204,6 +192,7 @@ def _draw_color(text: str) -> Color | None:
 
 
 def _setting(name: str, value: Any) -> Any:
-    if name in {'bounds', 'datum'} and len(value) == 0:
+    value = list(value) if isinstance(SPECS[name].default, list) else value
+    if name in FOR_NONE and value == FOR_NONE[name]:
         return None
-    return tuple(value) if isinstance(SPECS[name].default, list) else value
+    return tuple(value) if isinstance(value, list) else value

@@ -4,15 +4,17 @@
 """
 `~/drag/update` and `~/drag/get_interactive_markers`: bodies as interactive markers, for RViz.
 
-The protocol is that of the package interactive_markers in ROS 2: the service tells all markers
-with a number, and each update after it has the next number, and what has changed. What RViz sends
-while it drags comes on `~/drag/feedback`, and moves a hand.
+The protocol is that of the package interactive_markers in ROS 2: the service tells markers with a
+number, and each update after it has the next number, and what has changed. What RViz sends while
+it drags comes on `~/drag/feedback`, and moves a hand.
 
-Law: while nobody has asked, or nobody listens, nothing is encoded.
+Laws: while nobody has asked, or nobody listens, nothing is encoded. No answer and no update makes
+more than `MOST_NEW` markers; the others follow by updates, and poses after the last of them.
 """
 
 from __future__ import annotations
 
+from itertools import islice
 import math
 
 from geometry_msgs.msg import Point, Quaternion
@@ -37,6 +39,8 @@ from visualization_msgs.srv import GetInteractiveMarkers
 
 # Frames between updates of poses: RViz draws each anew.
 FRAMES = 6
+# Greatest number of markers in an answer or an update, 0.1 ms each.
+MOST_NEW = 200
 # The depth that the server of interactive_markers has.
 _DEPTH = 100
 # Height above the bodies of `~/markers`, so that a click finds these [m].
@@ -66,8 +70,12 @@ class InteractiveMarkers:
         self._poses = InteractivePosesEncoder(frame_id, self._server)
         self._frame: Frame | None = None
         self._number = 0
-        # The frame of the update of that number; None before somebody has asked.
-        self._told: Frame | None = None
+        # The snapshot of the update of that number; None before somebody has asked.
+        self._told: Snapshot | None = None
+        # Bodies by the names that are told; None for one that the last who asked is not told yet.
+        self._known: dict[str, Body | None] = {}
+        # Whether markers are left for the next update.
+        self._is_late = False
         self._wait = 0
 
     @property
@@ -82,57 +90,78 @@ class InteractiveMarkers:
         if told is None or not self.is_read:
             return
         self._wait -= 1
-        same = told.snapshot.scene is frame.snapshot.scene
+        same = told.scene is frame.snapshot.scene and not self._is_late
         if same and frame.passing and self._wait > 0:
             return
         self._wait = FRAMES
-        self._update(told.snapshot, frame)
+        self._update(frame)
 
-    def _update(self, told: Snapshot, frame: Frame) -> None:
-        """Publish the differences of a frame from what was told."""
-        snapshot = frame.snapshot
-        if told.scene is not snapshot.scene:
-            self._publish_changes(told, snapshot)
+    def show_late(self, frame: Frame) -> None:
+        """Go on with the markers that are left of the last frame."""
+        if self._is_late and self.is_read:
+            self._update(frame)
+
+    def _update(self, frame: Frame) -> None:
+        """Publish some of the differences of a frame from what was told."""
+        snapshot, told = frame.snapshot, self._told
+        self._told = snapshot
+        if told is None or told.scene is not snapshot.scene or self._is_late:
+            self._publish_changes(snapshot)
         elif np.array_equal(told.poses, snapshot.poses):
             return
-        self._number += 1
-        self._poses.number = self._number
-        self._publisher.publish(self._poses.encode(frame))
-        self._told = frame
+        if not self._is_late:
+            self._number += 1
+            self._poses.number = self._number
+            self._publisher.publish(self._poses.encode(frame))
 
-    def _publish_changes(self, told: Snapshot, snapshot: Snapshot) -> None:
-        """Publish the bodies that are new or others, and the names of those that are gone."""
-        before = {body.name: body for body in told.scene.bodies}
-        markers = [
-            self._marker(snapshot, row)
-            for row, body in enumerate(snapshot.scene.bodies)
-            if before.get(body.name) is not body
-        ]
-        erases = list(before.keys() - set(snapshot.scene.names))
+    def _publish_changes(self, snapshot: Snapshot) -> None:
+        """Publish some of the bodies that are new or others, and the names of those gone."""
+        rows = self._take_new(snapshot)
+        erases = sorted(self._known.keys() - snapshot.scene.row_of.keys())
+        for name in erases:
+            del self._known[name]
         self._number += 1
         self._publisher.publish(
             InteractiveMarkerUpdate(
                 server_id=self._server,
                 seq_num=self._number,
                 type=InteractiveMarkerUpdate.UPDATE,
-                markers=markers,
-                erases=sorted(erases),
+                markers=[self._marker(snapshot, row) for row in rows],
+                erases=erases,
             )
         )
+
+    def _take_new(self, snapshot: Snapshot) -> list[int]:
+        """Return the rows of some bodies that are new or others, which are known from now on."""
+        bodies = snapshot.scene.bodies
+        new = (row for row, body in enumerate(bodies) if self._known.get(body.name) is not body)
+        rows = list(islice(new, MOST_NEW))
+        self._is_late = next(new, None) is not None
+        self._known |= {bodies[row].name: bodies[row] for row in rows}
+        return rows
 
     def _tell(
         self,
         _: GetInteractiveMarkers.Request,
         response: GetInteractiveMarkers.Response,
     ) -> GetInteractiveMarkers.Response:
-        """Tell all markers, as others have them now."""
-        frame = self._frame
-        if frame is not None:
-            if self._told is not None:
-                self._update(self._told.snapshot, frame)
-            self._told = frame
-            rows = range(len(frame.snapshot.scene.bodies))
-            response.markers = [self._marker(frame.snapshot, row) for row in rows]
+        """Tell markers, as others have them now; updates repeat the others for all."""
+        if self._frame is not None:
+            snapshot = self._frame.snapshot
+            if self._told is None:
+                self._told = snapshot
+                self._take_new(snapshot)
+            else:
+                self._update(self._frame)
+            bodies = enumerate(snapshot.scene.bodies)
+            known = [row for row, body in bodies if self._known.get(body.name) is body]
+            rows = known[:MOST_NEW]
+            response.markers = [self._marker(snapshot, row) for row in rows]
+            told = {snapshot.scene.names[row] for row in rows}
+            self._known = {
+                name: body if name in told else None for name, body in self._known.items()
+            }
+            self._is_late |= len(rows) < len(known)
         response.sequence_number = self._number
         return response
 

@@ -64,6 +64,13 @@ class Output(Protocol):
         """Show a new frame."""
 
 
+class LateOutput(Output, Protocol):
+    """An output that may have to do with the last frame while there is no new one."""
+
+    def show_late(self, frame: Frame) -> None:
+        """Show the last frame to who came late, or go on to show it."""
+
+
 class Publishers:
     """
     The publishers of the world.
@@ -78,6 +85,7 @@ class Publishers:
     :ivar events: the publisher of `~/events`
     :ivar timeline: the publisher of `~/timeline`
     :ivar streams: of states, of which late subscribers receive the last frame
+    :ivar late: the outputs that may show the last frame again, or go on with it
     :ivar outputs: each with a method `show`, in the order in which they are shown a frame
     """
 
@@ -120,6 +128,7 @@ class Publishers:
         )
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'), status)
         self._markers = InteractiveMarkers(node, frame_id)
+        self.late: tuple[LateOutput, ...] = (*self.streams, self._markers)
         self.outputs: tuple[Output, ...] = (
             self.events,
             *self.streams,

@@ -15,11 +15,11 @@ from functools import partial
 from typing import Any
 
 from physsim_ros.model.checks import shown
-from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownProperty
+from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.model.texts import abbreviated, message_text, nearest_name
-from physsim_ros.ros.parameters import SPECS
+from physsim_ros.model.texts import abbreviated, message_text
+from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.parameters.table import Type
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.simulation.entries import Wait
@@ -34,6 +34,7 @@ from rcl_interfaces.srv import (
     SetParametersAtomically,
 )
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.task import Future
 
@@ -52,11 +53,13 @@ class ParameterServices(ParameterService):
     not know, which ends the node; such a value is refused here.
 
     :param node: whose parameters are set
+    :param live: its parameters
     :param calls: of its services
     """
 
-    def __init__(self, node: Node, calls: ServiceCalls) -> None:
+    def __init__(self, node: Node, live: LiveParameters, calls: ServiceCalls) -> None:
         super().__init__(node)
+        self._live = live
         self._calls = calls
         for service in node.services:
             if service.srv_type in (SetParameters, SetParametersAtomically):
@@ -67,19 +70,19 @@ class ParameterServices(ParameterService):
     def _set_parameters_callback(
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> Future:
-        return self._add_call(super()._set_parameters_callback, request, response)
+        return self._add_call(request, response, [[each] for each in request.parameters])
 
     def _set_parameters_atomically_callback(
         self,
         request: SetParametersAtomically.Request,
         response: SetParametersAtomically.Response,
     ) -> Future:
-        return self._add_call(super()._set_parameters_atomically_callback, request, response)
+        return self._add_call(request, response, [request.parameters])
 
     def _add_call(
-        self, set_parameters: Callable[..., object], request: Any, response: Any
+        self, request: Any, response: Any, groups: Sequence[Sequence[ParameterMessage]]
     ) -> Future:
-        """Set parameters in the turn of the call; return the future of the response."""
+        """Set groups of parameters in the turn of the call; return the future of the response."""
         messages: Sequence[ParameterMessage] = request.parameters
         too_many = len(messages) > MOST_PARAMETERS
 
@@ -87,52 +90,49 @@ class ParameterServices(ParameterService):
             if too_many:
                 refusal = Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
             if refusal is None:
-                set_parameters(request, response)
-                results = _results_of(response, len(messages))
-                return [self._answer(*each) for each in zip(messages, results, strict=True)]
-            result = SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
-            if isinstance(response, SetParameters.Response):
-                response.results = [result] * len(messages)
+                told = [self._set_together(each) for each in groups]
+                results = [result for result, _ in told]
+                answers = [answer for _, answers in told for answer in answers]
             else:
-                response.result = result
-            return [Answer.refused(refusal, topic=_TOPIC)]
+                results = [_refused(refusal)] * len(groups)
+                answers = [Answer.refused(refusal, topic=_TOPIC)]
+            if isinstance(response, SetParameters.Response):
+                response.results = results
+            else:
+                (response.result,) = results
+            return answers
 
         _replace_unknown_types(messages)
         changes_world = any(each.name in WorldSettings.FIELDS for each in messages)
         wait = Wait.FOR_SEEK if changes_world and not too_many else Wait.BEHIND_REQUESTS
         return self._calls.add(_TOPIC, response, fill, wait)
 
-    def _answer(self, message: ParameterMessage, result: SetParametersResult) -> Answer:
-        """Return the result for one parameter as an answer, whose message is its reason, too."""
-        name = message.name
-        if result.successful:
-            result.reason = f'{name} is {shown(self._get_node().get_parameter(name).value)}'
-            return Answer(topic=_TOPIC, message=result.reason)
-        if not self._get_node().has_parameter(name):
-            # rclpy 7.1 does not name the parameter that it refuses.
-            nearest = nearest_name(abbreviated(name), SPECS)
-            result.reason = f'there is no parameter {shown(name)}{nearest}'
-        result.reason = message_text(result.reason)
-        code, separator, reason = result.reason.partition(': ')
-        if not separator or not code.isidentifier():
-            # A refusal by rclpy: there is no such parameter, or it is read-only.
-            code = BadProperty.code if name in SPECS else UnknownProperty.code
-            reason = result.reason
-        return Answer(topic=_TOPIC, message=reason, code=code, field=abbreviated(name))
+    def _set_together(
+        self, messages: Sequence[ParameterMessage]
+    ) -> tuple[SetParametersResult, list[Answer]]:
+        """Set parameters, all or none; return the result, and the answers about it."""
+        try:
+            self._live.set_together(map(Parameter.from_parameter_msg, messages))
+        except Refusal as refusal:
+            # Where it names no field, it is about the only parameter.
+            field = abbreviated(messages[0].name) if len(messages) == 1 else ''
+            return _refused(refusal), [Answer.refused(refusal, topic=_TOPIC, field=field)]
+        node = self._get_node()
+        told = [
+            f'{each.name} is {shown(node.get_parameter(each.name).value)}' for each in messages
+        ]
+        result = SetParametersResult(successful=True, reason=message_text(', '.join(told)))
+        return result, [Answer(topic=_TOPIC, message=message_text(each)) for each in told]
+
+
+def _refused(refusal: Refusal) -> SetParametersResult:
+    return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
 
 
 def _read_bounded(read: Callable[[Any, Any], Any], request: Any, response: Any) -> Any:
     """Read parameters; leave the response about too many empty, as that about an unknown one."""
     names = request.prefixes if isinstance(request, ListParameters.Request) else request.names
     return response if len(names) > MOST_PARAMETERS else read(request, response)
-
-
-def _results_of(response: Any, count: int) -> Sequence[SetParametersResult]:
-    """Return the result for each of the parameters of a call."""
-    if isinstance(response, SetParameters.Response):
-        results: Sequence[SetParametersResult] = response.results
-        return results
-    return [response.result] * count
 
 
 def _replace_unknown_types(messages: Iterable[ParameterMessage]) -> None:

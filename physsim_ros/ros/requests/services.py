@@ -63,7 +63,7 @@ class ServiceCalls:
         self._make_call = make_call
         self._boundary = boundary
 
-    async def fill(
+    async def _fill(
         self, topic: str, fill: Fill, refusal: Refusal | None = None
     ) -> Sequence[Answer]:
         """Fill in a response, and return the answers."""
@@ -87,9 +87,9 @@ class ServiceCalls:
 
         try:
             with self._boundary.reading(topic):
-                self._make_call(partial(self.fill, topic, fill), wait, send)
+                self._make_call(partial(self._fill, topic, fill), wait, send)
         except (Busy, Failed) as refusal:
-            for answer in at_once(self.fill(topic, fill, refusal)):
+            for answer in at_once(self._fill(topic, fill, refusal)):
                 self._requests.tell(answer)
             send()
         return reply

@@ -28,7 +28,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.model.transform import REST
 from physsim_ros.ros.robots.command_topic import CommandTopic
-from physsim_ros.ros.robots.commands import Commands
+from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
@@ -146,18 +146,19 @@ class Fleet:
             self._requests.submit(request, topic=topic, joined=True)
 
     @property
-    def _commands(self) -> list[Commands]:
-        """Return the commands of the robots that have a drive."""
-        return [each.commands for each in self.robots.values() if each.commands is not None]
+    def _drive_topics(self) -> list[DriveTopic]:
+        """Return the topics of the robots that have a drive."""
+        topics = (each.drive_topic for each in self.robots.values())
+        return [each for each in topics if each is not None]
 
     def match_publishers(self) -> bool:
         """Subscribe to commands as they are published now; return whether anything is new."""
-        new = [commands.match_publishers() for commands in self._commands]
+        new = [topic.match_publishers() for topic in self._drive_topics]
         return any(new)
 
     def match_new_publishers(self) -> bool:
         """Do the same where the number of publishers has changed."""
-        new = [commands.match_new_publishers() for commands in self._commands]
+        new = [topic.match_new_publishers() for topic in self._drive_topics]
         return any(new)
 
     def _look_at_graph(self) -> None:
@@ -183,7 +184,7 @@ class Fleet:
         the wall from the first time it is asked; then no answer to these scans is expected.
         """
         longest = self._values['lockstep']
-        if not longest or not any(commands.is_awaited for commands in self._commands):
+        if not longest or not any(topic.is_awaited for topic in self._drive_topics):
             self._waiting_since = None
             return False
         now = time.monotonic()
@@ -197,8 +198,8 @@ class Fleet:
     def _expect_no_answers(self) -> None:
         """End the wait for commands that answer the scans up to now."""
         self._waiting_since = None
-        for commands in self._commands:
-            commands.awaited = None
+        for topic in self._drive_topics:
+            topic.awaited = None
 
     # Frames
 
@@ -229,8 +230,8 @@ class Fleet:
                 if robot is None:
                     continue
                 scanned = robot.publish(view, row, number)
-                if scanned is not None and robot.commands is not None:
-                    robot.commands.expect_answer(scanned)
+                if scanned is not None and robot.drive_topic is not None:
+                    robot.drive_topic.expect_answer(scanned)
             if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
                 self._tell_timeout(robot)
 
@@ -253,8 +254,8 @@ class Fleet:
 
     def _tell_timeout(self, robot: RobotTopics) -> None:
         """Tell once that a robot has stopped as no command came: people expect it to drive on."""
-        commands, drive = robot.commands, robot.robot.drive
-        if commands is None or drive is None or commands.velocity == REST:
+        topic, drive = robot.drive_topic, robot.robot.drive
+        if topic is None or drive is None or topic.velocity == REST:
             return
         self._has_told_timeout = True
         asked = self._values['drive_timeout']
@@ -264,8 +265,8 @@ class Fleet:
             'drive. Publish commands again and again, or set the parameter drive_timeout to 0'
         )
         self._node.get_logger().warning(message)
-        topic = commands.topic
-        self._requests.tell(Answer(topic=topic, subject=robot.body, message=message))
+        answer = Answer(topic=topic.topic, subject=robot.body, message=message)
+        self._requests.tell(answer)
 
     def update_topics(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
         """

@@ -28,7 +28,8 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.states import SPAWNED
 from physsim_ros.model.transform import Point
 from physsim_ros.ros.robots.command_topic import CommandTopic
-from physsim_ros.ros.robots.commands import Commands
+from physsim_ros.ros.robots.description import urdf_of
+from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.frames import (
     BASE,
     FOOTPRINT,
@@ -37,7 +38,6 @@ from physsim_ros.ros.robots.frames import (
     RobotTf,
     TF_DEPTH,
     tf_message_type,
-    urdf_of,
 )
 from physsim_ros.ros.robots.messages import (
     battery_message,
@@ -98,7 +98,7 @@ class _Topic:
         return messages
 
     @property
-    def is_heard(self) -> bool:
+    def is_read(self) -> bool:
         """Whether it has subscribers."""
         return self.publisher.get_subscription_count() > 0
 
@@ -117,7 +117,7 @@ class RobotTopics:
     :param expected: type of commands that is subscribed to while nobody publishes; None is none
 
     :ivar lasers: as given
-    :ivar commands: of its drive, that it hears; None without a drive
+    :ivar drive_topic: of the commands for its drive; None without a drive
     """
 
     def __init__(
@@ -153,16 +153,18 @@ class RobotTopics:
         )
         # Colour and shape of the last description.
         self._described: object = None
-        self.commands: Commands | None = None
+        self.drive_topic: DriveTopic | None = None
         if robot.drive is not None:
             topic = f'{self._below}{robot.command_topic}'
-            self.commands = Commands(node, topic, body, robot.drive, refuse, expected=expected)
+            self.drive_topic = DriveTopic(
+                node, topic, body, robot.drive, refuse, expected=expected
+            )
         self._motors = motor_topics(node, self._below, body, robot, refuse)
 
     @property
     def command_topics(self) -> list[CommandTopic]:
         """Return the topics of its commands."""
-        return [*([] if self.commands is None else [self.commands]), *self._motors]
+        return [*([] if self.drive_topic is None else [self.drive_topic]), *self._motors]
 
     def _add_transforms(self, robot_tf: RobotTf) -> None:
         """Add the transforms that move, and publish those that do not."""
@@ -272,19 +274,19 @@ class RobotTopics:
             self._description.publish(String(data=urdf_of(body, self._frames, parts)))
 
     @property
-    def has_subscribers(self) -> bool:
+    def is_read(self) -> bool:
         """Whether one of its topics has subscribers."""
         return any(each.get_subscription_count() for each in self._publishers)
 
     @property
     def wants_contacts(self) -> bool:
         """Whether a bumper has subscribers."""
-        return any(isinstance(each.sensor, Bumper) and each.is_heard for each in self._topics)
+        return any(isinstance(each.sensor, Bumper) and each.is_read for each in self._topics)
 
     @property
     def longest_latency(self) -> float:
         """Return the longest time that a message that is heard can be on its way [s]."""
-        return max((each.latency[1] for each in self._topics if each.is_heard), default=0.0)
+        return max((each.latency[1] for each in self._topics if each.is_read), default=0.0)
 
     def publish(self, view: StampedView, row: int, number: int) -> int | None:
         """
@@ -302,9 +304,9 @@ class RobotTopics:
         goes_back = before is not None and now < before.stamp
         scanned, first = None, None
         for topic in self._topics:
-            if goes_back or not topic.is_heard:
+            if goes_back or not topic.is_read:
                 topic.coming.clear()
-            if not topic.is_heard:
+            if not topic.is_read:
                 continue
             if first is None and isinstance(topic.sensor, Laser):
                 first = topic
@@ -326,7 +328,7 @@ class RobotTopics:
         :param views: of the frames up to that, as of `publish`
         :param now: the stamp [ns]
         """
-        late = [each for each in self._topics if each.latency[1] > 0.0 and each.is_heard]
+        late = [each for each in self._topics if each.latency[1] > 0.0 and each.is_read]
         for topic in late:
             topic.coming.clear()
             for view, row, number in views:

@@ -10,18 +10,20 @@ from functools import partial
 from typing import Any
 
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.slices import at_once, in_slices, Slices
+from physsim_ros.model.slices import in_slices, Slices
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.qos_safe_node import CALLS
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
+from physsim_ros.ros.simulation_services.named_poses import NamedPoses
 from physsim_ros.ros.simulation_services.results import CodedRefusal, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
-from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
+from physsim_ros.ros.simulation_services.worlds import Worlds
 from physsim_ros.simulation.entries import Wait
 from rclpy.action import ActionServer
+from rclpy.action.server import ServerGoalHandle
 from rclpy.node import Node
 from rclpy.task import Future
 from simulation_interfaces import srv
@@ -30,6 +32,8 @@ from simulation_interfaces.msg import Result
 
 # Fills in the response to a request, and returns a message about what was done.
 _Perform = Callable[[Any, Any], str | Slices[str]]
+# The action.
+_STEPS = '~/simulation/simulate_steps'
 
 
 class SimulationServices:
@@ -76,8 +80,9 @@ class SimulationServices:
         self._action = ActionServer(
             node,
             SimulateSteps,
-            '~/simulation/simulate_steps',
-            self._simulate_steps,
+            _STEPS,
+            execute_callback=lambda _: None,
+            handle_accepted_callback=self._simulate_steps,
             goal_service_qos_profile=CALLS,
             result_service_qos_profile=CALLS,
             cancel_service_qos_profile=CALLS,
@@ -90,11 +95,12 @@ class SimulationServices:
         self._action.destroy()
 
     def _create(self, node: Node, topic: str, kind: Any, perform: _Perform) -> None:
-        def callback(request: Any, response: Any) -> Future:
-            fill = partial(self._fill, topic, perform, request, response)
-            return self._calls.add(topic, response, fill, Wait.FOR_SEEK)
+        self._calls.create(node, kind, topic, partial(self._add, topic, perform))
 
-        self._calls.create(node, kind, topic, callback)
+    def _add(self, topic: str, perform: _Perform, request: Any, response: Any) -> Future:
+        """Add a call, and return the future of its response."""
+        fill = partial(self._fill, topic, perform, request, response)
+        return self._calls.add(topic, response, fill, Wait.FOR_SEEK)
 
     async def _fill(
         self,
@@ -122,28 +128,23 @@ class SimulationServices:
         result.error_message = str(refusal)
         return [Answer.refused(refusal, topic=topic)]
 
-    def _simulate_steps(self, goal: Any) -> SimulateSteps.Result:
-        """Advance a paused world by frames, and tell each."""
-        response = SimulateSteps.Result()
+    def _simulate_steps(self, goal: ServerGoalHandle) -> None:
+        """Advance a paused world by frames, in the turn of the goal, and tell each."""
+        response, steps = SimulateSteps.Result(), goal.request.steps
 
-        def perform(request: Any, _: Any) -> str:
-            self._states.check_steps(request.steps)
-            message = ''
-            for done in range(1, request.steps + 1):
-                message = self._states.step_once()
-                goal.publish_feedback(
-                    SimulateSteps.Feedback(
-                        completed_steps=done, remaining_steps=request.steps - done
-                    )
-                )
-            return message
+        def tell(count: int) -> None:
+            goal.publish_feedback(
+                SimulateSteps.Feedback(completed_steps=count, remaining_steps=steps - count)
+            )
 
-        topic = '~/simulation/simulate_steps'
-        fill = partial(self._fill, topic, perform, goal.request, response)
-        for answer in at_once(self._calls.fill(topic, fill)):
-            self._control.simulation.requests.tell(answer)
-        if response.result.result == Result.RESULT_OK:
-            goal.succeed()
-        else:
-            goal.abort()
-        return response
+        def end(_: object) -> SimulateSteps.Result:
+            if response.result.result == Result.RESULT_OK:
+                goal.succeed()
+            else:
+                goal.abort()
+            return response
+
+        perform = partial(self._states.step, on_frame=tell)
+        done = self._add(_STEPS, perform, goal.request, response)
+        # A callback that waits is a task, which rclpy 7.1 asks at each spin.
+        done.add_done_callback(lambda _: goal.execute(end))

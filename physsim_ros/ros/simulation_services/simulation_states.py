@@ -10,18 +10,19 @@ world is loaded within one call, so that no state is that of loading.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteBodies
-from physsim_ros.model.slices import at_once, in_slices
+from physsim_ros.model.slices import at_once, end_slice, in_slices
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.results import coded
 from physsim_ros.ros.simulation_services.worlds import Worlds
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
-# Frames of one call: ten seconds of simulation time at 60 Hz. Meanwhile nothing else is done.
+# Frames of one call: ten seconds of simulation time at 60 Hz. Meanwhile requests wait.
 MOST_STEPS = 600
 _STOPPED, _PLAYING, _PAUSED, _QUITTING, _NO_WORLD = (
     SimulationState.STATE_STOPPED,
@@ -136,15 +137,24 @@ class SimulationStates:
         self._perform('pause')
         return 'the program ends'
 
-    def step(self, request: Any, _: Any) -> str:
-        """Advance a paused world by frames."""
-        self.check_steps(request.steps)
+    async def step(
+        self, request: Any, _: Any, on_frame: Callable[[int], object] = lambda _: None
+    ) -> str:
+        """
+        Advance a paused world by frames, a slice each.
+
+        :param on_frame: called after each with the count of frames up to it
+        """
+        self._check_steps(request.steps)
         message = ''
-        for _frame in range(request.steps):
-            message = self.step_once()
+        for count in range(1, request.steps + 1):
+            if count > 1:
+                await end_slice()
+            message = self._control.advance_frame()
+            on_frame(count)
         return message
 
-    def check_steps(self, steps: int) -> None:
+    def _check_steps(self, steps: int) -> None:
         """
         Refuse a number of steps.
 
@@ -159,10 +169,6 @@ class SimulationStates:
                 Result.RESULT_OPERATION_FAILED,
                 field='steps',
             )
-
-    def step_once(self) -> str:
-        """Advance a paused world by a frame."""
-        return self._control.advance_frame()
 
     async def reset(self, request: Any, _: Any) -> str:
         """Go to the beginning, or restore some of it at the time that is shown."""

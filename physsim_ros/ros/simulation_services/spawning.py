@@ -10,9 +10,8 @@ one gesture, which `undo` reverts.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from itertools import count
 import re
 from typing import Any
 
@@ -25,6 +24,7 @@ from physsim_ros.model.texts import counted
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.planar import named_frame, planar_pose
 from physsim_ros.ros.requests.conversions import mapping_of
+from physsim_ros.ros.simulation_services.new_names import NewNames
 from physsim_ros.ros.simulation_services.results import (
     box_around,
     coded,
@@ -84,7 +84,8 @@ class Spawning:
             entity_namespace=request.entity_namespace,
             initial_pose=request.initial_pose,
         )
-        spawn = self._request_of(wanted, self._control.current_snapshot().scene.names)
+        names = NewNames(self._control.current_snapshot().scene.row_of)
+        spawn = self._request_of(wanted, names)
         message = self._perform(spawn, self._control.simulation.requests.begin_gesture())
         response.entity_name = spawn.name
         return message
@@ -99,7 +100,7 @@ class Spawning:
                 Result.RESULT_OPERATION_FAILED,
                 field='spawn_requests',
             )
-        names = dict.fromkeys(self._control.current_snapshot().scene.names)
+        names = NewNames(self._control.current_snapshot().scene.row_of)
         gesture = self._control.simulation.requests.begin_gesture()
         for each in request.spawn_requests:
             result = SpawnResult()
@@ -111,7 +112,7 @@ class Spawning:
                 refusal, result.result.result = result_of(error)
                 result.result.error_message = str(refusal)
                 continue
-            names[spawn.name] = None
+            names.add(spawn.name)
             result.result.result = Result.RESULT_OK
             result.entity_name = spawn.name
         refused = [
@@ -128,8 +129,8 @@ class Spawning:
             field='spawn_requests',
         )
 
-    def _request_of(self, wanted: SpawnEntity, names: Collection[str]) -> Spawn:
-        """Return the request for a body, of a name that is not among those that are taken."""
+    def _request_of(self, wanted: SpawnEntity, names: NewNames) -> Spawn:
+        """Return the request for a body, of a name that is free."""
         entry = dict(_entry(wanted))
         with coding_refusals(SpawnResult.NAMESPACE_INVALID):
             namespace = check_namespace(wanted.entity_namespace, 'entity_namespace')
@@ -193,7 +194,7 @@ def _entry(wanted: SpawnEntity) -> Mapping[str, Any]:
     return _entry_of(uri)
 
 
-def _name(wanted: SpawnEntity, entry: Mapping[str, Any], taken: Collection[str]) -> str:
+def _name(wanted: SpawnEntity, entry: Mapping[str, Any], names: NewNames) -> str:
     """Return the name of a new body."""
     name = wanted.name or entry.get('name', '')
     try:
@@ -208,8 +209,8 @@ def _name(wanted: SpawnEntity, entry: Mapping[str, Any], taken: Collection[str])
             or wanted.entity_resource.uri
             or 'entity'
         )
-        return next(each for each in _numbered(stem[:100]) if each not in taken)
-    if name not in taken:
+        return names.free_name(stem[:100])
+    if name not in names:
         return name
     if not wanted.allow_renaming:
         raise coded(
@@ -217,8 +218,4 @@ def _name(wanted: SpawnEntity, entry: Mapping[str, Any], taken: Collection[str])
             SpawnResult.NAME_NOT_UNIQUE,
             field='name',
         )
-    return next(each for each in _numbered(name.rpartition('/')[0]) if each not in taken)
-
-
-def _numbered(stem: str) -> Iterator[str]:
-    return (f'{stem}/{number}' for number in count())
+    return names.free_name(name.rpartition('/')[0])

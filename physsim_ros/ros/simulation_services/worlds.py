@@ -2,31 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Worlds, by the services of `simulation_interfaces`: files by their names, and their named poses.
+Worlds, by the services of `simulation_interfaces`: files by their names.
 
 The empty world that a node starts with is a world, of no file; none is there only after
-`unload_world`, until one is loaded or something is done by the topics of the node. A named pose is
-a place, such as a gate, a zone or a note: an anchored sensor body, which does not move and lets
-everything pass.
+`unload_world`, until one is loaded or something is done by the topics of the node.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import os
 from pathlib import Path
 from typing import Any
 
 from physsim_ros.files import shipped_lessons, shipped_worlds, title_of, worlds_in
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import BadWorldFile, UnknownBody
-from physsim_ros.model.scene import Body
-from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.planar import pose_message
-from physsim_ros.ros.simulation_services.entities import passes_tags, tags_of
-from physsim_ros.ros.simulation_services.results import box_around, coded, CodedRefusal
-from simulation_interfaces.msg import NamedPose, Resource, Result, WorldResource
+from physsim_ros.ros.simulation_services.entities import passes_tags
+from physsim_ros.ros.simulation_services.results import coded, CodedRefusal
+from simulation_interfaces.msg import Resource, Result, WorldResource
 from simulation_interfaces.srv import (
     GetAvailableWorlds,
     GetCurrentWorld,
@@ -78,7 +72,9 @@ class Worlds:
                     GetAvailableWorlds.Response.DEFAULT_SOURCES_FAILED,
                 )
         response.worlds = [
-            each for each in self._worlds() if passes_tags(set(each.tags), request.filter)
+            _resource(name, *found)
+            for name, found in sorted(self._files().items())
+            if passes_tags({found[0]}, request.filter)
         ]
         response.result.error_message = unknown
         return ''
@@ -132,27 +128,31 @@ class Worlds:
     def _current(self) -> WorldResource:
         uri = str(self._control.values['world_file'])
         name = Path(uri).stem
-        known = (each for each in self._worlds() if each.name == name)
-        return next(known, WorldResource(name=name, world_resource=Resource(uri=uri)))
+        # A path is that of another file, whatever worlds have its last name.
+        found = self._files().get(name) if uri in (name, f'{name}.yaml') else None
+        if found is None:
+            return WorldResource(name=name, world_resource=Resource(uri=uri))
+        return _resource(name, *found)
 
-    def _worlds(self) -> list[WorldResource]:
+    def _files(self) -> dict[str, tuple[str, Path]]:
+        """Return tag and file of each world by its name, as `find_world` finds them."""
         directories = (
             ('own', self._control.world_dir),
+            ('lesson', self._control.lesson_dir),
             ('shipped', shipped_worlds()),
             ('lesson', shipped_lessons()),
         )
-        # An own one comes before a shipped one of its name.
-        found = {
-            name: WorldResource(
-                name=name,
-                world_resource=Resource(uri=name),
-                description=title_of(path),
-                tags=[tag],
-            )
+        return {
+            name: (tag, path)
             for tag, directory in reversed(directories)
             for name, path in worlds_in(directory).items()
         }
-        return sorted(found.values(), key=lambda each: each.name)
+
+
+def _resource(name: str, tag: str, path: Path) -> WorldResource:
+    """Return the world of a file."""
+    uri = Resource(uri=name)
+    return WorldResource(name=name, world_resource=uri, description=title_of(path), tags=[tag])
 
 
 def unknown_sources(sources: list[str]) -> str:
@@ -165,48 +165,3 @@ def _is_readable(directory: Path) -> bool:
     if not directory.exists():
         return True
     return directory.is_dir() and os.access(directory, os.R_OK | os.X_OK)
-
-
-class NamedPoses:
-    """
-    The services for named poses, which only read.
-
-    :param control: of the node
-    """
-
-    def __init__(self, control: NodeControl) -> None:
-        self._control = control
-
-    def poses(self, request: Any, response: Any) -> str:
-        """Tell the places whose tags pass a filter."""
-        snapshot = self._control.current_snapshot()
-        response.poses = [
-            _named_pose(snapshot, row, body)
-            for row, body in _places(snapshot)
-            if passes_tags(set(tags_of(body)), request.tags)
-        ]
-        return ''
-
-    def bounds(self, request: Any, response: Any) -> str:
-        """Tell the box around a place, in the frame of its pose."""
-        snapshot = self._control.current_snapshot()
-        body = next((body for _, body in _places(snapshot) if body.name == request.name), None)
-        if body is None:
-            raise UnknownBody(f'there is no named pose {request.name!r}', field='name')
-        response.bounds = box_around(body.shape)
-        return ''
-
-
-def _places(snapshot: Snapshot) -> Iterator[tuple[int, Body]]:
-    """Yield row and body of each place."""
-    bodies = enumerate(snapshot.scene.bodies)
-    return ((row, body) for row, body in bodies if body.anchored and body.sensor)
-
-
-def _named_pose(snapshot: Snapshot, row: int, body: Body) -> NamedPose:
-    return NamedPose(
-        name=body.name,
-        description=body.label,
-        tags=list(tags_of(body)),
-        pose=pose_message(snapshot.poses[row].tolist()),
-    )

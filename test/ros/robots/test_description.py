@@ -9,7 +9,8 @@ from xml.etree import ElementTree as ET
 
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Shape
-from physsim_ros.ros.robots.frames import RobotFrames, RobotTf, urdf_of
+from physsim_ros.ros.robots.description import urdf_of
+from physsim_ros.ros.robots.frames import RobotFrames, RobotTf
 from physsim_ros.testing import PhysSim
 import pytest
 from sensor_msgs.msg import JointState

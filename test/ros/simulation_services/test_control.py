@@ -10,6 +10,7 @@ from typing import Any
 
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
+from physsim_ros.ros import frame_loop
 from physsim_ros.ros.qos_safe_node import CALLS
 from physsim_ros.testing import disc, PhysSim
 import pytest
@@ -44,7 +45,13 @@ def simulate_steps(caller: Caller, steps: int) -> tuple[Any, list[tuple[int, int
     )
     caller.client.spin_until(sent.done)
     answered = sent.result().get_result_async()
-    caller.client.spin_until(answered.done)
+
+    def is_done() -> bool:
+        # The turn of the goal comes.
+        caller.physsim.node.apply_requests()
+        return bool(answered.done())
+
+    caller.client.spin_until(is_done)
     result = answered.result().result.result
     if result.result == OK:
         caller.client.spin_until(lambda: len(told) == steps)
@@ -173,6 +180,53 @@ def test_a_step_is_made_when_it_is_told_though_a_request_waits_behind_it(
     caller.client.spin_until(stepped.done)
     assert stepped.result().result.result == OK
     assert world.step == 31 * world.frame_steps
+
+
+def test_other_calls_are_answered_between_the_frames_of_a_call_and_requests_after_them(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from simulation_interfaces.srv import StepSimulation  # noqa: PLC0415
+
+    steps, node, client = 6, caller.physsim.node, caller.client
+    world = node.simulation
+    monkeypatch.setattr(node.loop, 'started', True)
+    # A tick has no time for more than a request.
+    monkeypatch.setattr(frame_loop, 'MOST_REQUESTS_NS', -1)
+    service = client.service(StepSimulation, '~/simulation/step_simulation')
+    stepped = service.call_async(StepSimulation.Request(steps=steps))
+    client.spin_until(lambda: world.step)
+    spawned = Spawn(name='a/0', shape=Disc(radius=0.5), pose=(0.0, 3.0, 0.0))
+    world.requests.submit(spawned)
+    for frames in range(2, steps):
+        # Each call lets the steps go on by a frame.
+        assert client.call('~/pause').success
+        assert world.step == frames * world.frame_steps
+        assert not stepped.done()
+        assert names_in(caller.physsim) == ()
+    for now in range(2):
+        node.tick(now)
+    client.spin_until(stepped.done)
+    assert stepped.result().result.result == OK
+    assert world.step == steps * world.frame_steps
+    assert names_in(caller.physsim) == ('a/0',)
+
+
+def test_steps_end_where_time_begins_to_run(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from simulation_interfaces.srv import StepSimulation  # noqa: PLC0415
+
+    node, client = caller.physsim.node, caller.client
+    monkeypatch.setattr(node.loop, 'started', True)
+    monkeypatch.setattr(frame_loop, 'MOST_REQUESTS_NS', -1)
+    service = client.service(StepSimulation, '~/simulation/step_simulation')
+    stepped = service.call_async(StepSimulation.Request(steps=600))
+    client.spin_until(lambda: node.simulation.step)
+    assert client.call('~/play').success
+    node.tick(0)
+    client.spin_until(stepped.done)
+    assert stepped.result().result.result == OPERATION_FAILED
+    assert 'time is running' in stepped.result().result.error_message
 
 
 def test_the_program_ends_after_its_reply(caller: Caller) -> None:

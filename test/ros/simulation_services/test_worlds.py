@@ -5,8 +5,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from threading import get_ident
 
+from physsim_ros.files import title_of
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.ros import node_control, world_files
 from physsim_ros.simulation.world import Beginning, beginning_of
@@ -52,6 +54,42 @@ def test_worlds_are_listed_and_loaded(caller: Caller) -> None:
         assert caller.code('LoadWorld', **fields) == result
     assert names_in(caller.physsim) == names
     assert caller('GetCurrentWorld').world.world_resource.uri == 'maze'
+
+
+def test_the_current_world_is_the_file_that_was_loaded(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from physsim_ros.ros.simulation_services import worlds  # noqa: PLC0415
+
+    titles: list[Path] = []
+    monkeypatch.setattr(worlds, 'title_of', lambda path: titles.append(path) or title_of(path))
+    files = caller.physsim.node.world_files
+    world = '# {}.\nformat: 1\nbodies:\n- {{name: {}/0, circle: {{radius: 0.5}}}}\n'
+    for path in (
+        files.directory / 'sub' / 'demo.yaml',
+        files.directory / 'mine.yaml',
+        files.lessons / 'corridor.yaml',
+    ):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(world.format(f'The {path.stem}', path.stem))
+    for uri, names, description in (
+        ('sub/demo.yaml', ('demo/0',), ''),
+        ('mine', ('mine/0',), 'The mine'),
+        ('mine.yaml', ('mine/0',), 'The mine'),
+        ('corridor', ('corridor/0',), 'The corridor'),
+    ):
+        loaded = caller('LoadWorld', uri=uri).world
+        assert names_in(caller.physsim) == names
+        titles.clear()
+        current = caller('GetCurrentWorld').world
+        assert (current, current.description) == (loaded, description)
+        # No file is opened but its own.
+        assert len(titles) <= 1
+        # It is the world that its uri loads, which the list has, too.
+        assert caller.code('LoadWorld', uri=current.world_resource.uri) == OK
+        assert names_in(caller.physsim) == names
+        listed = [each for each in caller('GetAvailableWorlds').worlds if each == current]
+        assert len(listed) == bool(description)
 
 
 def test_sources_of_worlds_that_are_unknown_are_refused_or_told(caller: Caller) -> None:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Commands of a robot: `cmd_vel`, as `Twist`, as `TwistStamped`, or of a car as Ackermann drive.
+Commands of a drive: `cmd_vel`, as `Twist`, as `TwistStamped`, or of a car as Ackermann drive.
 
 The type is that of the publisher, as the graph has it. A process takes one type for a topic: where
 it has other nodes, nothing is subscribed to before a publisher is there. Of publishers of several
@@ -45,9 +45,9 @@ _DEPTH = 10
 _SILENCE = 1.0
 
 
-class Commands(CommandTopic):
+class DriveTopic(CommandTopic):
     """
-    The commands of a robot.
+    The topic of commands for the drive of a robot.
 
     :param node: that subscribes
     :param topic: of its commands, below its namespace
@@ -108,7 +108,7 @@ class Commands(CommandTopic):
         return stamped and not self._unstamped and self.awaited is not None
 
     @property
-    def is_heard(self) -> bool:
+    def has_publisher(self) -> bool:
         """Whether a publisher of commands is matched."""
         return self._subscription is not None and self._subscription.get_publisher_count() > 0
 
@@ -120,7 +120,7 @@ class Commands(CommandTopic):
 
         :param stamp: of the scan [ns]
         """
-        if self.is_heard:
+        if self.has_publisher:
             self.awaited = stamp
 
     def match_new_publishers(self) -> bool:
