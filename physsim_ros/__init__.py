@@ -18,6 +18,7 @@ from typing import Any, TYPE_CHECKING
 
 if TYPE_CHECKING:
     from physsim_ros.files import find_world, load_world, robot_spawn, save_world
+    from physsim_ros.model.answer import Answer
     from physsim_ros.model.body_properties import Properties
     from physsim_ros.model.errors import PhysSimError, Refusal
     from physsim_ros.model.joints import JointKind, JointProperties
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
     )
     from physsim_ros.model.settings import WorldSettings
     from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
-    from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
+    from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
     from physsim_ros.sensing import OdometryReading
     from physsim_ros.simulation.robot import Robot
     from physsim_ros.simulation.simulation import SavedMoment, Simulation

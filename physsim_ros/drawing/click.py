@@ -17,10 +17,10 @@ import math
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.model.answer import request_count
 from physsim_ros.model.errors import BadSize, nothing_at, UnknownBody
 from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import SMALLEST
-from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.transform import Point
 
 # The least length that clicks can draw, in shares of `snap`: 15 mm by default.

@@ -28,12 +28,14 @@ from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.strokes.waiting import readings_over
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
+from physsim_ros.model.answer import Answer, request_count
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal, values_of
 from physsim_ros.model.names import split_name
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import Cut, Join, Request, Spawn
 from physsim_ros.model.shapes import as_tuples
-from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview, request_count, Snapshot
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.entries import Amend, Origin
 from physsim_ros.simulation.simulation import Simulation

@@ -33,6 +33,7 @@ from physsim_ros.model.checks import check_point
 from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
 from physsim_ros.model.names import WORLD
+from physsim_ros.model.preview import Line, Preview
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -46,7 +47,6 @@ from physsim_ros.model.requests import (
     Request,
 )
 from physsim_ros.model.shapes import Box, MOST_POINTS
-from physsim_ros.model.snapshot import Line, Preview
 from physsim_ros.model.transform import Point
 
 Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]

@@ -21,10 +21,10 @@ from physsim_ros.engine.bodies import BODY_STATE, build_body, RigidBody, scatter
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, write_impulses
 from physsim_ros.model.checkpoint import Checkpoint
-from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Joint, Scene
-from physsim_ros.model.slices import finish
 from physsim_ros.model.states import Records
+from physsim_ros.runtime.garbage_collection import suspended_collection
+from physsim_ros.runtime.slices import finish
 import pymunk
 
 _Entry = TypeVar('_Entry', Body, RigidBody, Joint)

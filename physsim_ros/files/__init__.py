@@ -15,7 +15,7 @@ from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.reading import finish_before_end, finish_files, fulfil, on_thread
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import shipped, title_of, user_directory
-from physsim_ros.files.shipped_robots import shipped_robot, shipped_robots, with_shipped_robot
+from physsim_ros.files.robot_files import shipped_robot, shipped_robots, with_shipped_robot
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,

@@ -10,7 +10,7 @@ from concurrent.futures import Future, wait
 from threading import Thread
 from typing import Any, TypeVar
 
-from physsim_ros.model.slices import wrap_future
+from physsim_ros.runtime.slices import wrap_future
 
 _Result = TypeVar('_Result')
 # The work under way for whose end the process waits.

@@ -32,9 +32,9 @@ from physsim_ros.model.errors import (
     UnknownProperty,
     WorldFull,
 )
-from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
+from physsim_ros.runtime.garbage_collection import suspended_collection
 
 # Suffix of world files.
 _SUFFIX = '.yaml'

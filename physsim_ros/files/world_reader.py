@@ -18,7 +18,7 @@ from typing import Any
 from physsim_ros.files.engine_state import is_where_saved, with_saved_motion, with_saved_state
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import commands_from, joints_from
-from physsim_ros.files.shipped_robots import with_shipped_robot
+from physsim_ros.files.robot_files import with_shipped_robot
 from physsim_ros.files.world_schema import (
     BODY_KEYS,
     entries_of,

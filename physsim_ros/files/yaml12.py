@@ -23,7 +23,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 from physsim_ros.model.errors import Malformed
-from physsim_ros.model.garbage_collection import suspended_collection
+from physsim_ros.runtime.garbage_collection import suspended_collection
 import yaml
 from yaml.composer import Composer
 

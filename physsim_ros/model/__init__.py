@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Values that all folders use, frozen and checked, and tools for any code.
+Values that all folders use, frozen and checked.
 
 NumPy is the most that is imported here. Nothing here moves, reads a clock or knows an engine.
 Modules are imported by their names; the packages `shapes`, `requests` and `robots` by their
@@ -12,6 +12,7 @@ fronts. Start with `scene` and `requests`.
 - Descriptions of a world: `shapes`, `body_properties`, `joints`, `robots`, `settings`, `scene`.
 - Changes of it: `requests`, and the body that one describes, `body_description`.
 - Parts of them that act: `actors`, `media`, `attraction`, `applied_forces`, `latency`, `noise`.
-- Tools: `error_boundary`, `slices`, `weak_cache`, `garbage_collection`, `declarations`, `sizes`.
-- States: `snapshot` is shown, `timeline` is its place in the past, `checkpoint` is saved.
+- How values are declared and kept: `declarations`, `sizes`, `weak_cache`.
+- States: `snapshot` is shown, with `answer` and `preview`; `timeline` is its place in the past;
+  `checkpoint` is saved.
 """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Snapshots and frames: state after a step, contacts, and answers to requests.
+Snapshots and frames: the state after a step, and all that is published with it.
 
 Law: all values of a world are immutable, arrays read-only; none is an object of the engine.
 """
@@ -14,18 +14,15 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.errors import no_body, Refusal
-from physsim_ros.model.names import shown_name, WORLD
+from physsim_ros.model.errors import no_body
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.scene import Joint, Scene
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.states import NO_ROBOTS, Records
 from physsim_ros.model.transform import Point, rotated_each
-
-# The field of every request with a point or pose, besides the point or pose itself.
-_FRAME = 'header.frame_id'
-
-Line = tuple[Point, ...]
 
 
 class Grip(NamedTuple):
@@ -240,85 +237,6 @@ NO_CONTACTS = Contacts(
     normals=np.empty((0, 2)),
     impulses=np.empty((0, 2)),
 )
-
-
-def request_count(count: int) -> tuple[str, str]:
-    """Return the value of an answer that says how many answers to requests follow it."""
-    return 'requests', str(count)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Answer:
-    """
-    The answer to one request, or the report of an event without one.
-
-    :param topic: of the request, as '~/spawn', or the event, as 'body_lost'; '' until it is known
-    :param subject: name of the body or joint, '' if there is none
-    :param message: a sentence
-    :param code: '' for success, else the stable code of the refusal
-    :param field: the offending field of a refusal
-    :param values: further pairs of key and value
-    :param asker: key of the message that asked, '' for one of ROS and for events
-    """
-
-    topic: str = ''
-    subject: str = ''
-    message: str = ''
-    code: str = ''
-    field: str = ''
-    values: tuple[tuple[str, str], ...] = ()
-    asker: str = ''
-
-    @classmethod
-    def refused(
-        cls,
-        refusal: Refusal,
-        *,
-        topic: str,
-        subject: str = '',
-        field: str = '',
-        asker: str = '',
-    ) -> Answer:
-        """
-        Return the answer to a refused request.
-
-        :param field: the only field of the request; '' if it has several
-        :param asker: key of the message that asked
-        """
-        body = [('body', shown_name(refusal.body))] if refusal.body else []
-        return cls(
-            topic=topic,
-            subject=shown_name(subject),
-            message=str(refusal),
-            code=refusal.code,
-            field=refusal.field if refusal.field == _FRAME or not field else field,
-            values=(*refusal.values, *body),
-            asker=asker,
-        )
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Preview:
-    """
-    Lines, points and a label that are shown over the world.
-
-    :param lines: polylines [m]
-    :param points: clicked so far [m]
-    :param label: text above the rest; '' is none
-    """
-
-    lines: tuple[Line, ...] = ()
-    points: Line = ()
-    label: str = ''
-
-    @property
-    def top(self) -> Point:
-        """Return the highest point of it, above which the label is drawn [m]."""
-        every = [*self.points, *(point for line in self.lines for point in line)]
-        return max(every, key=lambda point: point[1], default=(0.0, 0.0))
-
-
-NO_PREVIEW = Preview()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

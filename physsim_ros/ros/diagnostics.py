@@ -14,11 +14,12 @@ from collections import Counter
 from collections.abc import Iterator
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import run_state
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
 from rclpy.time import Time

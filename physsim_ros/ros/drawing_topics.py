@@ -16,8 +16,9 @@ import time
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path
 from physsim_ros.drawing import DrawingSession, submit_reading
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.planar import named_frame, point_in_frame
 from physsim_ros.ros.requests import conversions

@@ -14,10 +14,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 import time
 
-from physsim_ros.model.slices import Sliced
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.robots import Fleet
+from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
 

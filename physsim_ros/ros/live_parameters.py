@@ -16,13 +16,13 @@ from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
 from physsim_ros.model.checks import shown
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, Refusal, UnknownProperty
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.texts import abbreviated, nearest_name
 from physsim_ros.ros import parameters
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node

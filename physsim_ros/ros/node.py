@@ -17,9 +17,9 @@ import time
 from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
-from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import PhysSimError
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.texts import counted
 from physsim_ros.ros import parameters
 from physsim_ros.ros.diagnostics import Diagnostics
@@ -36,6 +36,7 @@ from physsim_ros.ros.requests.services import create_services, Service, ServiceC
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.simulation_services import create_simulation_services
 from physsim_ros.ros.world_files import WorldFiles
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation

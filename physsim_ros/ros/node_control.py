@@ -16,11 +16,9 @@ from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import on_thread
-from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Running
 from physsim_ros.model.requests import DeleteAll
-from physsim_ros.model.slices import in_slices, Sliced
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.timeline import run_state
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
@@ -29,6 +27,8 @@ from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
+from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import Beginning, beginning_of

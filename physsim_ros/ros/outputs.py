@@ -18,10 +18,11 @@ import time
 from typing import Any, TYPE_CHECKING
 
 from physsim_ros.drawing import DrawingSession
-from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.ros.frame_statistics import FrameStatistics
 from physsim_ros.ros.publishers.publishers import Output, Publishers
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view import FrameContext, Viewer, ViewerMode
 from rclpy.node import Node

@@ -21,9 +21,9 @@ from physsim_ros.files import (
 )
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
-from physsim_ros.model.slices import at_once
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.parameters import SPECS
+from physsim_ros.runtime.slices import at_once
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import Beginning, beginning_of
 

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import NamedTuple
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.sizes import request_size
-from physsim_ros.model.slices import Sliced
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.runtime.slices import Sliced
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.requests import (
     Grab,
     HandRequest,
@@ -20,7 +21,6 @@ from physsim_ros.model.requests import (
     LetGo,
     MoveHand,
 )
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.world.hand_requests import holds_nothing

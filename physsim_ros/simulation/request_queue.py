@@ -20,6 +20,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, NamedTuple
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import (
     CommandMotors,
@@ -29,8 +30,7 @@ from physsim_ros.model.requests import (
     MoveHand,
     Request,
 )
-from physsim_ros.model.slices import in_slices, Sliced, Slices
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.runtime.slices import in_slices, Sliced, Slices
 from physsim_ros.simulation.entries import (
     Amend,
     Call,

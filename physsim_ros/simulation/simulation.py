@@ -18,12 +18,12 @@ from numbers import Integral
 import numpy as np
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import number, OfClass, shown, Within
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
 from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.world import Beginning, forces_now, load_message

@@ -15,9 +15,9 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy
 from physsim_ros.model.requests import KeepHand, MoveHand
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.entries import Entry, Seek
 
 # Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000

@@ -25,10 +25,11 @@ from typing import TypeAlias
 
 import numpy as np
 from physsim_ros.files import DirectoryLock, read_bytes, read_parts, write_file
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import InUse, WorldFull
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.sketchpad.file_work import FileWork
 
 # Least time from one autosave to the next while bodies move and while nothing does [s], and its

@@ -20,7 +20,7 @@ from typing import TypeVar
 
 from physsim_ros.files import finish_before_end, fulfil
 from physsim_ros.model.errors import Busy
-from physsim_ros.model.slices import wrap_future
+from physsim_ros.runtime.slices import wrap_future
 
 # Pieces of work that messages ask for and that wait: twice the greatest class.
 MOST_WORK = 128

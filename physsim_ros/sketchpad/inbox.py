@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from threading import Lock
 from typing import Any, NamedTuple
 
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.answer import Answer
 from physsim_ros.sketchpad.message import Message
 from physsim_ros.sketchpad.rights import Role
 

@@ -17,12 +17,12 @@ from collections.abc import Callable, Mapping
 import json
 from typing import Any, NamedTuple, TypeVar
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checks import shown
 from physsim_ros.model.declarations import check_key
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
-from physsim_ros.model.garbage_collection import suspended_collection
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.runtime.garbage_collection import suspended_collection
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.sketchpad.rights import check_right, Right, Role
 

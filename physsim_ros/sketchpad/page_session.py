@@ -17,13 +17,15 @@ from typing import Any, NamedTuple
 
 from physsim_ros.drawing import DrawingSession
 from physsim_ros.files import OwnWorlds
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
+from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
-from physsim_ros.model.slices import in_slices, Sliced
-from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content

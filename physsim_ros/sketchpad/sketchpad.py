@@ -17,9 +17,10 @@ import time
 from typing import Any
 
 from physsim_ros.files import DirectoryLock, OwnWorlds, text_of
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.slices import Sliced, with_checks
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.runtime.slices import Sliced, with_checks
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts

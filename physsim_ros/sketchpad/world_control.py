@@ -17,9 +17,10 @@ from typing import Any, Protocol
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import on_thread, state_from
-from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.slices import Sliced
-from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of

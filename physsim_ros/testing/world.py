@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any, Self, Unpack
 
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.slices import at_once
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.runtime.slices import at_once
 from physsim_ros.testing.changed_world import ChangedWorld
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
 from physsim_ros.testing.context import own_context

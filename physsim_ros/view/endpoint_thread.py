@@ -16,9 +16,10 @@ from dataclasses import replace
 import threading
 import time
 
-from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.sizes import frame_size
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.stream import FrameContext
 

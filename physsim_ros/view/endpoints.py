@@ -17,7 +17,7 @@ import subprocess
 from typing import ClassVar
 from urllib.parse import quote, urlsplit
 
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.answer import Answer
 from physsim_ros.view.child_process import end_child, rerun_program, start_child
 from physsim_ros.view.stream import RerunStream
 

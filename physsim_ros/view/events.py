@@ -10,7 +10,8 @@ log, after code and subject.
 
 from __future__ import annotations
 
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.view.frame_batch import Change, FrameBatch, RECORDED
 from physsim_ros.view.scenery import IMAGE_LABELS
 import rerun as rr

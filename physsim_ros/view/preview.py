@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from physsim_ros.model.arrays import Singles
-from physsim_ros.model.snapshot import NO_PREVIEW
+from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.transform import Point
 from physsim_ros.view.frame_batch import Change, FrameBatch
 from physsim_ros.view.scenery import LABELS, PREVIEW

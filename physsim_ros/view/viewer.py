@@ -16,8 +16,9 @@ from enum import Enum
 from pathlib import Path
 import sys
 
-from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.view.endpoint_thread import ANSWERS, EndpointThread
 from physsim_ros.view.endpoints import (
     ClientEndpoint,

@@ -11,10 +11,11 @@ from typing import Any
 from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.requests import Command, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
 import pytest

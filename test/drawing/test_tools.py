@@ -27,6 +27,7 @@ from physsim_ros.model.errors import (
     UnknownFrame,
 )
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.preview import NO_PREVIEW
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -42,7 +43,6 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Disc, MOST_POINTS, Polygon, Shape
-from physsim_ros.model.snapshot import NO_PREVIEW
 from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import World
 import pytest

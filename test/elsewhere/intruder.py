@@ -1,11 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""
-Two strangers on the domain of a world: one spawns bodies until the other has read enough of them.
-
-They are two processes: Fast DDS now and then lets participants of one process never meet.
-"""
+"""Two strangers on the domain of a world: one spawns bodies until the other has read enough."""
 
 from __future__ import annotations
 

@@ -8,11 +8,11 @@ import time
 
 import numpy as np
 from physsim_ros.engine import bodies
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Anchored
 from physsim_ros.model.requests import Command, Delete
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Chain
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 import pymunk
 import pytest

@@ -10,7 +10,7 @@ from threading import get_ident
 
 from physsim_ros.files import on_thread
 from physsim_ros.model.errors import BadWorldFile
-from physsim_ros.model.slices import at_once, in_slices
+from physsim_ros.runtime.slices import at_once, in_slices
 import pytest
 
 from ..outside import run_python

@@ -5,9 +5,9 @@
 
 from collections.abc import Iterator
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import BadWorldFile, Malformed, PhysSimError
 from physsim_ros.model.names import LONGEST_NAME, shown_name
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import (
     abbreviated,
     is_printable,

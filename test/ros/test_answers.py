@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.answer import Answer
 from physsim_ros.ros.publishers import status_publishers
 from physsim_ros.ros.publishers.publishers import Publishers
 from physsim_ros.ros.publishers.status_publishers import (

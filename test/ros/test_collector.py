@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import gc
 from typing import Any
 
-from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.ros.programs import collector
 from physsim_ros.ros.programs.collector import Collector
+from physsim_ros.runtime.garbage_collection import suspended_collection
 import pytest
 
 # Objects that a test makes [1]; CPython collects the youngest whenever there are 700 more.

@@ -11,7 +11,6 @@ from typing import Any
 
 from geometry_msgs.msg import Point, Quaternion
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import (
     BadOutline,
     BadProperty,
@@ -40,6 +39,7 @@ from physsim_ros.ros.requests.conversions import (
     point_request,
 )
 from physsim_ros.ros.requests.request_topics import RequestTopics
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation import waiting_entries
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, command, delete, delete_all, marker, point

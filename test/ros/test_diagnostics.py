@@ -139,7 +139,7 @@ def test_a_paused_world_says_so(client: Client, tell: Tell) -> None:
     ('path', 'value', 'word'),
     [
         ('diagnostics.message_delay', 3.2, 'requests wait 3.2 s'),
-        ('requests.undecodable', 7, '7 messages cannot be decoded'),
+        ('request_topics.undecodable', 7, '7 messages cannot be decoded'),
         ('boundary.failures', 2, '2 unexpected errors'),
         ('outputs.topics.events.stopped', True, 'a subscriber of ~/events has stopped'),
     ],

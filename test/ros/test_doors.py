@@ -16,9 +16,10 @@ from geometry_msgs.msg import PointStamped, PoseArray, Twist
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from physsim_ros.drawing import DrawingSession
 from physsim_ros.engine.space import Space
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import StepFailed
+from physsim_ros.model.preview import Preview
 from physsim_ros.model.requests import Spawn
-from physsim_ros.model.snapshot import Answer, Preview
 from physsim_ros.ros import parameters, world_files
 from physsim_ros.ros.encoders.preview import PreviewEncoder
 from physsim_ros.ros.encoders.streams import PosesEncoder

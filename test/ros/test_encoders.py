@@ -22,11 +22,12 @@ from geometry_msgs.msg import (
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 import numpy as np
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
-from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
+from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.spelling import canonical
 from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder, MOST_NEW
 from physsim_ros.ros.encoders.streams import (

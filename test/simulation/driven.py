@@ -8,12 +8,13 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.files import load_world, save_world
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import ChangeBody, Request, Restore, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.entries import Origin, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World

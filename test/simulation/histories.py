@@ -28,7 +28,6 @@ import numpy as np
 from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.files.world_schema import LIMITS
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, OutOfHistory, Refusal
 from physsim_ros.model.requests import (
     Configure,
@@ -41,6 +40,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Amend, Origin, TakeBack
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.simulation import SavedMoment, Simulation

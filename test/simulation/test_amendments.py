@@ -3,9 +3,9 @@
 
 """Requests of the past are replaced or taken back, as if they had never been; time stays."""
 
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.requests import Axle, Configure, Delete, MoveBodies, Request
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Amend, Origin, TakeBack
 from physsim_ros.simulation.past import amendment
 from physsim_ros.simulation.past.cursor import Cursor

@@ -7,6 +7,7 @@ from dataclasses import replace
 import math
 
 import numpy as np
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import NothingThere, UnknownJoint
 from physsim_ros.model.requests import (
@@ -22,7 +23,6 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 import pytest
 

@@ -6,10 +6,10 @@
 from dataclasses import replace
 
 import numpy as np
-from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Delete, Request, Restore
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.past.tree import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World

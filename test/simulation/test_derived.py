@@ -19,13 +19,13 @@ from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import Within
 from physsim_ros.model.declarations import Checked
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import ChangeBody, Configure, Delete, Join, Request, Spawn
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.robots.drives import DRIVES
 from physsim_ros.model.shapes import Disc
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.world import World
 import pytest
 

@@ -8,11 +8,11 @@ import math
 
 import numpy as np
 from physsim_ros.engine.core import lib
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
 from physsim_ros.model.requests import Anchor, Delete, DeleteAll, Grab, LetGo, MoveHand, Restore
 from physsim_ros.model.settings import MOST_HANDS, WorldSettings
 from physsim_ros.model.shapes import Box, Shape
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation

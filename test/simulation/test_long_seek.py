@@ -4,9 +4,10 @@
 """A long way through the past is made bit by bit, and leads to the same bits."""
 
 from physsim_ros.engine import checkpoint
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.entries import Amend, Origin, TakeBack, Unread, Wait
 from physsim_ros.simulation.simulation import Simulation
 import pytest

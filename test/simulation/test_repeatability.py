@@ -10,6 +10,7 @@ from itertools import pairwise
 import math
 import random
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import (
@@ -38,7 +39,6 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of, World
 import pytest

@@ -5,10 +5,10 @@
 
 from typing import Any
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation import waiting_entries
 from physsim_ros.simulation.entries import Origin, size_of, Wait
 from physsim_ros.simulation.request_queue import RequestQueue

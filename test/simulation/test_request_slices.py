@@ -8,10 +8,10 @@ from concurrent.futures import Future
 from functools import partial
 from threading import Thread
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import CommandMotors, DriveRobot
-from physsim_ros.model.slices import end_slice, wrap_future
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.runtime.slices import end_slice, wrap_future
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
 import pytest

@@ -16,6 +16,7 @@ from physsim_ros.files import (
     state_from,
     text_of,
 )
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import (
     BadProperty,
@@ -40,7 +41,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Polygon
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World

@@ -9,7 +9,7 @@ from threading import get_ident, Thread
 from physsim_ros.engine import checkpoint
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros.model import requests
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import BadProperty, UnknownBody, UnknownJoint, WorldFull
 from physsim_ros.model.requests import (
@@ -24,7 +25,6 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 from physsim_ros.simulation.world.world import HANDLERS
 import pytest

@@ -17,9 +17,9 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.files import DirectoryLock, finish_files, load_mapping
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave as module
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD

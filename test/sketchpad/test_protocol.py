@@ -15,7 +15,8 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.files import load_world, text_of
-from physsim_ros.model.snapshot import Answer, Grip
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Grip
 from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import past, Role

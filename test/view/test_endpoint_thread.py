@@ -9,8 +9,8 @@ import sys
 import threading
 import weakref
 
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.sizes import frame_size
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.view import endpoint_thread
 from physsim_ros.view.endpoint_thread import EndpointThread
 from physsim_ros.view.endpoints import Endpoint

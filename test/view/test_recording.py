@@ -5,8 +5,8 @@
 
 from __future__ import annotations
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.shapes import Disc, Polygon
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.view.recording import REPEAT
 from physsim_ros.view.scenery import Scenery
 import pytest

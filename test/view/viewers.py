@@ -13,9 +13,10 @@ import time
 import warnings
 
 import numpy as np
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.snapshot import Frame, Snapshot
 import pytest
 
 from ..building import PLAIN_BODY

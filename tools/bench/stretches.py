@@ -20,11 +20,11 @@ import sys
 import time
 
 from physsim_ros.files import load_mapping, on_thread, text_of
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import PhysSimError, WorldFull
-from physsim_ros.model.slices import in_slices, Sliced
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.programs.collector import Collector
+from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.world_control import open_content
 import rclpy

@@ -29,9 +29,9 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.motor_command import MotorCommand, TimedCommand
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import LARGEST
-from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
+from physsim_ros.runtime.slices import finish
 import pymunk
 
 # The report of no joints, which frames share (`JointSet.report`).

@@ -5,7 +5,7 @@
 Robots: bodies that drive, by a mapping below the key `robot` of a body.
 
 A robot is a drive, odometry, sensors, parts and the namespace of its topics; values only, checked
-as they are made. Shipped robots are files (`files.shipped_robots`), the floor that drives act on
+as they are made. Shipped robots are files (`files.robot_files`), the floor that drives act on
 is a stage of the engine. Start with `robot`, then `parts`; a new drive is a class in `drives`, a
 new sensor one in `sensors`.
 """

@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance import JointGlyphs, segment_corners
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.transform import rotated_each
@@ -35,6 +34,7 @@ from physsim_ros.ros.encoders.marker_symbols import (
     wall_symbol,
 )
 from physsim_ros.ros.encoders.streams import pose_columns
+from physsim_ros.runtime.garbage_collection import suspended_collection
 from visualization_msgs.msg import Marker
 
 # A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.

@@ -13,7 +13,8 @@ from collections.abc import Iterable
 import math
 
 from geometry_msgs.msg import Point as PointMessage
-from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
+from physsim_ros.model.preview import NO_PREVIEW, Preview
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.transform import Point
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header

@@ -17,7 +17,8 @@ from operator import attrgetter
 import time
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.timeline import TimelineStatus
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher

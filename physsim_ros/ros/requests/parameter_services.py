@@ -14,10 +14,10 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import abbreviated, message_text
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.parameters.table import Type

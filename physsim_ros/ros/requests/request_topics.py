@@ -17,12 +17,12 @@ from typing import Any
 
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid, Path
-from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests import conversions
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Origin, Unread
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.impl.implementation_singleton import rclpy_implementation

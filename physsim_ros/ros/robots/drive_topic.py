@@ -41,8 +41,9 @@ _Heard = tuple[type, ReliabilityPolicy]
 # Of a burst the last ones count.
 _DEPTH = 10
 # Silence of the type that is heard after which another one is, where there are both [s]: twice the
-# timeout of the shipped drives, in which a command is due.
-_SILENCE = 1.0
+# timeout of the shipped drives, in which a command is due. It doubles with each change that brings
+# no command: on a busy machine a publisher takes seconds to find a new subscription.
+_SILENCE, _LONGEST_SILENCE = 1.0, 8.0
 
 
 class DriveTopic(CommandTopic):
@@ -88,6 +89,8 @@ class DriveTopic(CommandTopic):
         # Type that was chosen last, and steady time of that or of the last command [s].
         self._kind: type | None = None
         self._spoke = math.inf
+        # Silence after which the type changes [s].
+        self._silence = _SILENCE
         # Identifiers of the publishers at the last look.
         self._known: set[bytes] = set()
         # Type and bytes of the last command.
@@ -150,6 +153,7 @@ class DriveTopic(CommandTopic):
         changed = heard != self._heard
         if heard is not None and heard[0] is not self._kind:
             self._kind, self._spoke = heard[0], time.monotonic()
+            self._silence = min(2.0 * self._silence, _LONGEST_SILENCE)
         if changed:
             of_other_type = heard and self._heard and heard[0] is not self._heard[0]
             self.close()
@@ -202,7 +206,7 @@ class DriveTopic(CommandTopic):
         """
         if self._kind not in types or (new and self._kind not in new):
             return next((each for each in types if each in new), types[0])
-        silent = time.monotonic() > self._spoke + _SILENCE
+        silent = time.monotonic() > self._spoke + self._silence
         return types[(types.index(self._kind) + silent) % len(types)]
 
     def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> bool:
@@ -253,7 +257,7 @@ class DriveTopic(CommandTopic):
             self._subscription = None
 
     def _receive(self, kind: type, data: bytes) -> None:
-        self._last, self._spoke = (kind, data), time.monotonic()
+        self._last, self._spoke, self._silence = (kind, data), time.monotonic(), _SILENCE
         if kind is not Twist:
             with suppress(Malformed):
                 message = self.decoded(data, kind)

@@ -20,18 +20,19 @@ import math
 import time
 from typing import Any
 
-from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import InPast, Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.transform import REST
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.request_queue import RequestQueue

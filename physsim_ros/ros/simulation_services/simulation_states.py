@@ -15,10 +15,10 @@ from typing import Any
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteBodies
-from physsim_ros.model.slices import at_once, end_slice, in_slices
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.results import coded
 from physsim_ros.ros.simulation_services.worlds import Worlds
+from physsim_ros.runtime.slices import at_once, end_slice, in_slices
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 

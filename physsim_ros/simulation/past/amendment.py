@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.line import Line
 from physsim_ros.simulation.past.past import Past
 

@@ -21,12 +21,12 @@ from collections.abc import Generator, Iterator
 from enum import Enum
 from typing import Any, NamedTuple
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Configure, Request
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.slices import finish
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.past.line import Keyframe, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import Change, World

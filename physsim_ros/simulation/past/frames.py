@@ -21,8 +21,8 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.sizes import frame_size
-from physsim_ros.model.slices import finish
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.past.cursor import Replay
 from physsim_ros.simulation.past.line import CachedFrame, Keyframe
 from physsim_ros.simulation.past.tree import Tree

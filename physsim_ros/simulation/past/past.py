@@ -19,13 +19,14 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import LONGEST, Within
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.line import CachedFrame, Line, Moment

@@ -19,6 +19,7 @@ from typing import Any
 
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_description import (
     changed_body,
@@ -46,7 +47,6 @@ from physsim_ros.model.requests import (
     Release,
     Spawn,
 )
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import joint_requests

@@ -9,6 +9,7 @@ Law: a hand whose body is gone does nothing, and is not refused.
 
 from __future__ import annotations
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import nothing_at, NothingThere
 from physsim_ros.model.requests import (
     Grab,
@@ -17,7 +18,7 @@ from physsim_ros.model.requests import (
     LetGo,
     MoveHand,
 )
-from physsim_ros.model.snapshot import Answer, Grip
+from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import rotated, world_to_local
 from physsim_ros.simulation.world.body_requests import set_poses
 from physsim_ros.simulation.world.live_space import LiveSpace

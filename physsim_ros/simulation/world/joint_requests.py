@@ -17,6 +17,7 @@ from itertools import starmap
 import math
 
 from physsim_ros.engine.space import Space
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.motor_command import TimedCommand
@@ -25,7 +26,6 @@ from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, U
 from physsim_ros.model.rope_path import arc, side, spans
 from physsim_ros.model.scene import Guide, Joint, seat_of
 from physsim_ros.model.shapes import Disc
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import (
     ORIGIN,

@@ -29,11 +29,11 @@ from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.saved_state import begin_at, checkpoint_of, saved_state
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.latency import delay
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.slices import finish
 from physsim_ros.model.transform import Point
+from physsim_ros.runtime.garbage_collection import suspended_collection
+from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.world.capacity import Capacity, check_state
 
 # Difference within which a number of steps, the product of a time and a rate, is whole [1], and

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.space import Space
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.body_description import check_namespaces
 from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Drive, Robot
 from physsim_ros.model.scene import Body
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.states import DriveCommand, NEVER
 from physsim_ros.simulation.world.live_space import LiveSpace
 

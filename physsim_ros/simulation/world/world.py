@@ -19,16 +19,17 @@ from typing import Any, NamedTuple
 
 from physsim_ros.engine.contacts import take_contacts
 from physsim_ros.model import requests
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.arrays import make_read_only
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import Refusal, StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.slices import finish
-from physsim_ros.model.snapshot import Answer, Contacts, Grip, NO_VECTORS, Snapshot
+from physsim_ros.model.snapshot import Contacts, Grip, NO_VECTORS, Snapshot
 from physsim_ros.model.texts import counted
 from physsim_ros.model.timeline import stamp_of
+from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
+from physsim_ros.model.answer import request_count
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import FASTEST, flag, HEAVIEST, pair, VELOCITY, Within
 from physsim_ros.model.declarations import without_unset
@@ -32,7 +33,6 @@ from physsim_ros.model.requests import (
     Spawn,
     Unjoin,
 )
-from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, Pose, REST, Twist
 from physsim_ros.simulation.entries import Origin

@@ -10,12 +10,12 @@ from functools import partial
 from typing import Any
 
 from physsim_ros.files import check_world_name, load_mapping, on_thread, text_of
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
-from physsim_ros.model.slices import in_slices, Sliced, with_checks
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.runtime.slices import in_slices, Sliced, with_checks
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields

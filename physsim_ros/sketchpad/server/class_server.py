@@ -21,8 +21,8 @@ from urllib.parse import quote, urlsplit
 
 from physsim_ros.files import user_directory
 from physsim_ros.model.checks import Whole
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Refusal, WorldFull
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.sketchpad.message import json_object
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.rights import Role

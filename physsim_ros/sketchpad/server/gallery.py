@@ -27,8 +27,8 @@ from physsim_ros.files import (
     title_of,
     worlds_in,
 )
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError, Refusal
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 
 # Worlds and lessons of the user that are listed, at most.
 MOST_WORLDS, MOST_LESSONS = 500, 100

@@ -16,8 +16,8 @@ from http import HTTPStatus
 import time
 from typing import Any, NoReturn
 
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.access import Access, headers_for
 from physsim_ros.sketchpad.server.turns import Turns

@@ -15,7 +15,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.transform import Point
 from physsim_ros.sketchpad.message import answer_content, asker_of
 from physsim_ros.sketchpad.server.frame_codec import Show

@@ -10,9 +10,9 @@ receives them.
 
 from __future__ import annotations
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
 from physsim_ros.sketchpad.message import answer_content, Optional, server_message

@@ -17,8 +17,9 @@ import threading
 from typing import Any
 
 from physsim_ros.files import OwnWorlds
-from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.answer import Answer
+from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.message import Content

@@ -17,8 +17,8 @@ import socket
 from typing import Any
 from weakref import WeakSet
 
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.access import Access
 from physsim_ros.sketchpad.server.page_handlers import (

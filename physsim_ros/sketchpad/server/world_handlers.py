@@ -25,8 +25,8 @@ from physsim_ros.files import (
     read_parts,
     write_file,
 )
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Malformed, PhysSimError, Refusal
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
 from physsim_ros.sketchpad.rights import Role

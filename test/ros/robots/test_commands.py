@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager, ExitStack
 from functools import partial
+from itertools import pairwise
 import math
 import os
 import signal
@@ -16,9 +17,11 @@ from typing import Any, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.robots import command_topic
+from physsim_ros.ros.qos_safe_node import LOSSLESS
+from physsim_ros.ros.robots import command_topic, drive_topic
 from physsim_ros.testing import PhysSim, shared_context
 import pytest
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 from std_msgs.msg import Bool
 
 from .driver import driver_of
@@ -222,6 +225,33 @@ def test_of_publishers_of_both_types_the_newest_is_heard_as_long_as_it_speaks(
         told = [event for event in drive.client.events if event.field == 'cmd_vel']
     assert [event.code for event in told] == ['bad_property'], told
     assert 'the newest is heard' in told[0].message
+
+
+def test_publishers_of_both_types_have_longer_and_longer_to_find_a_subscription(
+    flat: PhysSim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    flat.step()
+    topic = flat.node.fleet.robots[robot.name].drive_topic
+    publishers = [
+        TopicEndpointInfo(
+            topic_type=f'geometry_msgs/msg/{name}', endpoint_gid=[number], qos_profile=LOSSLESS
+        )
+        for number, name in enumerate(('Twist', 'TwistStamped'))
+    ]
+    monkeypatch.setattr(flat.node, 'get_publishers_info_by_topic', lambda _: publishers)
+    changes, kind = [], None
+    for look in range(80):
+        monkeypatch.setattr(drive_topic.time, 'monotonic', lambda look=look: 0.5 * look)
+        topic.match_publishers()
+        flat.settle()
+        heard = [each for each in flat.node.subscriptions if each.topic_name == '/robot_0/cmd_vel']
+        if heard and heard[0].msg_type is not kind:
+            kind = heard[0].msg_type
+            changes.append(look)
+    waits = [after - before for before, after in pairwise(changes)]
+    assert waits == sorted(waits)
+    assert 0.5 * waits[-1] > 4.0
 
 
 def test_a_publisher_of_another_type_than_commands_is_told_once(

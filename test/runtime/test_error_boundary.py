@@ -3,8 +3,8 @@
 
 """Refusals pass the boundary; other errors are logged once, counted and answered."""
 
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadSize, Failed, PhysSimError, StepFailed
+from physsim_ros.runtime.error_boundary import ErrorBoundary
 import pytest
 
 

@@ -21,8 +21,8 @@ import traceback
 from types import coroutine
 from typing import TypeVar
 
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Failed, PhysSimError
-from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import abbreviated
 
 # Length of a line of the log [characters], and number of events that wait.
