@@ -118,7 +118,7 @@ def fails(tree: Path, words: list[str]) -> bool:
 
 
 def main(words: list[str]) -> int:
-    """Try mutations, and return how many survive."""
+    """Try mutations; return 1 where more survive than may, else 0."""
     every = candidates(words)
     chosen = choice(every, int(os.environ.get('COUNT') or 40), int(os.environ.get('SEED') or 0))
     begin, _, end = os.environ.get('ONLY', '').partition(':')
