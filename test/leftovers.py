@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 import threading
+import time
 from typing import TypeVar
 
 from .outside import PATIENCE
@@ -26,12 +27,15 @@ class Open:
         self.connections = connections()
 
     def check_same(self) -> None:
-        """Check that nothing more is open now; a thread that is about to end may do so."""
+        """Check that nothing more is open soon: a thread that is about to end may do so."""
         for thread in {*threading.enumerate()} - self.threads:
             thread.join(PATIENCE)
             assert not thread.is_alive(), thread.name
-        assert participants() <= self.participants
-        assert connections() <= self.connections
+        end = time.monotonic() + PATIENCE
+        for read, before in ((participants, self.participants), (connections, self.connections)):
+            while not (now := read()) <= before:
+                assert time.monotonic() < end, now - before
+                time.sleep(0.01)
 
 
 def participants() -> set[str]:
@@ -42,7 +46,8 @@ def participants() -> set[str]:
 
 def connections() -> set[str]:
     """Return the sockets of TCP that are open in this process."""
-    lines = Path('/proc/net/tcp').read_text().splitlines()[1:]
+    tables = known(Path.read_text, (OWN / 'net' / name for name in ('tcp', 'tcp6')))
+    lines = [line for _, table in tables for line in table.splitlines()[1:]]
     inodes = {f'socket:[{line.split()[9]}]' for line in lines}
     return inodes & {str(target) for _, target in known(Path.readlink, (OWN / 'fd').iterdir())}
 

@@ -87,9 +87,11 @@ class PhysSimNode(NodeWithoutQosEvents):
         except rclpy_implementation.RCLError as error:
             # As for a namespace of the command line that is longer than a name of DDS may be.
             raise PhysSimError(str(error)) from error
-        # It is the source of `/clock`, and no reader, whatever `use_sim_time` is. rclpy 7.1 has no
-        # public name for that.
+        # The node is the source of `/clock`, and no reader, whatever `use_sim_time` is; nor does
+        # its clock wait for one. rclpy 7.1 has no public name for that.
         self._time_source.detach_node()
+        self._time_source.ros_time_is_active = False
+        self._time_source._associated_clocks.clear()  # noqa: SLF001
         self.boundary = ErrorBoundary(self.get_logger().error, time.thread_time)
         self._closing = ExitStack()
         try:

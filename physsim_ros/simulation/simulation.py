@@ -281,7 +281,9 @@ class Simulation(FrameMaker):
 
         Requests that wait are applied before, and hands let go. This world then continues with the
         same bits as all worlds that restore the moment, because it too moves into a space that is
-        built from the checkpoint. Without the call, its later bits may differ.
+        built from the checkpoint. Without the call, its later bits may differ. After an undo, the
+        moment has a request of its own, which changes nothing, and is taken back with the gesture
+        before it.
 
         :raises InPast: the past is shown
         """

@@ -64,7 +64,12 @@ class FileWork:
             self._due.append(partial(fulfil, future, work))
             begins = len(self._due) == 1
         if begins:
-            Thread(target=self._run, name='files').start()
+            try:
+                Thread(target=self._run, name='files').start()
+            except RuntimeError as error:
+                # This process may have no more threads. The next work tries again.
+                self._due.clear()
+                future.set_exception(error)
         return future
 
     def _run(self) -> None:

@@ -100,6 +100,25 @@ def test_many_steps_are_as_many_times_one():
         assert at_once.digest() == one_by_one.digest()
 
 
+@pytest.mark.parametrize('timeout', [1 / 240, 0.01, 0.03])
+def test_a_wrench_that_ends_between_frames_ends_alike_however_steps_are_counted_out(timeout):
+    worlds = []
+    for _ in range(2):
+        world = World(
+            settings=WorldSettings(bounds=(-9.0, 0.0, 9.0, 9.0), command_timeout=timeout)
+        )
+        spawn(world, 'a/0', BOX, (0.0, 0.52, 0.0))
+        world.apply(Command(names=('a/0',), wrenches=((3.0, -20.0, 0.5),)))
+        worlds.append(world)
+
+    for _ in range(10):
+        worlds[0].step(4)
+    for _ in range(40):
+        worlds[1].step(1)
+
+    assert worlds[0].digest() == worlds[1].digest()
+
+
 @pytest.mark.parametrize('looking', ['snapshot', 'save', 'digest', 'contacts', 'body_at'])
 def test_looking_changes_nothing(looking):
     world, unseen = busy_world(), busy_world()

@@ -39,3 +39,16 @@ def test_work_goes_on_after_an_error() -> None:
     with pytest.raises(ValueError, match='x'):
         failed.result(PATIENCE)
     assert done.result(PATIENCE) == 1
+
+
+def test_work_goes_on_where_a_thread_could_not_be_started(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: threading.Thread) -> None:
+        raise RuntimeError('no more threads')
+
+    work = FileWork(lambda: None)
+    with monkeypatch.context() as patched:
+        patched.setattr(threading.Thread, 'start', refuse)
+        failed = work.submit(lambda: 1)
+    with pytest.raises(RuntimeError, match='no more threads'):
+        failed.result(0.0)
+    assert work.submit(lambda: 1).result(PATIENCE) == 1

@@ -20,6 +20,7 @@ from physsim_ros.model.snapshot import Grip
 from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import past, Role
+from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.server import open_pages
@@ -680,6 +681,46 @@ def test_a_drive_that_is_no_drive_is_refused(browser: Browser) -> None:
         assert answer['code'] == code, fields
         assert not field or answer['field'] == field
     assert browser.physsim.digest() == digest
+
+
+def test_no_message_is_carried_out_within_another(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # A message that reads a snapshot has calls go on, which make frames, which take messages.
+    sketchpad, control = browser.physsim.node.outputs.sketchpad, browser.physsim.node.control
+    take, snapshot = Inbox.take, control.current_snapshot
+    taken, within = [], []
+
+    def take_noted(inbox: Inbox) -> Any:
+        taken.append(inbox)
+        return take(inbox)
+
+    def snapshot_with_frames() -> Any:
+        before = len(taken)
+        sketchpad.handle_messages()
+        within.append(len(taken) - before)
+        return snapshot()
+
+    page = browser.open_page()
+    monkeypatch.setattr(Inbox, 'take', take_noted)
+    monkeypatch.setattr(control, 'current_snapshot', snapshot_with_frames)
+    page.send('click', tool='circle', point=[0.0, 5.0])
+    assert page.ask('click', tool='circle', point=[0.5, 5.0])['ok']
+    assert {*within} == {0}
+
+
+def test_driving_in_the_past_begins_another_course(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    spawned_robot(page)
+    page.send('drive', name='tb3/0', velocity=[0.2, 0, 0])
+    page.ask('drop')
+    physsim.run(0.5)
+    assert page.ask('seek', time=0.1)['ok']
+    page.send('drive', name='tb3/0', velocity=[-0.2, 0, 0])
+    page.ask('drop')
+    physsim.run(0.4)
+    assert physsim.pose('tb3/0').x < 0.0
+    page.until_last('timeline', lambda timeline: timeline['courses'])
 
 
 def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> None:

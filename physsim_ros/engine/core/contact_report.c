@@ -8,7 +8,8 @@
 // Method: a list of pairs, with a hash table by the places of their bodies, which each step updates. A pair has the
 // mean of its points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping
 // bodies: while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch
-// is that at which a sensor is met, else that of the impact, within the step. Cost: 15 ns a contact and step.
+// is that at which a sensor is met, else that of the impact, within the step.
+// Cost: 15 ns a contact and step.
 
 #include "contact.h"
 #include "stages.h"

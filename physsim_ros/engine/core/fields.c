@@ -10,7 +10,7 @@
 // of a body in free flight has half of what they change its velocity by. Unlike gravity, that half depends on
 // velocities, and on other bodies; so it is state, and what a request sets is made into it as the next step begins: by
 // the force at the true velocity, over half a sub-step. True velocities do not jump where a field begins or ends.
-// Bodies that fields fluid while they rest do not sleep where the field changes, nor before they float still.
+// Bodies that fields pull while they rest do not sleep where the field changes, nor before they float still.
 //
 // Cost: none without fields.
 // Without it what floats gains energy, and orbits open.

@@ -57,7 +57,7 @@ typedef struct Links {
     const Pose *poses; // of bodies
 } Links;
 
-// Return x of a row, and the Jacobians of its links. `anchors` are those of its joint; a path needs neither.
+// Return x of a row, and the Jacobians of its links. `anchors` are those of its joint; a path needs none.
 double row_at(const Row *row, const Joint *joint, const Guide *guides, const Anchors *anchors, Links links,
               Jacobian *jacobians);
 

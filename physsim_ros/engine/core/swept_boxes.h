@@ -49,7 +49,7 @@ static inline bool is_far(const World *world, const Body *body, Twist displaceme
     return is_solid(body) && farthest_displaced(body, displacement) > world->own->least_depth / 2.0;
 }
 
-// A body that moves by a displacement in the step.
+// A body that moves from a pose by a displacement in the step.
 Mover mover_of(Body *body, Pose begin, Twist displacement);
 
 // All bodies, each with its displacement in the step.

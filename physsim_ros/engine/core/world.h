@@ -35,7 +35,7 @@ typedef struct Private {
     int *jointed;
     int jointed_count;
     double kept;         // share of its velocity that a body keeps in a sub-step
-    double overlap_kept; // share of an overlap that it keeps, the rest is pushed out
+    double overlap_kept; // share of an overlap that a sub-step keeps; the rest is pushed out
     double least_depth;  // least safe depth of a body that is no sensor [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;

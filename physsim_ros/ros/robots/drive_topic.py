@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 import math
-import time
+from time import monotonic
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
@@ -152,8 +152,9 @@ class DriveTopic(CommandTopic):
         heard, deaf = self._choose(self._node.get_publishers_info_by_topic(self.topic))
         changed = heard != self._heard
         if heard is not None and heard[0] is not self._kind:
-            self._kind, self._spoke = heard[0], time.monotonic()
-            self._silence = min(2.0 * self._silence, _LONGEST_SILENCE)
+            if self._kind is not None:
+                self._silence = min(2.0 * self._silence, _LONGEST_SILENCE)
+            self._kind, self._spoke = heard[0], monotonic()
         if changed:
             of_other_type = heard and self._heard and heard[0] is not self._heard[0]
             self.close()
@@ -206,7 +207,7 @@ class DriveTopic(CommandTopic):
         """
         if self._kind not in types or (new and self._kind not in new):
             return next((each for each in types if each in new), types[0])
-        silent = time.monotonic() > self._spoke + self._silence
+        silent = monotonic() > self._spoke + self._silence
         return types[(types.index(self._kind) + silent) % len(types)]
 
     def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> bool:
@@ -257,7 +258,7 @@ class DriveTopic(CommandTopic):
             self._subscription = None
 
     def _receive(self, kind: type, data: bytes) -> None:
-        self._last, self._spoke, self._silence = (kind, data), time.monotonic(), _SILENCE
+        self._last, self._spoke, self._silence = (kind, data), monotonic(), _SILENCE
         if kind is not Twist:
             with suppress(Malformed):
                 message = self.decoded(data, kind)

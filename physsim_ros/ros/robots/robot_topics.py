@@ -58,7 +58,7 @@ from std_msgs.msg import String
 @dataclass(slots=True, kw_only=True)
 class _Topic:
     """
-    A topic of a robot that is published at frames, while it is heard.
+    A topic of a robot that is published at frames, while it is read.
 
     :ivar publisher: of the topic
     :ivar message: makes its message, of a view, the row of the robot's body in the scene, and the
@@ -285,7 +285,7 @@ class RobotTopics:
 
     @property
     def longest_latency(self) -> float:
-        """Return the longest time that a message that is heard can be on its way [s]."""
+        """Return the longest time that a message that is read can be on its way [s]."""
         return max((each.latency[1] for each in self._topics if each.is_read), default=0.0)
 
     def publish(self, view: StampedView, row: int, number: int) -> int | None:

@@ -86,7 +86,7 @@ class SimulationServices:
             goal_service_qos_profile=CALLS,
             result_service_qos_profile=CALLS,
             cancel_service_qos_profile=CALLS,
-            # That of a goal comes at once.
+            # All feedback of a goal may come in one burst.
             feedback_pub_qos_profile=CALLS,
         )
 
@@ -146,5 +146,11 @@ class SimulationServices:
 
         perform = partial(self._states.step, on_frame=tell)
         done = self._add(_STEPS, perform, goal.request, response)
+
+        def execute(_: Future) -> None:
+            # Of what a callback of a future raises, rclpy 7.1 only warns.
+            with self._control.boundary.output(_STEPS):
+                goal.execute(end)
+
         # A callback that waits is a task, which rclpy 7.1 asks at each spin.
-        done.add_done_callback(lambda _: goal.execute(end))
+        done.add_done_callback(execute)

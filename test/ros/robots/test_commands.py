@@ -242,7 +242,7 @@ def test_publishers_of_both_types_have_longer_and_longer_to_find_a_subscription(
     monkeypatch.setattr(flat.node, 'get_publishers_info_by_topic', lambda _: publishers)
     changes, kind = [], None
     for look in range(80):
-        monkeypatch.setattr(drive_topic.time, 'monotonic', lambda look=look: 0.5 * look)
+        monkeypatch.setattr(drive_topic, 'monotonic', lambda look=look: 0.5 * look)
         topic.match_publishers()
         flat.settle()
         heard = [each for each in flat.node.subscriptions if each.topic_name == '/robot_0/cmd_vel']
