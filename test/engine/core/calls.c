@@ -51,7 +51,7 @@ void call_sets(int count, int pair_count, const int *pairs, int *roots) {
     World world = {.body_count = count, .own = &own};
     int *parents = sets_of(&world);
     for (int pair = 0; pair < pair_count; pair++) {
-        unite(parents, pairs[2 * pair], pairs[2 * pair + 1]);
+        unite(parents, pairs[2 * (size_t)pair], pairs[2 * (size_t)pair + 1]);
     }
     for (int number = 0; number < count; number++) {
         roots[number] = root_of(parents, number);
