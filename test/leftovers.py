@@ -9,17 +9,16 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 import threading
-import time
 from typing import TypeVar
 
-from .outside import PATIENCE
+from .outside import PATIENCE, until
 
 OWN = Path('/proc/self')
 _Read = TypeVar('_Read')
 
 
 class Open:
-    """What this process has open when this object is made."""
+    """The threads, participants and connections that this process has at a moment."""
 
     def __init__(self) -> None:
         self.threads = {*threading.enumerate()}
@@ -31,11 +30,8 @@ class Open:
         for thread in {*threading.enumerate()} - self.threads:
             thread.join(PATIENCE)
             assert not thread.is_alive(), thread.name
-        end = time.monotonic() + PATIENCE
-        for read, before in ((participants, self.participants), (connections, self.connections)):
-            while not (now := read()) <= before:
-                assert time.monotonic() < end, now - before
-                time.sleep(0.01)
+        until(lambda: participants() <= self.participants)
+        until(lambda: connections() <= self.connections)
 
 
 def participants() -> set[str]:

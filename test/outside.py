@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 import json
 import os
@@ -25,6 +26,16 @@ import pytest
 # [s]. It costs nothing where nothing is wrong; `LONGEST` of `conftest.py` is longer.
 PATIENCE = 100.0
 ROOT = Path(__file__).resolve().parents[1]
+
+
+def until(predicate: Callable[[], Any], timeout: float = PATIENCE) -> Any:
+    """Wait until something holds; return it."""
+    deadline = time.monotonic() + timeout
+    pause = threading.Event()
+    while not (result := predicate()):
+        assert time.monotonic() < deadline, 'it did not come to hold'
+        pause.wait(0.01)
+    return result
 
 
 def write_profiles(path: Path, partition: str) -> None:

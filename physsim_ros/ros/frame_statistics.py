@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What frames cost, and how fast simulation time passes: the figures of `/diagnostics`."""
+"""The cost of frames, and the pace of simulation time: figures of `/diagnostics`."""
 
 from __future__ import annotations
 

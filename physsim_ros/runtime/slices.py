@@ -20,7 +20,7 @@ _Result = TypeVar('_Result')
 Slices: TypeAlias = Coroutine[Future[Any], None, _Result]
 # A function whose work may have slices.
 Sliced: TypeAlias = Callable[[], _Result | Slices[_Result]]
-# What a slice awaits that waits for nothing.
+# A future that is done, for a slice that waits for nothing.
 _NOTHING: Future[None] = Future()
 _NOTHING.set_result(None)
 

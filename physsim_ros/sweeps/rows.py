@@ -142,7 +142,7 @@ def _key(case: Case) -> str:
 
 
 def _identity(experiment: Experiment) -> dict[str, Any]:
-    """Return what tells experiments apart: worlds to the bit, functions by name, times, limits."""
+    """Return the identity of an experiment: world to the bit, functions by name, times, limits."""
     # Not the digest of the world, which leaves out what moves nothing, as how a sensor sees.
     text = text_of(replace(experiment.world, memory=None), experiment.physics_rate)
     functions = ('controller', 'begin', 'failure', 'score')

@@ -21,6 +21,15 @@ from ..outside import run_python
 SEEDS = range(int(os.environ.get('HISTORIES', '20')))
 
 
+def asked_discs(count, height):
+    """Return operations that add a leaning column of discs from a height on [m]."""
+    poses = [(0.1 * row, height + 0.7 * row, 0.0) for row in range(count)]
+    shape = Disc(radius=0.3)
+    return [
+        ('ask', Spawn(name=f'a/{row}', shape=shape, pose=pose)) for row, pose in enumerate(poses)
+    ]
+
+
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_history_shows_what_its_requests_show_when_they_are_played_from_nothing(seed):
     check(seed)
@@ -68,14 +77,10 @@ def test_a_world_is_loaded_as_it_was_saved_where_a_body_flies_though_it_touches_
 
 def test_a_world_that_returns_to_its_last_request_passes_the_same_checkpoints():
     # Found by seed 1269.
-    discs = [
-        Spawn(name=f'a/{row}', shape=Disc(radius=0.3), pose=(0.1 * row, 0.5 + 0.7 * row, 0.0))
-        for row in range(5)
-    ]
     play(
         [
             ('begin', 240.0, 60.0, 0.1, False),
-            *(('ask', disc) for disc in discs),
+            *asked_discs(5, 0.5),
             ('undo',),
             ('run', 1.0, 40),
             ('redo',),
@@ -86,15 +91,11 @@ def test_a_world_that_returns_to_its_last_request_passes_the_same_checkpoints():
 
 
 def test_lines_that_have_run_on_from_a_saved_moment_show_what_they_have_shown():
-    discs = [
-        Spawn(name=f'a/{row}', shape=Disc(radius=0.3), pose=(0.1 * row, 1.0 + 0.7 * row, 0.0))
-        for row in range(6)
-    ]
     # A course that has been left goes on from the moment to which the undo leads.
     play(
         [
             ('begin', 240.0, 60.0, 0.5, False),
-            *(('ask', disc) for disc in discs),
+            *asked_discs(6, 1.0),
             ('save',),
             ('load',),
             ('reset',),

@@ -119,7 +119,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
 
 
 def test_an_offer_stays_while_somebody_is_at_its_button(sheet: Sheet) -> None:
-    # What lasts for seconds ends when the test says so.
+    # Pauses of seconds end when the test says so.
     sheet.page.add_init_script(
         """const waits = setTimeout, ends = [];
         window.setTimeout = (call, pause) =>

@@ -10,10 +10,12 @@ from pathlib import Path
 from physsim_ros.view import Viewer, ViewerMode
 import pytest
 
+from ..outside import PATIENCE
+
 
 @pytest.fixture
 def server(tmp_path, monkeypatch):
-    from .viewers import PATIENCE, Server  # noqa: PLC0415  Rerun may be missing
+    from .viewers import Server  # noqa: PLC0415  Rerun may be missing
 
     # For the last frames, which a busy machine sends late.
     monkeypatch.setattr('physsim_ros.view.endpoints.ClientEndpoint.closing', PATIENCE)

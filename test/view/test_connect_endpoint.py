@@ -10,7 +10,8 @@ import signal
 
 from physsim_ros.view import ViewerMode
 
-from .viewers import BOX, bulk, Events, frame, rows, run_alone, show, until
+from .viewers import BOX, bulk, Events, frame, rows, run_alone, show
+from ..outside import until
 from ..rerun_program import free_port
 
 
@@ -65,7 +66,8 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
 FROZEN = """
     import os, signal, sys, threading
     from pathlib import Path
-    from test.view.viewers import bulk, Events, frame, until
+    from test.outside import until
+    from test.view.viewers import bulk, Events, frame
     from physsim_ros.view import endpoint_thread, Viewer, ViewerMode
 
     endpoint_thread.SILENT_AFTER = 1.0

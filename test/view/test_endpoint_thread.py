@@ -16,7 +16,8 @@ from physsim_ros.view.endpoint_thread import EndpointThread
 from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.file_endpoint import FileEndpoint
 
-from .viewers import BOX, frame, PATIENCE, rows, until
+from .viewers import BOX, frame, rows
+from ..outside import PATIENCE, until
 
 
 class Blocked(FileEndpoint):

@@ -11,7 +11,8 @@ import threading
 
 from physsim_ros.view import file_endpoint, ViewerMode
 
-from .viewers import BOX, Events, frame, PATIENCE, rows, rows_when, run_alone, show, until
+from .viewers import BOX, Events, frame, rows, rows_when, run_alone, show
+from ..outside import PATIENCE, until
 from ..rerun_program import rerun
 
 
@@ -167,7 +168,8 @@ FULL_DISK = """
     import sys
     from pathlib import Path
     from resource import getrlimit, RLIM_INFINITY, RLIMIT_FSIZE, setrlimit
-    from test.view.viewers import bulk, Events, frame, until
+    from test.outside import until
+    from test.view.viewers import bulk, Events, frame
     from physsim_ros.view import endpoint_thread, Viewer, ViewerMode
 
     endpoint_thread.SILENT_AFTER = 1.0

@@ -13,7 +13,8 @@ from urllib.request import urlopen
 from physsim_ros.view import endpoints, ViewerMode
 import pytest
 
-from .viewers import BOX, Events, PATIENCE, rows_when, show, until
+from .viewers import BOX, Events, rows_when, show
+from ..outside import PATIENCE, until
 from ..rerun_program import is_open, rerun
 
 psutil = pytest.importorskip('psutil')

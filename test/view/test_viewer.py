@@ -10,7 +10,8 @@ import sys
 
 from physsim_ros.view import endpoints, ViewerMode
 
-from .viewers import frame, rows, run_alone, until
+from .viewers import frame, rows, run_alone
+from ..outside import until
 
 
 def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_path):
@@ -62,7 +63,8 @@ def test_of_a_flood_of_changes_the_last_counts_and_few_are_carried_out(viewers, 
 # A process that looks what viewers leave behind.
 MANY_VIEWERS = """
     import psutil, threading
-    from test.view.viewers import Events, show, until
+    from test.outside import until
+    from test.view.viewers import Events, show
     from physsim_ros.view import Viewer, ViewerMode
 
     process = psutil.Process()

@@ -8,8 +8,6 @@ from __future__ import annotations
 from collections import Counter
 import os
 import textwrap
-import threading
-import time
 import warnings
 
 import numpy as np
@@ -20,7 +18,7 @@ from physsim_ros.model.snapshot import Frame, Snapshot
 import pytest
 
 from ..building import PLAIN_BODY
-from ..outside import PATIENCE, run_python
+from ..outside import run_python, until
 from ..rerun_program import free_port, is_open, rerun
 
 chunk = pytest.importorskip('rerun.chunk')
@@ -35,16 +33,6 @@ def frame(step, *messages):
     snapshot = Snapshot(step=step, stamp=step * 4_166_667, scene=SCENE, poses=pose, twists=pose)
     answers = tuple(Answer(topic='~/spawn', message=each) for each in messages)
     return Frame(snapshot=snapshot, contacts=None, answers=answers)
-
-
-def until(predicate, timeout=PATIENCE):
-    """Wait until something holds; return it."""
-    deadline = time.monotonic() + timeout
-    pause = threading.Event()
-    while not (result := predicate()):
-        assert time.monotonic() < deadline, 'it did not come to hold'
-        pause.wait(0.01)
-    return result
 
 
 def show(viewer, count, first=0):

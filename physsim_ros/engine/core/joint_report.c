@@ -28,7 +28,7 @@ static bool is_axial(const Part *part) {
 
 // The vector by which the impulse that Chipmunk stores of an axial part acts on the second body of its joint.
 static Vec line_of(const World *world, const Joint *joint, const Part *part) {
-    // That of a spring which Chipmunk alone solves, and which has no row.
+    // The row that a spring would have, where Chipmunk alone solves it.
     static const Row distance = {.kind = ROW_DISTANCE, .below = 1.0, .above = 1.0};
     const Row *row = world->rows + joint->first_row, *end = row + joint->row_count;
     while (row < end && row->part != part - world->parts) {

@@ -114,7 +114,7 @@ class ParameterServices(ParameterService):
         try:
             self._live.set_together(map(Parameter.from_parameter_msg, messages))
         except Refusal as refusal:
-            # Where it names no field, it is about the only parameter.
+            # A refusal that names no field is about the only parameter.
             field = abbreviated(messages[0].name) if len(messages) == 1 else ''
             return _refused(refusal), [Answer.refused(refusal, topic=_TOPIC, field=field)]
         node = self._get_node()

@@ -370,7 +370,7 @@ def test_a_tree_finds_the_boxes_that_overlap_and_no_others(call, seed):
     wanted = np.all(boxes[:, :2] <= asked[2:], axis=1) & np.all(asked[:2] <= boxes[:, 2:], axis=1)
     assert sorted(found[:number]) == np.flatnonzero(wanted).tolist()
     for most in range(1, number):
-        # Whoever has found enough ends the search.
+        # The search ends when enough are found.
         assert call.lib.call_boxes(count, at_boxes, changed, *others, most, pointer) == most
 
 
@@ -508,7 +508,7 @@ def rounded(corners, radius):
 
 
 def clipped(corners, region):
-    """Return what of a polygon lies in a convex region (Sutherland and Hodgman)."""
+    """Return the part of a polygon that lies in a convex region (Sutherland and Hodgman)."""
     for start, end in zip(region, np.roll(region, -1, axis=0), strict=True):
         edge = end - start
         heights = edge[0] * (corners[:, 1] - start[1]) - edge[1] * (corners[:, 0] - start[0])
