@@ -20,9 +20,9 @@ from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.choice import not_recognised, reading_of
 from physsim_ros.drawing.strokes.figure import Figure
+from physsim_ros.drawing.strokes.forms import classification_of
 from physsim_ros.drawing.strokes.grouping import likeliest_group, MOST_STROKES
 from physsim_ros.drawing.strokes.marks import mark_reading, marked_solid
-from physsim_ros.drawing.strokes.reading import stroke_in_scene
 from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.strokes.waiting import readings_over
@@ -138,7 +138,9 @@ class DrawingSession:
         self.preview = NO_PREVIEW
         drawn = resample_stroke(_in_world(samples, frame, scene))
         last = Figure.read(
-            stroke_in_scene(drawn, scene, self.settings),
+            classification_of(drawn),
+            scene,
+            self.settings,
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
@@ -147,7 +149,7 @@ class DrawingSession:
             # The solid stays the last figure: another reading of it may follow.
             return self._keep(self._figures, (last,), mark_reading(last), check)
         # A second line may make an x of a mark.
-        marks = (replace(each, context=each.over(scene, self.settings)) for each in self._marks)
+        marks = (replace(each, scene=scene) for each in self._marks)
         earlier = [*self._figures, *marks]
         figure = likeliest_group(earlier, last, self.settings, self._clock)
         if figure is None:

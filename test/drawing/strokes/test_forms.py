@@ -7,8 +7,8 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.geometry import spaced
-from physsim_ros.drawing.strokes.features import features_of, swings_of
-from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.features import swings_of
+from physsim_ros.drawing.strokes.forms import classification_of
 from physsim_ros.drawing.strokes.stages import Form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
@@ -75,7 +75,7 @@ RULED: dict[str, tuple[str, Floats]] = {
 
 def forms_drawn(way: Floats) -> tuple[Form, ...]:
     """Return the readings of a stroke, the likeliest first."""
-    return forms_of(features_of(resample_stroke(way)))
+    return classification_of(resample_stroke(way)).forms
 
 
 @pytest.mark.parametrize(('primitive', 'way'), RULED.values(), ids=RULED)
@@ -180,7 +180,7 @@ def test_a_flat_circle_is_a_disc_and_the_other_form_is_offered(aspect: float, fo
     angle = np.linspace(0.0, 2.0 * math.pi, 60)
     flat = np.column_stack((np.cos(angle), aspect * np.sin(angle)))
 
-    first, second, *_ = forms_of(features_of(resample_stroke(flat)))
+    first, second, *_ = classification_of(resample_stroke(flat)).forms
 
     assert first.name == form
     assert {first.name, second.name} == {'disc', 'oval'}

@@ -24,7 +24,7 @@ from physsim_ros.drawing import (
 from physsim_ros.drawing.geometry import path_length, unit_vector
 from physsim_ros.drawing.strokes.choice import group_confidence
 from physsim_ros.drawing.strokes.features import features_of
-from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.forms import classification_of
 from physsim_ros.drawing.strokes.joining import joined_arrow
 from physsim_ros.drawing.strokes.plain_forms import fits_of
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
@@ -733,7 +733,7 @@ def corners_of(way: Way | Floats) -> float:
 
 def is_triangle(bow: float) -> bool:
     """Return whether a triangle whose sides are bowed outwards by a share has three corners."""
-    best = forms_of(features_of(resample_stroke(sampled(bowed(ring(3), bow)))))[0]
+    best = classification_of(resample_stroke(sampled(bowed(ring(3), bow)))).forms[0]
     return best.name == POLYGON and len(best.points) == 3
 
 
