@@ -51,14 +51,14 @@ _JOINED = CLOSED | ARROWS | {'anchor', 'motor'}
 _ON_BODIES, SLOWLY = frozenset({'anchor', 'velocity'}), 10.0
 
 
-def likeliest_group(
+def grouped(
     figures: Sequence[Figure],
     last: Figure,
     settings: DrawingSettings,
     clock: Callable[[], float],
-) -> Figure | None:
+) -> tuple[Figure, ...]:
     """
-    Return the last strokes as one figure, if that is better than each stroke by itself.
+    Return figures with a new stroke: as one with those just before it, if that is better.
 
     :param figures: drawn before, the earliest first
     :param last: the new one, of a single stroke
@@ -68,12 +68,13 @@ def likeliest_group(
     hatching = _is_hatching((*figures, last))
     for group in _groups(figures, last, settings):
         if clock() > began + MOST_TIME:
-            return None
+            break
         whole = _as_one(group, settings)
         if whole is not None and not (hatching and whole.meaning == 'anchor'):
             gestures = tuple(number for figure in group for number in figure.gestures)
-            return replace(whole, gestures=gestures)
-    return None
+            before = len(figures) + 1 - len(group)
+            return *figures[:before], replace(whole, gestures=gestures)
+    return *figures, last
 
 
 def _groups(
