@@ -17,17 +17,10 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import (
-    ARM,
-    COUNT,
-    Crossing,
-    intersections,
-    path_length,
-    smoothed,
-    turns,
-)
+from physsim_ros.drawing.geometry import Crossing, intersections, path_length
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import Limit
+from physsim_ros.drawing.strokes.resampled import ARM, COUNT, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, norms

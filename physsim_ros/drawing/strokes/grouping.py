@@ -20,7 +20,7 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import connected, few_points, size_of
+from physsim_ros.drawing.geometry import connected, size_of
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.figure import ARROWS, Figure, ON_SOLID
@@ -32,6 +32,7 @@ from physsim_ros.drawing.strokes.joining import (
     touch,
     touching,
 )
+from physsim_ros.drawing.strokes.resampled import few_points
 from physsim_ros.drawing.strokes.signs import x
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
 from physsim_ros.drawing.strokes.stages import Classification, CLOSED

@@ -15,11 +15,12 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import ARM, COUNT, path_length, point_of
+from physsim_ros.drawing.geometry import path_length, point_of
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import LEAST
 from physsim_ros.drawing.strokes.features import Features, FEWEST
+from physsim_ros.drawing.strokes.resampled import ARM, COUNT
 from physsim_ros.drawing.strokes.stages import BETWEEN, Context, End, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties

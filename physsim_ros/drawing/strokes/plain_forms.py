@@ -15,13 +15,14 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import loop_roundness, size_of, widened
+from physsim_ros.drawing.geometry import size_of
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.drawing.strokes.corner_detection import outline_corners, turning_within
 from physsim_ros.drawing.strokes.evidence import evidence, LEAST, Limit, probabilities
 from physsim_ros.drawing.strokes.features import Features, TREMOR
 from physsim_ros.drawing.strokes.fitting import Ellipse, traced
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
+from physsim_ros.drawing.strokes.resampled import loop_roundness, widened
 from physsim_ros.drawing.strokes.stages import DISC, Form, LINE, OVAL, POLYGON, RECTANGLE
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area

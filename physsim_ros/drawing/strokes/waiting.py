@@ -21,7 +21,7 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import few_points, middle_half, point_of
+from physsim_ros.drawing.geometry import point_of
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
@@ -31,6 +31,7 @@ from physsim_ros.drawing.strokes.grouping import arrow_of, cross_of, pause_betwe
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
 from physsim_ros.drawing.strokes.reading import guesses_of
+from physsim_ros.drawing.strokes.resampled import few_points, middle_half
 from physsim_ros.drawing.strokes.stages import Classification, GRAVITY, Reading
 from physsim_ros.model.body_description import new_body
 from physsim_ros.model.errors import Refusal

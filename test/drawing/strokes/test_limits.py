@@ -801,7 +801,7 @@ STAGES: dict[
         'corner_detection._CORNER_TURN', lambda it: corners_of(roofs(it)), (0.35, 0.43), (4, 6),
     ),
     'bow of a plank whose corners are four': (
-        'geometry._WIDE', lambda it: corners_of(bowed_plank(it)), (0.067, 0.075), (4, 3),
+        'resampled._WIDE', lambda it: corners_of(bowed_plank(it)), (0.067, 0.075), (4, 3),
     ),
     'lines of hatching': ('open_lines._HEAVIER', heavier, (1, 2), (1.25, 1.5625)),
     'height of one tooth above the others': (
@@ -814,7 +814,7 @@ STAGES: dict[
 RESOLUTION = {
     'stroke._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG', 'corner_detection._ALONG',
     'corner_detection._PARABOLA',
-    'geometry.COUNT', 'geometry.ARM', 'geometry._FEW', 'geometry._SMOOTHING', 'stroke._FINER',
+    'resampled.COUNT', 'resampled.ARM', 'resampled._FEW', 'resampled._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',
     'stages.MOST_GUESSES', 'grouping.MOST_TIME',
