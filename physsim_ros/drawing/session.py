@@ -15,6 +15,7 @@ import math
 import numpy as np
 from physsim_ros.drawing import copies
 from physsim_ros.drawing.click import ClickResult, Tool
+from physsim_ros.drawing.gesture import Gesture
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.choice import not_recognised
@@ -24,7 +25,6 @@ from physsim_ros.drawing.strokes.marks import mark_reading
 from physsim_ros.drawing.strokes.sketch import Sketch
 from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
-from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal
 from physsim_ros.model.names import split_name
