@@ -66,7 +66,7 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
     :raises WorldFull: the state is too large; nothing is changed
     :raises BadProperty: springs are too stiff for the steps; nothing is changed
     """
-    live.begin(request.state, live.step_count)
+    live.load(request.state)
     return Answer(message=load_message(request.state))
 
 
