@@ -162,15 +162,12 @@ class DrawingSession:
         :raises Refusal: the world cannot have its outcome
         """
         refusals: list[Refusal] = []
-        for figure in self._sketch.figures[-1:]:
-            for number in figure.other_guesses:
-                if meaning not in {'', figure.guesses[number].meaning}:
-                    continue
-                try:
-                    built, reading = self._sketch.built(number, self.settings)
-                except Refusal as refusal:
-                    refusals.append(refusal)
-                    continue
+        for number in self._sketch.other_guesses(meaning):
+            try:
+                built, reading = self._sketch.built(number, self.settings)
+            except Refusal as refusal:
+                refusals.append(refusal)
+            else:
                 return self._keep(built, reading, check)
         nothing = NotRecognised('there is no other reading of what was drawn last', field='poses')
         raise next(iter(refusals), nothing)

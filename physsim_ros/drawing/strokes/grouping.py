@@ -22,22 +22,16 @@ import math
 import numpy as np
 from physsim_ros.drawing.geometry import connected, size_of
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.figure import ARROWS, Figure, ON_SOLID
-from physsim_ros.drawing.strokes.forms import classification_of, sign_forms
+from physsim_ros.drawing.strokes.forms import arrow_of, cross_of, path_of
 from physsim_ros.drawing.strokes.joining import (
     are_sides,
-    joined_arrow,
     joined_strokes,
     touch,
     touching,
 )
 from physsim_ros.drawing.strokes.resampled import few_points
-from physsim_ros.drawing.strokes.signs import x
-from physsim_ros.drawing.strokes.signs.arrow import ARROW
 from physsim_ros.drawing.strokes.stages import Classification, CLOSED
-from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Join, Spawn
 
@@ -150,34 +144,8 @@ def _together(
         each.is_line or is_side(last, each, settings) or (each.is_arrow and len(each.strokes) > 1)
         for each in before
     ):
-        whole = _joined(joined_strokes(strokes))
         meanings = _JOINED if are_sides(strokes) else _JOINED - CLOSED
-        yield classification_of(whole), meanings
-
-
-def cross_of(strokes: Sequence[Floats]) -> Classification | None:
-    """Return strokes as one if they are an x of two lines, else None."""
-    cross = x.of_lines(strokes)
-    if cross is None:
-        return None
-    features = features_of(_joined(joined_strokes(strokes)))
-    return Classification(features=features, forms=(cross,))
-
-
-def arrow_of(strokes: Sequence[Floats]) -> Classification | None:
-    """Return strokes as one if they are a shaft and its head, else None."""
-    arrow = joined_arrow(strokes)
-    if arrow is None:
-        return None
-    features = features_of(_joined(arrow))
-    # The gaps between the parts are no evidence for other forms.
-    forms, _ = sign_forms(features, (ARROW,))
-    return Classification(features=features, forms=forms)
-
-
-def _joined(path: Floats) -> Stroke:
-    """Return joined strokes as one: another one may close a gap, which the ends do not tell."""
-    return replace(resample_stroke(path), relatability=0.0)
+        yield path_of(strokes), meanings
 
 
 def follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:

@@ -82,6 +82,17 @@ class Sketch:
         figures = *earlier, replace(figure, requests=requests)
         return Sketch(figures=figures, mark=mark), reading
 
+    def other_guesses(self, meaning: str = '') -> list[int]:
+        """
+        Return the numbers of the other guesses at the last figure, the next likely one first.
+
+        :param meaning: of the guesses; '' is any
+        """
+        if not self.figures:
+            return []
+        last = self.figures[-1]
+        return [each for each in last.other_guesses if meaning in {'', last.guesses[each].meaning}]
+
     def submitted(self, gesture: int) -> Sketch:
         """Return the sketch with the number of the gesture that its last figure became."""
         *earlier, last = self.figures

@@ -27,7 +27,8 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
 from physsim_ros.drawing.strokes.choice import is_likely, reading_of
 from physsim_ros.drawing.strokes.figure import Figure
-from physsim_ros.drawing.strokes.grouping import arrow_of, cross_of, pause_between, SLOWLY
+from physsim_ros.drawing.strokes.forms import arrow_of, cross_of
+from physsim_ros.drawing.strokes.grouping import pause_between, SLOWLY
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
 from physsim_ros.drawing.strokes.reading import guesses_of
