@@ -14,7 +14,7 @@ from typing import Any, Self, Unpack
 from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
-from physsim_ros.runtime.slices import at_once
+from physsim_ros.runtime.slices import finish
 from physsim_ros.testing.changed_world import ChangedWorld
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
 from physsim_ros.testing.context import own_context
@@ -79,7 +79,7 @@ class PhysSim(ChangedWorld):
         self.node.set_parameters([Parameter('world_file', value=str(path or world))])
         try:
             with refusals_as_refused():
-                at_once(self.node.world_files.load(confined=False))
+                finish(self.node.world_files.load(confined=False))
         except Refused as refused:
             if path is None:
                 looked = ', '.join(dict.fromkeys(map(str, paths)))

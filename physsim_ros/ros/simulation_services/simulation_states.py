@@ -18,7 +18,7 @@ from physsim_ros.model.requests import DeleteBodies
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.results import coded
 from physsim_ros.ros.simulation_services.worlds import Worlds
-from physsim_ros.runtime.slices import at_once, end_slice, in_slices
+from physsim_ros.runtime.slices import end_slice, finish, in_slices
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
@@ -195,7 +195,7 @@ class SimulationStates:
         )
 
     def _perform(self, service: str) -> str:
-        return at_once(in_slices(self._control.services[service].perform))
+        return finish(in_slices(self._control.services[service].perform))
 
     @property
     def _state(self) -> int:
