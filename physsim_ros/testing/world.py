@@ -107,7 +107,10 @@ class PhysSim(ChangedWorld):
         # Messages of the test's own publishers come first.
         self.settle()
         while frames > 0:
-            self._match_publishers(new=self._frames_to_look > 0)
+            if self._frames_to_look > 0:
+                self._match_new_publishers()
+            else:
+                self._match_publishers()
             # The test itself reads the last frame.
             made = self.node.pass_frames(min(frames - 1, self._frames_to_look))
             if not made:
@@ -226,16 +229,15 @@ class PhysSim(ChangedWorld):
         """
         self._executor.settle()
 
-    def _match_publishers(self, *, new: bool = False) -> None:
-        """
-        Connect robots with the publishers of their commands, as the node does by the wall clock.
+    def _match_publishers(self) -> None:
+        """Connect robots with the publishers of their commands, as the node does by the clock."""
+        self._frames_to_look = _LOOK_FRAMES
+        if self.node.fleet.match_publishers():
+            self.settle()
 
-        :param new: whether only a change of the number of publishers counts
-        """
-        fleet = self.node.fleet
-        if not new:
-            self._frames_to_look = _LOOK_FRAMES
-        if fleet.match_new_publishers() if new else fleet.match_publishers():
+    def _match_new_publishers(self) -> None:
+        """Connect robots whose number of publishers has changed, which costs little."""
+        if self.node.fleet.match_new_publishers():
             self.settle()
 
     # Recording
