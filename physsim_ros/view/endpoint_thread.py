@@ -14,6 +14,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 from enum import Enum
+import math
 import threading
 import time
 
@@ -79,7 +80,7 @@ class EndpointThread:
         self._earlier_drops, self._has_told_drops = 0, False
         self._is_silent = False
         # Steady times of the last progress, and until which the last frames are waited for [s].
-        self._progress, self._end_by = time.monotonic(), float('inf')
+        self._progress, self._end_by = time.monotonic(), math.inf
         self._ending = threading.Event()
         # Set once the endpoint is open, or could not be opened.
         self._tried = threading.Event()
@@ -150,14 +151,18 @@ class EndpointThread:
             message = f'{self._endpoint.address}: too slow, frames are missing'
             self._report(Answer(topic='viewer', message=message, code='frames_dropped'))
 
-    def end(self) -> None:
-        """Log the frames of the queue, then end the thread."""
+    def end(self, within: float = math.inf) -> None:
+        """
+        Log the frames of the queue, then end the thread.
+
+        :param within: time for that [s], at most `closing` of the endpoint
+        """
         if not self._ending.is_set():
-            self._end_by = time.monotonic() + self._endpoint.closing
+            self._end_by = time.monotonic() + min(within, self._endpoint.closing)
             self._ending.set()
 
     def join(self) -> bool:
-        """Wait for the end, at most the endpoint's time for `closing`; return whether it came."""
+        """Wait for the end, as long as there is time for it; return whether it came."""
         self.end()
         self._thread.join(max(0.0, self._end_by - time.monotonic()))
         return self.has_ended
@@ -167,7 +172,7 @@ class EndpointThread:
             while True:
                 try:
                     self._log()
-                    self._endpoint.complete()
+                    self._endpoint.complete(self._end_by)
                 except ConnectionError as error:
                     self._fail(str(error))
                 except ImportError as error:
