@@ -689,11 +689,11 @@ def test_no_message_is_carried_out_within_another(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     control, take, handle = browser.physsim.node.control, Inbox.take, PageSession.handle
-    control.set_speed(0.0)
+    control.time.set_speed(0.0)
     taken, within = [], []
 
     async def step() -> tuple[Answer, ...]:
-        control.advance_frame()
+        control.time.advance_frame()
         return ()
 
     def take_noted(inbox: Inbox) -> Any:
