@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
-from physsim_ros.files import MOST_BYTES, read_bytes
+from physsim_ros.files import kind_of, MOST_BYTES, read_bytes
 from physsim_ros.model.checks import shown, Whole, Within
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.transform import Point, Pose
@@ -45,6 +45,11 @@ class Content:
             raise BadContent(f'{place or "it"} must be a mapping, not {shown(value)}')
         self._values = value
         self._place = place
+
+    @property
+    def kind(self) -> str:
+        """Return the kind of file that has these keys; '' for any other."""
+        return kind_of(self._values)
 
     def __contains__(self, key: str) -> bool:
         return key in self._values
@@ -123,16 +128,21 @@ def load(path: Path) -> Content:
     :raises OSError: it cannot be read
     :raises BadContent: it is no YAML, or no mapping
     """
-    return parsed(read_bytes(path, MOST_BYTES), path.name)
+    return Content(parsed(read_bytes(path, MOST_BYTES), path.name), path.name)
 
 
-def parsed(text: bytes, name: str) -> Content:
-    """Return the content of a text; parameters and errors are as of `load`."""
+def parsed(text: bytes, name: str) -> object:
+    """
+    Return the value that a text in YAML or JSON stands for.
+
+    :param name: of its file, for messages
+    :raises BadContent: it is no YAML
+    """
     try:
-        value = yaml.safe_load(text)
+        value: object = yaml.safe_load(text)
     except (yaml.YAMLError, ValueError, OverflowError, RecursionError) as error:
         raise BadContent(f'{name} is no valid YAML: {error}') from error
-    return Content(value, name)
+    return value
 
 
 def numbers(value: object, place: str) -> list[float]:

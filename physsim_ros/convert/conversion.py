@@ -120,10 +120,8 @@ def shape_of(pieces: Sequence[Piece], conversion: Conversion) -> tuple[dict[str,
     discs = [piece for piece in pieces if isinstance(piece, Circle)]
     if len(discs) == len(pieces) and len({disc.radius for disc in discs}) == 1:
         centers = [list(disc.center) for disc in discs]
-        return {'compound': {'circle': {'radius': discs[0].radius}, 'centers': centers}}, (
-            0.0,
-            0.0,
-        )
+        compound = {'circle': {'radius': discs[0].radius}, 'centers': centers}
+        return {'compound': compound}, (0.0, 0.0)
     triangles: list[list[float]] = []
     for piece in pieces:
         if isinstance(piece, Line):
@@ -131,7 +129,7 @@ def shape_of(pieces: Sequence[Piece], conversion: Conversion) -> tuple[dict[str,
             continue
         if isinstance(piece, Circle):
             conversion.leave_out(f'a disc of a larger body has {_CORNERS} corners')
-            piece = disc_outline(piece)  # noqa: PLW2901 - the same, as corners
+            piece = disc_outline((piece.radius, piece.radius), piece.center)  # noqa: PLW2901 - the same, as corners
         first, *rest = piece.vertices
         for second, third in itertools.pairwise(rest):
             triangles += [list(first), list(second), list(third)]
@@ -143,11 +141,11 @@ def line_shape(points: Sequence[Point]) -> dict[str, object]:
     return {'chain': {'points': [list(point) for point in points], 'thickness': THICKNESS}}
 
 
-def disc_outline(circle: Circle, flat: float = 1.0) -> Convex:
-    """Return the outline of a disc, or of an ellipse whose height is `flat` times its width."""
-    (x, y), r = circle.center, circle.radius
+def disc_outline(radii: Point, center: Point = (0.0, 0.0)) -> Convex:
+    """Return the outline of an ellipse, by half its width and half its height [m]."""
+    (x, y), (a, b) = center, radii
     angles = [math.tau * i / _CORNERS for i in range(_CORNERS)]
-    return Convex(tuple((x + r * math.cos(a), y + flat * r * math.sin(a)) for a in angles))
+    return Convex(tuple((x + a * math.cos(each), y + b * math.sin(each)) for each in angles))
 
 
 def area_of(piece: Piece) -> float:
@@ -179,4 +177,3 @@ def _next_name(name: str, counts: Counter[str]) -> str:
     plain = re.sub(r'[^\w.-]+', '_', name) or 'body'
     counts[plain] += 1
     return f'{plain}/{counts[plain] - 1}'
-
