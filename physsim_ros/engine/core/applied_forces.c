@@ -30,7 +30,7 @@ static Twist steady_lead(const World *world, const Body *body) {
     // Quotients, as in Python, so that a velocity that is set is reported to the bit.
     Vec change = vec(body->wrench.v.x / engine->m, body->wrench.v.y / engine->m);
     Twist gained = {add(world->space->gravity, change), body->wrench.w / engine->i};
-    return twist_sum(body->state.field, gained, world->dt / 2.0);
+    return twist_plus(body->state.field, gained, world->dt / 2.0);
 }
 
 void find_leads(World *world, bool changed) {
@@ -52,7 +52,7 @@ void find_leads(World *world, bool changed) {
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
         Twist change = {scaled(wrench.v, engine->m_inv), wrench.w * engine->i_inv};
-        body->state.lead = twist_sum(body->state.lead, change, world->dt / 2.0);
+        body->state.lead = twist_plus(body->state.lead, change, world->dt / 2.0);
     }
 }
 

@@ -159,7 +159,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
     Twist before = twist_of(engine);
-    before = body->state.free ? twist_sum(before, body->state.lead, -1.0) : before;
+    before = body->state.free ? twist_plus(before, body->state.lead, -1.0) : before;
     // What the step brings without the floor: damping, gravity, forces of commands and hands.
     Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
                    before.w * kept + engine->t * angular};
@@ -168,23 +168,23 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     Twist expected = twist_scaled(body->state.push, share);
     double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
-    Twist next = twist_sum(after, expected, 1.0);
+    Twist next = twist_plus(after, expected, 1.0);
     if (body->towed) {
         double yaw = body->scratch.begin.yaw, turn = next.w * dt;
         end = twist_of_axle(body, next, yaw + turn);
-        Twist sum = twist_sum(before, end, 1.0);
+        Twist sum = twist_plus(before, end, 1.0);
         mean = twist_of_axle(body, twist_scaled(sum, 0.5), yaw + turn / 2.0);
     }
-    Twist slip = twist_sum(next, end, -1.0);
+    Twist slip = twist_plus(next, end, -1.0);
     body->scratch.slides = square(slip, surface) > 1.0;
     Twist change = body->scratch.slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
     Twist as_moved = mean;
     if (body->scratch.slides) {
-        Twist sum = twist_sum(twist_sum(before, after, 1.0), twist_sum(expected, change, 1.0), 1.0);
+        Twist sum = twist_plus(twist_plus(before, after, 1.0), twist_plus(expected, change, 1.0), 1.0);
         as_moved = twist_scaled(sum, 0.5);
     }
     body->scratch.under = mean;
-    body->scratch.without_contacts = twist_sum(after, change, 1.0);
+    body->scratch.without_contacts = twist_plus(after, change, 1.0);
     if (!sleeps(body)) {
         set_twist(engine, as_moved);
         Vec added = add(scaled(sub(before.v, as_moved.v), kept), change.v);
@@ -227,7 +227,7 @@ void apply_floor(World *world) {
         Driving driving = driving_of(world, place, &robot, &actor);
         if (body->braking > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
-            Twist mean = twist_sum(driving.mean, belt, 1.0), end = twist_sum(driving.end, belt, 1.0);
+            Twist mean = twist_plus(driving.mean, belt, 1.0), end = twist_plus(driving.end, belt, 1.0);
             drag(world, body, mean, end);
         }
     }
@@ -246,7 +246,7 @@ void find_floor_pushes(World *world) {
         // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in
         // turns.
         Twist push =
-            twist_sum(twist_sum(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
+            twist_plus(twist_plus(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
         push = twist_scaled(push, 0.5);
         double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
         body->state.push = sleeps(body) || size < least_push ? (Twist){0} : push;

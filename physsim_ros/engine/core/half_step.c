@@ -72,7 +72,7 @@ static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
 // The velocity of a body that begins or ceases to fly.
 static Twist with_lead(const Body *body, bool flies) {
     double sign = (double)flies - (double)body->state.free;
-    return twist_sum(twist_of(body->engine), body->state.lead, sign);
+    return twist_plus(twist_of(body->engine), body->state.lead, sign);
 }
 
 static void forget_impulses(const Body *body) {
@@ -120,7 +120,7 @@ void begin_half_step(World *world) {
         if (free[place] != body->state.free) {
             world->chipmunk.body_activate(body->engine);
             Twist twist = with_lead(body, free[place]);
-            set_twist(body->engine, changes == NULL ? twist : twist_sum(twist, changes[place], 1.0));
+            set_twist(body->engine, changes == NULL ? twist : twist_plus(twist, changes[place], 1.0));
             body->state.free = free[place];
         }
         if (unsupported[place]) {
@@ -171,7 +171,7 @@ void find_free(World *world) {
             continue;
         }
         Twist after = twist_of(body->engine), flown = body->state.lead;
-        flown = twist_sum(twist_scaled(body->scratch.twist, world->own->kept), flown, 2.0);
+        flown = twist_plus(twist_scaled(body->scratch.twist, world->own->kept), flown, 2.0);
         body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
                            fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
                            fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));
@@ -207,7 +207,7 @@ void core_observe(World *world, Pose *poses, Twist *twists) {
         poses[place] = pose;
         Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, flies[place]);
         // The same sum as in a space that is built from this state, to the bit.
-        twists[place] = flies[place] ? twist_sum(twist, body->state.lead, -1.0) : twist;
+        twists[place] = flies[place] ? twist_plus(twist, body->state.lead, -1.0) : twist;
     }
 }
 

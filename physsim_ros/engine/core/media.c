@@ -214,8 +214,8 @@ static void add_drag(FluidForce *fluid, const Share *shares, int count, Twist tw
     for (int number = 0; number < count; number++) {
         const Share *share = shares + number;
         if (resists(share->medium)) {
-            Drag drag = drag_of(&share->wet, share->medium, twist_sum(twist, share->current, -1.0));
-            fluid->steady = twist_sum(fluid->steady, drag_at(drag, share->current), share->sign);
+            Drag drag = drag_of(&share->wet, share->medium, twist_plus(twist, share->current, -1.0));
+            fluid->steady = twist_plus(fluid->steady, drag_at(drag, share->current), share->sign);
             fluid->drag = drag_sum(fluid->drag, drag, share->sign);
             fluid->has_drag = true;
         }
@@ -232,8 +232,8 @@ static void fit_drag(FluidForce *fluid, const cpBody *engine, double lapse) {
 static Twist twist_after(FluidForce fluid, const Share *shares, int count, const Flight *flight, const cpBody *engine) {
     add_drag(&fluid, shares, count, flight->guess);
     Symmetric inverse = inverse_with(fluid.drag, flight->ahead, engine);
-    Twist all = twist_sum(twist_sum(fluid.steady, flight->others, 1.0), drag_at(fluid.drag, flight->now), -1.0);
-    return twist_sum(flight->now, symmetric_product(inverse, all), flight->ahead);
+    Twist all = twist_plus(twist_plus(fluid.steady, flight->others, 1.0), drag_at(fluid.drag, flight->now), -1.0);
+    return twist_plus(flight->now, symmetric_product(inverse, all), flight->ahead);
 }
 
 // A disc around a body, and how many basins are found that it reaches.
@@ -291,12 +291,12 @@ FluidForce fluid_force(World *world, const Media *media, Body *body, Pose pose, 
     }
     FluidForce fluid = {.found = true};
     for (int number = 0; number < count; number++) {
-        fluid.steady = twist_sum(fluid.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
+        fluid.steady = twist_plus(fluid.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
     }
     Twist guess = flight->guess;
     if (flight->free && count > 0) {
         Twist after = twist_after(fluid, shares, count, flight, body->engine);
-        guess = twist_sum(guess, twist_sum(after, guess, -1.0), 0.5);
+        guess = twist_plus(guess, twist_plus(after, guess, -1.0), 0.5);
     }
     add_drag(&fluid, shares, count, guess);
     if (fluid.has_drag) {
@@ -321,8 +321,8 @@ Twist mean_fluid_force(const FluidForce *fluid, const cpBody *engine, Twist twis
         return fluid->steady;
     }
     // M a = others + steady - D (q + a t), solved for the acceleration a.
-    Twist all = twist_sum(twist_sum(fluid->steady, others, 1.0), drag_at(fluid->drag, twist), -1.0);
+    Twist all = twist_plus(twist_plus(fluid->steady, others, 1.0), drag_at(fluid->drag, twist), -1.0);
     Twist acceleration = symmetric_product(fluid->inverse, all);
     Twist force = {scaled(acceleration.v, engine->m), acceleration.w * engine->i};
-    return twist_sum(force, others, -1.0);
+    return twist_plus(force, others, -1.0);
 }

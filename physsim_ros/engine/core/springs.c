@@ -104,7 +104,7 @@ static void push_ends(const Spring *spring, double impulse, const bool *pulled, 
     int ends[2] = {spring->joint->a, spring->joint->b};
     for (int end = 0; end < 2; end++) {
         if (pulled[ends[end]]) {
-            changes[ends[end]] = twist_sum(changes[ends[end]], spring->units[end], impulse);
+            changes[ends[end]] = twist_plus(changes[ends[end]], spring->units[end], impulse);
         }
     }
 }
@@ -124,7 +124,7 @@ void pull_springs(World *world, const bool *pulled, Twist *changes, double lapse
         int ends[2] = {spring->joint->a, spring->joint->b};
         Twist twists[2];
         for (int end = 0; end < 2; end++) {
-            twists[end] = twist_sum(true_twist(world->bodies[ends[end]].engine), changes[ends[end]], 1.0);
+            twists[end] = twist_plus(true_twist(world->bodies[ends[end]].engine), changes[ends[end]], 1.0);
         }
         double speed = link_rate(spring->jacobian, (Ends){0, 1}, twists);
         double unit = link_rate(spring->jacobian, (Ends){0, 1}, spring->units);
