@@ -250,7 +250,7 @@ enum {
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
     ROW_ALONG,    // displacement of the first anchor along that axis [m]
-    ROW_ROLL,     // the same, and radius (yaw_a - yaw_b) [m]
+    ROW_ROLL,     // the same, and ratio (yaw_a - yaw_b) [m]
     ROW_PATH      // length of a rope past its guides [m]
 };
 
@@ -279,6 +279,7 @@ typedef struct Row {
     double rate;             // of x where it is driven, of the upper bound elsewhere [m/s, rad/s]
     double least, greatest;  // upper bound that such a rate leads to [m]
     double offset;           // of a path, the length that is added to it [m]
+    double ratio;            // of an angle; of a rack, the radius of its pinion [m]
     double stiffness;        // of a spring [N/m, N m/rad]
     double damping;          // of a spring, with what its stiffness adds to it [N s/m, N m s/rad]
     int32_t first_guide, guide_count;
@@ -334,7 +335,6 @@ typedef struct Joint {
     double anchor_a[2]; // in the frame of the first body, its origin the centre of mass [m]
     double anchor_b[2]; // the same in the frame of the second
     double axis[2];     // unit vector of a slider or a rack in the frame of the second body
-    double ratio;       // of a gear; of a rack, the radius of its pinion [m]
     double most;        // impulse in a step beyond which it breaks [N s, N m s]
     uint8_t has_axis;   // the direction from its first to its second point is an axis of the second body
     uint8_t presses;    // its first part may push the bodies apart
