@@ -33,7 +33,7 @@ static void find_fluid_force(World *world, const Media *media, Body *body, doubl
     Twist now = true_twist(engine), change = {0};
     if (body->state.free) {
         // It goes on with the acceleration that is half in its lead.
-        change = body->state.lead;
+        change = body->scratch.lead;
     }
     Pose pose = moved(pose_of(engine), twist_plus(now, change, ahead / world->dt), ahead);
     Flight flight = {body->state.free, ahead, now, twist_plus(now, change, 2.0 * ahead / world->dt),

@@ -79,9 +79,14 @@ static Twist friction(Twist slip, LimitSurface surface) {
                    -slip.w * surface.most_turning / (remaining + surface.most_turning)};
 }
 
+typedef struct Conveyor {
+    const Body *body;
+    Twist twist; // before the floor acts on it
+} Conveyor;
+
 // The conveyors of a world, in the order of their bodies, and the boxes about them.
 typedef struct Conveyors {
-    const Body **list;
+    Conveyor *list;
     int count;
     Tree tree;
 } Conveyors;
@@ -96,7 +101,7 @@ static Conveyors conveyors_of(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         conveyors.count += is_conveyor(world->bodies + place);
     }
-    conveyors.list = TAKE(arena, const Body *, conveyors.count);
+    conveyors.list = TAKE(arena, Conveyor, conveyors.count);
     Box *boxes = TAKE(arena, Box, conveyors.count);
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
@@ -104,7 +109,7 @@ static Conveyors conveyors_of(World *world) {
         if (is_conveyor(body)) {
             Vec reach = vec(body->reach, body->reach);
             boxes[count] = (Box){sub(body->scratch.begin.p, reach), add(body->scratch.begin.p, reach)};
-            conveyors.list[count++] = body;
+            conveyors.list[count++] = (Conveyor){body, twist_of(body->engine)};
         }
     }
     conveyors.tree = tree_of(boxes, count, arena);
@@ -120,7 +125,7 @@ typedef struct Under {
 
 static bool find_under(int number, void *data) {
     Under *under = data;
-    const Body *conveyor = under->conveyors->list[number];
+    const Body *conveyor = under->conveyors->list[number].body;
     bool may_be = conveyor != under->body && number > under->last;
     if (may_be && body_covers(conveyor->engine, conveyor->scratch.begin, under->body->scratch.begin.p)) {
         under->last = number;
@@ -135,10 +140,11 @@ static Twist conveyed(const Conveyors *conveyors, const Body *body) {
     if (under.last < 0) {
         return (Twist){0};
     }
-    const Body *conveyor = conveyors->list[under.last];
-    Vec surface = rotated(conveyor->surface, rotation(conveyor->scratch.begin.yaw));
-    Vec arm = sub(body->scratch.begin.p, conveyor->scratch.begin.p);
-    return (Twist){add(velocity_at(conveyor->scratch.twist, arm), surface), conveyor->scratch.twist.w};
+    const Conveyor *conveyor = conveyors->list + under.last;
+    Pose begin = conveyor->body->scratch.begin;
+    Vec surface = rotated(conveyor->body->surface, rotation(begin.yaw));
+    Vec arm = sub(body->scratch.begin.p, begin.p);
+    return (Twist){add(velocity_at(conveyor->twist, arm), surface), conveyor->twist.w};
 }
 
 // The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
@@ -159,7 +165,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
     Twist before = twist_of(engine);
-    before = body->state.free ? twist_plus(before, body->state.lead, -1.0) : before;
+    before = body->state.free ? twist_plus(before, body->scratch.lead, -1.0) : before;
     // What the step brings without the floor: damping, gravity, forces of commands and hands.
     Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
                    before.w * kept + engine->t * angular};
@@ -176,10 +182,10 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
         mean = twist_of_axle(body, twist_scaled(sum, 0.5), yaw + turn / 2.0);
     }
     Twist slip = twist_plus(next, end, -1.0);
-    body->scratch.slides = square(slip, surface) > 1.0;
-    Twist change = body->scratch.slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
+    bool slides = square(slip, surface) > 1.0;
+    Twist change = slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
     Twist as_moved = mean;
-    if (body->scratch.slides) {
+    if (slides) {
         Twist sum = twist_plus(twist_plus(before, after, 1.0), twist_plus(expected, change, 1.0), 1.0);
         as_moved = twist_scaled(sum, 0.5);
     }
