@@ -5,8 +5,8 @@
 A ball on a drawn track loses what the corners of the track take, and no more.
 
 At a corner of an angle d, a ball without elasticity keeps cos d of its speed. On a track whose
-corners are closer than the ball's way in a step, the steps are the corners. Law 6: what bounces on a
-smooth straight track keeps its velocity along it.
+corners are closer than the ball's way in a step, the steps are the corners. Law 6: what bounces on
+a smooth straight track keeps its velocity along it.
 """
 
 import math

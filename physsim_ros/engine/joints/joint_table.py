@@ -275,7 +275,8 @@ def _rows_of(each: EngineJoint, damping: float, dt: float) -> _Rows:
             most = math.inf if greatest is None else greatest * dt * abs(row.above)
             spring = (each.joint.stiffness, damping) if row.law == lib.LAW_SPRING else (0.0, 0.0)
             bounds = row.lower, row.upper, row.below, row.above, most, row.rate, *row.reach
-            fields = (row.kind, row.law, number, component, *bounds, row.offset, row.ratio, *spring)
+            geometry = row.offset, row.ratio
+            fields = (row.kind, row.law, number, component, *bounds, *geometry, *spring)
             rows.append((fields, row.guides))
     return rows
 
