@@ -67,7 +67,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     set_overlap_biases(world);
     move_belts(world);
     order_points(world);
-    bound_loads(world);
+    list_load_bounds(world);
     time_impacts(world);
     defer_contacts(world);
     damp_steep_friction(world);
@@ -177,7 +177,7 @@ static bool begin_step(World *world, CallTime *time) {
 }
 
 static void end_step(World *world) {
-    find_broken(world);
+    find_broken_joints(world);
     find_lost(world);
     world->step++;
     world->age++;
