@@ -79,7 +79,7 @@ class PhysSim(ChangedWorld):
         self.node.set_parameters([Parameter('world_file', value=str(path or world))])
         try:
             with refusals_as_refused():
-                at_once(self.node.world_files.load(confined=False))
+                at_once(self.node.world_files.load(str(path or world), confined=False))
         except Refused as refused:
             if path is None:
                 looked = ', '.join(dict.fromkeys(map(str, paths)))

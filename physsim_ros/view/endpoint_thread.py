@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+import math
 import threading
 import time
 
@@ -70,7 +71,7 @@ class EndpointThread:
         self._known_drops = 0.0
         self._is_silent = False
         # Steady times of the last progress, and until which the last frames are waited for [s].
-        self._progress, self._end_by = time.monotonic(), float('inf')
+        self._progress, self._end_by = time.monotonic(), math.inf
         self._ending = threading.Event()
         # Set once the endpoint is open, or could not be opened.
         self._tried = threading.Event()
@@ -137,18 +138,22 @@ class EndpointThread:
             self._is_silent = True
             self._fail(f'no answer for {SILENT_AFTER:g} s')
         if self.is_open and self._dropped > self._known_drops:
-            self._known_drops = float('inf')
+            self._known_drops = math.inf
             message = f'{self._endpoint.address}: too slow, frames are missing'
             self._report(Answer(topic='viewer', message=message, code='frames_dropped'))
 
-    def end(self) -> None:
-        """Log the frames of the queue, then end the thread."""
+    def end(self, within: float = math.inf) -> None:
+        """
+        Log the frames of the queue, then end the thread.
+
+        :param within: time for that [s], at most `closing` of the endpoint
+        """
         if not self._ending.is_set():
-            self._end_by = time.monotonic() + self._endpoint.closing
+            self._end_by = time.monotonic() + min(within, self._endpoint.closing)
             self._ending.set()
 
     def join(self) -> bool:
-        """Wait for the end, at most the endpoint's time for `closing`; return whether it came."""
+        """Wait for the end, as long as there is time for it; return whether it came."""
         self.end()
         self._thread.join(max(0.0, self._end_by - time.monotonic()))
         return self.has_ended
@@ -158,7 +163,7 @@ class EndpointThread:
             while True:
                 try:
                     self._log()
-                    self._endpoint.complete()
+                    self._endpoint.complete(self._end_by)
                 except ConnectionError as error:
                     self._fail(str(error))
                 except ImportError as error:

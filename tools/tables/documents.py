@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The files that repeat declarations: tables of the interface, the file of parameters, their types.
+The files that repeat declarations: tables of the interface, parameters, types, a script.
 
-In the interface and in the types, such a part stands between two comments, which name it.
+In documents, types and scripts, such a part stands between two comments, which name it.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import textwrap
 from typing import Any
 
 import physsim_ros
+from physsim_ros.appearance.joint_strips import SYMBOLS
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.actors import ACTORS, Start
 from physsim_ros.model.applied_forces import AppliedForce
@@ -75,13 +76,16 @@ def files() -> dict[Path, str]:
         'cheat_sheet': {'keys of the page': cheat_sheet.tables()},
     }
     pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
-    types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'
+    package = ROOT / 'physsim_ros'
+    types = package / 'testing' / 'parameters.py'
+    script = package / 'sketchpad' / 'page' / 'view' / 'joint_view.js'
     return {
         **{
             page: with_parts(page, parts, '<!-- {}: made by `make tables` -->')
             for page, parts in pages.items()
         },
         types: with_parts(types, _types(), '# {}: made by `make tables`'),
+        script: with_parts(script, {'symbols': _symbols()}, '// {}: made by `make tables`'),
         ROOT / 'config' / 'physsim.yaml': _YAML_HEAD + '\n'.join(_yaml()),
     }
 
@@ -305,6 +309,11 @@ def _yaml_value(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return "''" if value == '' else str(value)
+
+
+def _symbols() -> str:
+    """Return the counts of the symbols of joints, for the script that draws them on the page."""
+    return f'const {", ".join(f"{name} = {number}" for name, number in SYMBOLS.items())};\n'
 
 
 def _types() -> dict[str, str]:
