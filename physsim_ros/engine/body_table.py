@@ -5,7 +5,7 @@
 The tables of bodies that the core steps: a row each in spawn order, the background last.
 
 Who writes a field of `Body` in `core/core.h`: `_body_records` what follows from the scene,
-`BodyTable` the address of the engine's body, wrench and state, and the core `ties` and `scratch`.
+`BodyTable` the address of the engine's body, wrench and state, and the core all others.
 """
 
 from __future__ import annotations
