@@ -248,7 +248,7 @@ class RequestQueue:
                     case Answer() as answer:
                         self.answers.append(answer)
                     case Refusal() as refusal:
-                        self._playback.changed = True
+                        self._playback.note_change()
                         self._answer(refusal, entry)
                     case Call() as call:
                         self._has_jumped = False
@@ -261,7 +261,7 @@ class RequestQueue:
                         message = self.seek(stamp)
                         self._answer_arrival = partial(self._answer_seek, entry.origin, message)
                     case request:
-                        self._playback.changed = True
+                        self._playback.note_change()
                         entry.origin.check()
                         if isinstance(request, Unread):
                             request = request.convert()
@@ -398,7 +398,7 @@ class RequestQueue:
 
     def note_jump(self) -> None:
         """Show the moment to which something else than a seek has sent the cursor."""
-        self._playback.frames_due = 0
+        self._playback.drop_frames()
         self._playback.note_jump()
         self._has_jumped = True
         self._supersede('jump')
@@ -421,7 +421,7 @@ class RequestQueue:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
         if events := self.hands.release_grips():
             self.answers += events
-            self._playback.changed = True
+            self._playback.note_change()
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, and drop them."""
