@@ -315,8 +315,8 @@ class FrameMaker:
     def _is_frame_due(self) -> bool:
         """Whether a frame of now is to be made, after steps."""
         view = self._view
-        told = self.playback.changed or self.requests.answers or self.past.reports
-        if self.is_read or told or view is None:
+        is_told = self.playback.changed or self.requests.has_answers
+        if self.is_read or is_told or view is None:
             return True
         most = UNREAD_PERIODS * self.frame_steps * max(1.0, abs(self.speed))
         passed = abs(self.step - view.snapshot.step)
@@ -364,13 +364,10 @@ class FrameMaker:
         snapshot, contacts = playback.observe_frame()
         requests.note_arrival()
         past.fit_memory(playback.moment)
-        if past.reports:
-            requests.answers += past.reports
-            past.reports.clear()
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if past.reports_contacts else None,
-            answers=requests.take_answers() if requests.answers else (),
+            answers=requests.take_answers(),
             speed=playback.speed,
             stepped=playback.stepped,
             past=self.is_past,

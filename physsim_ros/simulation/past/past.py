@@ -118,6 +118,12 @@ class Past:
         """
         return self.steps_in(_SPAN(seconds, name))
 
+    def take_reports(self) -> tuple[Answer, ...]:
+        """Return the events without a request since the last call."""
+        reports = tuple(self.reports)
+        self.reports.clear()
+        return reports
+
     def free_slice(self) -> None:
         """Free a part of what worlds were before they were replaced."""
         for world in self._worlds:
