@@ -273,11 +273,8 @@ class World(LiveSpace):
 
     def reapply(self, request: Request) -> None:
         """Do as `slices_of_reapplying` at once."""
-        self.capacity.checking = False
-        try:
+        with self.capacity.unchecked():
             self.apply(request)
-        finally:
-            self.capacity.checking = True
 
     @property
     def is_within_step(self) -> bool:
