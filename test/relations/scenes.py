@@ -537,6 +537,25 @@ def kinematic_pusher():
     return sim
 
 
+# Laws 75 and 76: what rises through one-way platforms, falls onto them, and rolls to rest
+
+
+def platforms():
+    sim = simulation()
+    walls(sim, -4.0, 0.0, 4.0, 12.0)
+    for number in range(3):
+        said = {'anchored': True, 'one_way': (0.0, 1.0), 'closed_sides': number == 1}
+        pose = (number - 1.0, 1.0 + number, 0.1 * number)
+        spawn(sim, f'platform/{number}', Box(width=3.0, height=0.2), pose, **said)
+    wedge = Polygon(outline=((-0.2, -0.1), (0.2, -0.1), (-0.1, 0.2)))
+    shapes = (Disc(radius=0.2), Box(width=0.4, height=0.3), wedge)
+    for number in range(5):
+        said = {'velocity': (0.2 - 0.1 * number, 9.0), 'rolling_resistance': 0.05}
+        pose = (1.3 * number - 2.6, 0.4, 0.1 * number)
+        spawn(sim, f'thrown/{number}', shapes[number % 3], pose, **said)
+    return sim
+
+
 # Laws 37 to 41 and 51 to 54: floors seen from above, robots, people, applied forces
 
 
@@ -711,6 +730,7 @@ def _laws():
         'pendulum beside a damper': Scene(build=partial(pendulum_beside_damper, 0.1)),
         'cradle': Scene(build=cradle),
         'balls on rods': Scene(build=partial(balls_on_rods, 30.0)),
+        'one-way platforms': Scene(build=platforms, seconds=2.5),
         'four bars': Scene(build=four_bars),
         'chain of 5': Scene(build=partial(hanging_chain, 5)),
         'chain of 30': Scene(build=partial(hanging_chain, 30)),
