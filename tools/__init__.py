@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Programs that measure, disturb and draw the package; the targets of `make` run them.
+Programs that measure, disturb and draw the package, run by targets of `make` or `python -m`.
 
 They use the helpers of `test/`; tests of them are in `test/tools/`.
 """

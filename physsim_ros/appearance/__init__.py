@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The look of joints and scans in every picture: lines, symbols, colours, points, as arrays.
+The look of joints and scans: line strips, symbols, colours and points, as arrays.
 
-`picture` draws a world by Pillow, for a program without a window.
-
-Markers for RViz (`ros`), recordings for Rerun (`view`) and the page (`sketchpad`) are drawn with
-these; neither ROS nor Rerun is imported here. Start with `joint_glyphs`, which has the lines
-of each kind.
+Markers for RViz (`ros`), recordings for Rerun (`view`) and the small pictures of world files
+(`sketchpad`) have the joints of `JointGlyphs`; the page draws joints by symbols of its own, and
+takes the scans. `picture` draws a world by Pillow, for a program without a window. Neither ROS nor
+Rerun is imported here. Start with `joint_strips`, which has the lines of each kind.
 """
 
 from physsim_ros.appearance.joint_colors import (
@@ -18,7 +17,7 @@ from physsim_ros.appearance.joint_colors import (
     PUSH,
     SLATE,
 )
-from physsim_ros.appearance.joint_lines import JointGlyphs, segment_corners, Symbol
+from physsim_ros.appearance.joint_glyphs import JointGlyphs, segment_corners, Symbol
 from physsim_ros.appearance.laser_scans import LaserScans
 from physsim_ros.appearance.picture import picture_of
 

@@ -5,7 +5,7 @@
 The parameters of a running node.
 
 Laws: a parameter that is set takes effect before the next frame, and is refused if it cannot;
-after each frame the parameters equal the settings of the world, whichever of the two was changed.
+after each frame the parameters equal settings and speed of the world, whichever was changed.
 """
 
 from __future__ import annotations
@@ -106,9 +106,9 @@ class LiveParameters:
 
     def show(self, _: Frame) -> None:
         """Set the parameters to the settings and speed of the world at a frame."""
-        self.mirror_settings()
+        self.mirror_world()
 
-    def mirror_settings(self) -> None:
+    def mirror_world(self) -> None:
         """Set the parameters to the settings and speed of the world."""
         settings, mirrored = self._simulation.settings, self._mirrored
         if settings is not mirrored:
@@ -165,4 +165,5 @@ class LiveParameters:
                 effect()
 
     def _run_at_speed(self) -> None:
-        self._simulation.speed = self.values['speed']
+        if self._simulation.speed != self.values['speed']:
+            self._simulation.speed = self.values['speed']

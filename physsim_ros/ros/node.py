@@ -19,6 +19,7 @@ from typing import Any
 from physsim_ros.drawing import DrawingSession, Tool
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import PhysSimError
+from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.texts import counted
 from physsim_ros.ros import parameters
@@ -35,8 +36,10 @@ from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.simulation_services import create_simulation_services
+from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -114,7 +117,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._create_outputs()
         self._create_doors()
         self._live.effects['viewer'] = self._open_viewer
-        self._live.mirror_settings()
+        self._live.mirror_world()
         self._pages = Pages(self, self.outputs, self.control, self.loop, self._live)
 
     def _create_world(self) -> None:
@@ -158,18 +161,26 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.request_topics = topics = RequestTopics(self, simulation.requests, boundary, frame_id)
         self.diagnostics = Diagnostics(self, simulation, outputs, topics, boundary)
         drawing = DrawingTopics(topics, simulation, self._session, frame_id=frame_id, loop=loop)
+        time_control = TimeControl(simulation, loop, outputs.statistics, self._values)
+        time_control.subscribe(topics)
+        services = {
+            **time_control.services,
+            **self.world_files.services,
+            'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
+            'instead': Service(drawing.read_instead),
+        }
         self.control = control = NodeControl(
             simulation,
+            time_control,
+            services,
             loop=loop,
             outputs=outputs,
             world_files=self.world_files,
             live=self._live,
             boundary=boundary,
         )
-        control.services['instead'] = Service(drawing.read_instead)
-        control.subscribe(topics)
         calls = ServiceCalls(simulation.requests, loop.make_call, boundary)
-        create_services(self, control.services, calls, on_success=control.note_change)
+        create_services(self, services, calls, on_success=control.note_change)
         self._parameter_services = ParameterServices(self, self._live, calls)
         self._closing.callback(create_simulation_services(self, control, calls))
 

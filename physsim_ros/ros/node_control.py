@@ -2,39 +2,29 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What the node does besides single requests: services, time, world files, the end of the program.
+The control of a node, as its services and pages have it.
 
-Law: services, topics, pages and `simulation_interfaces` do it all by this one control.
+Law: services, topics, pages and `simulation_interfaces` do it all by this one control. Time is
+controlled by `time_control`, and world files by `world_files`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
-from physsim_ros.files import on_thread
-from physsim_ros.model.answer import Answer
-from physsim_ros.model.errors import Running
-from physsim_ros.model.requests import DeleteAll
-from physsim_ros.model.timeline import run_state
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.outputs import Outputs
-from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import Service
+from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.runtime.error_boundary import ErrorBoundary
-from physsim_ros.runtime.slices import in_slices, Sliced
-from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import Beginning, beginning_of
 from rclpy.parameter import Parameter
-from rosgraph_msgs.msg import Clock
-from std_msgs.msg import Float64
 
 
 class NodeControl:
@@ -42,14 +32,15 @@ class NodeControl:
     The control of a node; a returned text is a message about what was done.
 
     :param simulation: of the node
-    :param loop: of the node, which makes single frames
-    :param outputs: of the node, with the statistics of frames
+    :param time: of the world
+    :param services: by their names
+    :param loop: of the node, which applies requests
+    :param outputs: of the node
     :param world_files: reads and writes the world
     :param live: the parameters of the node
     :param boundary: of the node
 
     :ivar values: of the parameters of the node, by name, always up to date
-    :ivar services: by their names
     :ivar current_snapshot: applies the waiting requests, and returns the snapshot that is shown
     :ivar make_call: makes a call at its time among the requests
     :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
@@ -58,6 +49,8 @@ class NodeControl:
     def __init__(
         self,
         simulation: Simulation,
+        time: TimeControl,
+        services: Mapping[str, Service],
         *,
         loop: FrameLoop,
         outputs: Outputs,
@@ -67,6 +60,8 @@ class NodeControl:
     ) -> None:
         self.boundary = boundary
         self.simulation = simulation
+        self.time = time
+        self.services = services
         self.values: Mapping[str, Any] = live.values
         self.on_quit: Callable[[], object] | None = None
         self._is_quitting = False
@@ -78,20 +73,6 @@ class NodeControl:
         self._live = live
         # The world whose bodies are locked: the one that was loaded last when they were.
         self._locked_in = simulation.loaded.world
-        self.services = {
-            'play': Service(lambda: self._run_at(1.0)),
-            'pause': Service(lambda: self._run_at(0.0)),
-            'rewind': Service(lambda: self._run_at(-1.0)),
-            'fast_forward': Service(lambda: self._run_at(self.values['fast_speed'])),
-            'fast_rewind': Service(lambda: self._run_at(-self.values['fast_speed'])),
-            'step': Service(self._step),
-            'undo': Service(simulation.undo, Wait.BEHIND_REQUESTS),
-            'redo': Service(simulation.redo, Wait.BEHIND_REQUESTS),
-            'reset': Service(self.reset, Wait.BEHIND_REQUESTS),
-            'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
-            'load_world': Service(lambda: world_files.load(confined=True), Wait.FOR_SEEK),
-            'save_world': Service(world_files.save, Wait.TO_READ),
-        }
 
     # Values
 
@@ -145,13 +126,15 @@ class NodeControl:
         """Return a service."""
         return self.services[name]
 
-    async def perform_on(self, service: str, world: str) -> str:
+    async def load_world(self, world: str) -> str:
         """
-        Perform a service on the world file of a name; where that is refused, nothing has changed.
+        Replace the world by that of a name; time goes on.
 
-        :raises PhysSimError: it is refused
+        :raises PhysSimError: it is refused, and nothing has changed
         """
-        return await self._perform_with(world, self.services[service].perform)
+        message = await self._files.load(world)
+        self.set_parameter('world_file', world)
+        return message
 
     async def open_world(self, world: str) -> str:
         """
@@ -159,23 +142,26 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        return await self._perform_with(world, self._files.open_world)
-
-    async def _perform_with(self, world: str, action: Sliced[str]) -> str:
-        before = self.values['world_file']
+        message = await self._files.open_world(world)
         self.set_parameter('world_file', world)
-        try:
-            return await in_slices(action)
-        except Exception:
-            # Somebody may have set it meanwhile.
-            if self.values['world_file'] == world:
-                self.set_parameter('world_file', before)
-            raise
+        return message
+
+    async def save_world(self, world: str) -> str:
+        """
+        Save the world under a name; time goes on.
+
+        :raises PhysSimError: it is refused, and nothing has changed
+        """
+        message = await self._files.save(world)
+        self.set_parameter('world_file', world)
+        return message
 
     def note_change(self) -> None:
         """Have the parameters mirror the world, and a short seek be done at once."""
-        self._live.mirror_settings()
+        self._live.mirror_world()
         self._loop.finish_short_seek()
+
+    # The end of the program
 
     def end_program(self) -> bool:
         """Have the next tick end the program; return whether it may."""
@@ -187,71 +173,3 @@ class NodeControl:
         if self._is_quitting and self.on_quit is not None:
             self._is_quitting = False
             self.on_quit()
-
-    # Time
-
-    def subscribe(self, topics: RequestTopics) -> None:
-        """Subscribe to `~/speed` and `~/seek`."""
-        requests = self.simulation.requests
-
-        def set_speed(message: Float64) -> None:
-            requests.tell(Answer(topic='~/speed', message=self.set_speed(message.data)))
-
-        def seek(message: Clock) -> None:
-            stamp = message.clock.sec * 10**9 + message.clock.nanosec
-            self.submit_seek(stamp, Origin('~/seek'))
-
-        topics.subscribe(Float64, '~/speed', set_speed)
-        topics.subscribe(Clock, '~/seek', seek)
-
-    def set_speed(self, speed: float) -> str:
-        """
-        Set the speed, simulation seconds a second.
-
-        :raises Refusal: it is out of range
-        """
-        # + 0.0 removes the sign of a negative zero.
-        speed = float(speed) + 0.0
-        self.set_parameter('speed', speed)
-        return f'speed {speed:g}'
-
-    def submit_seek(self, stamp: int, origin: Origin) -> None:
-        """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
-        self._outputs.statistics.reset_pace()
-        self.simulation.stop_driving()
-        self.simulation.requests.submit_seek(stamp, origin)
-        self._loop.apply_in_time()
-
-    def _step(self) -> str:
-        """
-        Advance a paused world by one frame; during a seek, queue that frame.
-
-        :raises Running: time is running
-        """
-        if self.simulation.speed == 0 and not self._loop.apply_in_time():
-            return f'at {self.simulation.playback.queue_frame() * 1e-9:.6f} s'
-        return self.advance_frame()
-
-    def advance_frame(self) -> str:
-        """
-        Advance a paused world by one frame, after a seek that is under way.
-
-        :raises Running: time is running
-        """
-        if self.simulation.speed != 0:
-            raise Running('time is running; pause first')
-        self._loop.advance_frame()
-        return f'at {self.simulation.world.stamp * 1e-9:.6f} s'
-
-    async def reset(self) -> str:
-        """Go to the beginning, which a thread builds."""
-        return self.simulation.reset(ahead=await self.beginning())
-
-    async def beginning(self) -> Beginning:
-        """Return the beginning of the state that was loaded last, which a thread builds."""
-        loaded, rate = self.simulation.loaded, self.simulation.physics_rate
-        return await on_thread(partial(beginning_of, loaded, rate))
-
-    def _run_at(self, speed: float) -> str:
-        self.set_speed(speed)
-        return run_state(speed)

@@ -8,7 +8,7 @@ By default rclpy (`use_default_callbacks=True`) gives every publisher and subscr
 incompatible-QoS events, which logs a warning. In rmw_fastrtps of ROS 2 Jazzy, reading such an
 event locks the mutex of the event and then that of the endpoint, while the threads of Fast DDS
 lock them in the opposite order: a deadlock (https://github.com/ros2/rmw_fastrtps/pull/890). The
-other end of the topic still logs the warning. This module can go once that fix is in the oldest
+other end of the topic still logs the warning. The class can go once that fix is in the oldest
 supported release.
 """
 

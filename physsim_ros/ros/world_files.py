@@ -1,7 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The world file of the node, which two services and the parameter `world_file` use."""
+"""
+The world files of the node: read at its start, by services, pages and tests; written by two.
+
+Law: a file is named by the caller. A service without a name is about parameter `world_file`.
+"""
 
 from __future__ import annotations
 
@@ -23,14 +27,16 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.parameters import SPECS
-from physsim_ros.runtime.slices import at_once
+from physsim_ros.ros.requests.services import Service
+from physsim_ros.runtime.slices import finish
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import Beginning, beginning_of
 
 
 class WorldFiles:
     """
-    Reads and writes the world file that parameter `world_file` names.
+    Reads and writes world files.
 
     :param simulation: of the world
     :param values: of the parameters of the node, by name, always up to date
@@ -48,43 +54,52 @@ class WorldFiles:
 
     def begin_with(self) -> None:
         """
-        Start the simulation with the file, from any directory.
+        Start the simulation with the file of parameter `world_file`, from any directory.
 
         :raises Refusal: there is no such file, or it is refused
         """
-        state, _ = at_once(self._read(confined=False))
+        state, _ = finish(self._read(self._values['world_file'], confined=False))
         self._simulation.begin(state)
 
-    async def load(self, *, confined: bool) -> str:
+    @property
+    def services(self) -> dict[str, Service]:
+        """Return the services of the file of parameter `world_file`, by their names."""
+        values = self._values
+        return {
+            'load_world': Service(lambda: self.load(values['world_file']), Wait.FOR_SEEK),
+            'save_world': Service(lambda: self.save(values['world_file']), Wait.TO_READ),
+        }
+
+    async def load(self, name: str, *, confined: bool = True) -> str:
         """
-        Replace the world by the file, and return a message about it; time goes on.
+        Replace the world by that of a file, and return a message about it; time goes on.
 
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
         :raises Refusal: there is no such file, or it is refused
         """
-        beginning, path = await self._build(confined=confined)
+        beginning, path = await self._build(name, confined=confined)
         return f'{self._simulation.load(beginning)} from {path.name}'
 
-    async def open_world(self) -> str:
+    async def open_world(self, name: str) -> str:
         """
-        Begin with the world of the file, at time 0, and return a message about it.
+        Begin with the world of a file, at time 0, and return a message about it.
 
         Only files below `world_dir` and the shipped worlds may be read.
 
         :raises Refusal: there is no such file, or it is refused
         """
-        beginning, path = await self._build(confined=True)
+        beginning, path = await self._build(name, confined=True)
         return f'{self._simulation.open_world(beginning)} from {path.name}'
 
-    async def save(self) -> str:
+    async def save(self, name: str) -> str:
         """
-        Write the world to the file, and return a message about it; time goes on.
+        Write the world to a file, and return a message about it; time goes on.
 
         :raises BadWorldFile: it cannot be written, or lies outside `world_dir`
         """
         # All of this moment: the world goes on while a thread writes.
         saved, rate = self._simulation.saver(), self._simulation.physics_rate
-        name, directory = self._values['world_file'], self.directory
+        directory = self.directory
 
         def write() -> tuple[WorldState, Path]:
             state = saved()
@@ -96,13 +111,13 @@ class WorldFiles:
             message += '; from now on it comes before the shipped world of that name'
         return message
 
-    async def _build(self, *, confined: bool) -> tuple[Beginning, Path]:
-        state, path = await self._read(confined=confined)
+    async def _build(self, name: str, *, confined: bool) -> tuple[Beginning, Path]:
+        state, path = await self._read(name, confined=confined)
         begin = partial(beginning_of, state, self._simulation.physics_rate)
         return await on_thread(begin), path
 
-    async def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
-        name, simulation = self._values['world_file'], self._simulation
+    async def _read(self, name: str, *, confined: bool) -> tuple[WorldState, Path]:
+        simulation = self._simulation
         try:
             path = find_world(
                 name,

@@ -6,5 +6,6 @@ How code runs here, whatever it does: where an unexpected error ends, where work
 
 - `error_boundary`: an unexpected error ends one message or one output.
 - `slices`: work that lets messages and steps come between.
+- `ending`: the time in which a program ends.
 - `garbage_collection`: suspended while many objects are made that stay.
 """

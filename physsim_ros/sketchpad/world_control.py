@@ -26,6 +26,20 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of
 
 
+class TimeControl(Protocol):
+    """The control of the time of a world."""
+
+    def set_speed(self, speed: float) -> str:
+        """
+        Set the speed [simulation seconds a second], and return a message.
+
+        :raises Refusal: it is out of range
+        """
+
+    def submit_seek(self, stamp: int, origin: Origin) -> None:
+        """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
+
+
 class WorldControl(Protocol):
     """
     The control of a world; a returned text is a message about what was done.
@@ -38,6 +52,10 @@ class WorldControl(Protocol):
     boundary: ErrorBoundary
     simulation: Simulation
     values: Mapping[str, Any]
+
+    @property
+    def time(self) -> TimeControl:
+        """Return the control of time."""
 
     @property
     def world_dir(self) -> Path:
@@ -89,9 +107,9 @@ class WorldControl(Protocol):
     def service(self, name: str) -> tuple[Sliced[str], Wait]:
         """Return the action of a service, which raises a PhysSimError, and its time."""
 
-    async def perform_on(self, service: str, world: str) -> str:
+    async def load_world(self, world: str) -> str:
         """
-        Perform `load_world` or `save_world` on the world of a name.
+        Replace the world by that of a name; time goes on.
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
@@ -103,15 +121,12 @@ class WorldControl(Protocol):
         :raises PhysSimError: it is refused, and nothing has changed
         """
 
-    def set_speed(self, speed: float) -> str:
+    async def save_world(self, world: str) -> str:
         """
-        Set the speed [simulation seconds a second].
+        Save the world under a name; time goes on.
 
-        :raises Refusal: it is out of range
+        :raises PhysSimError: it is refused, and nothing has changed
         """
-
-    def submit_seek(self, stamp: int, origin: Origin) -> None:
-        """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
 
 
 async def open_content(simulation: Simulation, content: Mapping[str, Any]) -> str:

@@ -18,14 +18,15 @@ from typing import ClassVar
 from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.answer import Answer
+from physsim_ros.runtime.ending import CLOSING
 from physsim_ros.view.child_process import end_child, rerun_program, start_child
 from physsim_ros.view.stream import RerunStream
 
 DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
 # Memory of a server for late viewers.
 SERVER_MEMORY = '256MiB'
-# Timeouts of a connection, and of the end of a program [s].
-CONNECTING, ENDING = 0.5, 0.5
+# Timeouts of a connection, and of the end of a program after SIGTERM [s].
+CONNECTING, TERMINATING = 0.5, 0.5
 
 
 class Endpoint(ABC):
@@ -36,7 +37,7 @@ class Endpoint(ABC):
     :cvar where: address, for messages
     :cvar code: of the event that reports a lost receiver
     :cvar period: time between two writes [s]
-    :cvar closing: longest time that the last frames take [s]
+    :cvar closing: longest time that the end takes where none ends the program [s]
     :cvar reopens: whether a lost receiver is opened again
     """
 
@@ -44,7 +45,7 @@ class Endpoint(ABC):
     where = ''
     code: ClassVar[str] = 'viewer_lost'
     period: ClassVar[float] = 0.1
-    closing: ClassVar[float] = 2.0
+    closing: ClassVar[float] = CLOSING
     reopens: ClassVar[bool] = True
 
     @abstractmethod
@@ -62,8 +63,8 @@ class Endpoint(ABC):
         :raises ConnectionError: the receiver is lost
         """
 
-    def complete(self) -> None:  # noqa: B027  optional
-        """Complete a file whose stream was closed, and not lost."""
+    def complete(self, end_by: float) -> None:  # noqa: B027  optional
+        """Complete a file whose stream was closed, and not lost, until a steady time [s]."""
 
     def close(self) -> None:  # noqa: B027  optional
         """End the program, if there is one."""
@@ -152,7 +153,7 @@ class ServerEndpoint(Endpoint):
         """End the program."""
         program, self._program = self._program, None
         if program is not None:
-            end_child(program, timeout=ENDING)
+            end_child(program, timeout=TERMINATING)
 
     def _fall_back(self, reason: str) -> None:
         self.kind = 'web'

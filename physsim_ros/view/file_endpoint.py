@@ -10,13 +10,14 @@ from itertools import count
 import os
 from pathlib import Path
 import subprocess
+import time
 
-from physsim_ros.view.child_process import end_child, rerun_program, start_child
-from physsim_ros.view.endpoints import ENDING, Endpoint
+from physsim_ros.view.child_process import rerun_program, start_child
+from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.stream import RerunStream
 
-# Longest time for the index of a file [s]: 600 MB on an idle machine.
-INDEXING = 7.0
+# Time at the end in which an index that is not done is removed [s].
+_REMOVING = 0.2
 # Beginning of `.rrd` files, before the digit of their version (Rerun 0.41: RRF2).
 _MAGIC = b'RRF'
 
@@ -30,7 +31,8 @@ class FileEndpoint(Endpoint):
     """
 
     kind, code = 'record', 'record_failed'
-    # Long batches take less room.
+    # Long batches take less room; the first frames wait for the import of Rerun, the last for an
+    # index, which takes a second for 80 MB on an idle machine.
     period, closing, reopens = 1.0, 9.0, False
 
     def __init__(self, path: Path, *, overwrite: bool) -> None:
@@ -65,19 +67,20 @@ class FileEndpoint(Endpoint):
         if (found.st_dev, found.st_ino) != self._identity:
             raise ConnectionError('the file was replaced by another')
 
-    def complete(self) -> None:
-        """Append the index (footer) to the file, unless that takes longer than `INDEXING`."""
+    def complete(self, end_by: float) -> None:
+        """Append the index (footer) to the file, if it is done by a steady time [s]."""
         if self._identity == (0, 0):
             return
         path = self._path.resolve()
-        indexed = path.with_name(f'.{path.name}.{os.getpid()}')
+        indexed = path.with_name(f'.{path.name}.index')
         command = [rerun_program(), 'rrd', 'optimize', str(path), '-o', str(indexed)]
         try:
             program = start_child(command, environment={**os.environ, 'CI': '1'})
             try:
-                program.wait(INDEXING)
+                program.wait(max(0.0, end_by - _REMOVING - time.monotonic()))
             except subprocess.TimeoutExpired:
-                end_child(program, timeout=ENDING)
+                program.kill()
+                program.wait()
             self.check()
             if program.returncode == 0:
                 indexed.chmod(path.stat().st_mode)

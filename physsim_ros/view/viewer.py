@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from enum import Enum
+import math
 from pathlib import Path
 import sys
 
@@ -154,12 +155,16 @@ class Viewer:
             thread.poll()
         return tuple(self._answers.popleft() for _ in range(len(self._answers)))
 
-    def close(self) -> None:
-        """Log the queued frames until the time for closing is over, and end."""
+    def close(self, within: float = math.inf) -> None:
+        """
+        Log the queued frames, and end viewer and file.
+
+        :param within: time for that [s], of which a file has at most 9 s, and a viewer 2 s
+        """
         self._wanted = None
         threads = [*self._threads, *self._stuck]
         for thread in threads:
-            thread.end()
+            thread.end(within)
         ended = [thread.join() for thread in threads]
         unregister = getattr(sys.modules.get('rerun'), 'unregister_shutdown', None)
         if not all(ended) and unregister is not None:

@@ -1,37 +1,31 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Symbols of joints show the limits that the joints have."""
+"""The lines of joints, in the poses of frames."""
 
-from physsim_ros.appearance.joint_glyphs import joint_strips
+from dataclasses import replace
+
+import numpy as np
+from physsim_ros.appearance import JointGlyphs
 from physsim_ros.simulation.world import World
-import pytest
 
 from ..building import DISC, join, spawn
 
 
-@pytest.mark.parametrize(
-    ('said', 'least', 'most', 'stops'),
-    [
-        ({'lower': -0.7, 'upper': 2.0}, -0.7, 2.0, 2),
-        ({'lower': -0.7}, -0.7, None, 1),
-        ({'upper': 2.0}, None, 2.0, 1),
-        ({}, None, None, 0),
-    ],
-)
-def test_the_track_of_a_slider_ends_where_its_way_does(said, least, most, stops):
+def test_each_rope_has_the_line_that_it_has_alone():
     world = World()
-    spawn(world, 'a/0', DISC)
-    join(world, 'slider', [(0.0, 0.0), (1.0, 0.0)], a='a/0', b='world', **said)
-    (joint,) = world.snapshot().scene.joints
+    for number in range(6):
+        spawn(world, f'a/{number}', DISC, (2.0 * number, (-1.0) ** number, 0.3 * number))
+    for name, bodies in enumerate(((0, 1, 2), (1, 2, 3, 4), (3, 4, 5))):
+        points = [(2.0 * number, (-1.0) ** number + 0.1) for number in bodies]
+        first, *over, last = (f'a/{number}' for number in bodies)
+        join(world, 'rope', points, f'rope/{name}', a=first, b=last, over=tuple(over))
+    join(world, 'rod', [(0.0, 1.0), (2.0, -1.0)], 'rod/0', a='a/0', b='a/1')
+    scene, poses = world.snapshot().scene, world.snapshot().poses
+    frames = np.stack((poses, poses + 0.5))
+    assert [len(each.guides) for each in scene.joints] == [1, 2, 1, 0]
 
-    rail, *others, _ = joint_strips(joint, 0.1)
+    together = JointGlyphs(scene).corners(frames)
+    alone = [JointGlyphs(replace(scene, joints=(each,))).corners(frames) for each in scene.joints]
 
-    begin, end = (corner.arm[0] for corner in rail)
-    assert begin == pytest.approx(begin if least is None else least)
-    assert end == pytest.approx(end if most is None else most)
-    assert begin < 0.0 < end
-    assert [corner.arm[0] for stop in others for corner in stop[:1]] == [
-        each for each in (least, most) if each is not None
-    ]
-    assert len(others) == stops
+    assert np.array_equal(together, np.concatenate(alone, axis=1))

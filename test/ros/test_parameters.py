@@ -24,7 +24,12 @@ from physsim_ros.sketchpad.server import website
 from physsim_ros.testing import box, disc, own_context, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
-from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
+from rcl_interfaces.msg import (
+    ParameterEvent,
+    ParameterType,
+    ParameterValue,
+    SetParametersResult,
+)
 from rcl_interfaces.srv import (
     DescribeParameters,
     GetParameters,
@@ -35,6 +40,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
+from std_msgs.msg import Float64
 
 from ..client import Client, Event, message_of, parameter, set_parameter
 
@@ -406,6 +412,27 @@ def test_any_publish_rate_that_divides_the_physics_rate_is_good(
 
 
 # Effects
+
+
+def test_a_speed_makes_one_parameter_event_by_whichever_door_it_is_set(
+    physsim: PhysSim, client: Client
+) -> None:
+    events = client.listen(ParameterEvent, '/parameter_events')
+    physsim.step()
+    doors: list[tuple[float, Callable[[], object]]] = [
+        (2.0, lambda: client.ask('~/speed', Float64(data=2.0))),
+        (-1.0, lambda: client.call('~/rewind')),
+        (0.5, lambda: client.set_parameters(message_of('speed', 0.5))),
+        (0.0, lambda: client.call('~/pause')),
+    ]
+    for speed, set_speed in doors:
+        events.clear()
+        set_speed()
+        assert physsim.node.simulation.speed == speed
+        client.spin_until(lambda: events)
+        client.catch_up()
+        changed = [each for event in events for each in event.changed_parameters]
+        assert [(each.name, each.value.double_value) for each in changed] == [('speed', speed)]
 
 
 def test_setting_what_is_set_changes_nothing(physsim: PhysSim) -> None:

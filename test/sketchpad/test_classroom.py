@@ -19,7 +19,7 @@ from physsim_ros.files import DirectoryLock, finish_files, shipped_lessons
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import InUse
 from physsim_ros.model.lesson import LONGEST_TITLE
-from physsim_ros.ros import node_control, world_files
+from physsim_ros.ros import time_control, world_files
 from physsim_ros.simulation.world import Beginning, beginning_of
 from physsim_ros.sketchpad import file_work, results, Role
 from physsim_ros.sketchpad.messages.classroom import LONGEST_ANSWER, LONGEST_MESSAGE
@@ -144,7 +144,7 @@ def test_time_brings_no_locked_body_back_or_away_but_for_a_teacher(browser: Brow
     [
         ('open', {'name': 'demo'}, world_files),
         ('service', {'name': 'load_world', 'world': 'demo'}, world_files),
-        ('service', {'name': 'reset'}, node_control),
+        ('service', {'name': 'reset'}, time_control),
     ],
 )
 def test_a_lock_holds_though_a_thread_builds_the_world_that_a_pupil_wants(

@@ -66,11 +66,17 @@ def test_a_link_to_a_recording_stays_a_link(viewers, tmp_path):
 
 
 def test_a_recording_whose_index_takes_too_long_stays_as_it_is(viewers, tmp_path, monkeypatch):
-    monkeypatch.setattr(file_endpoint, 'INDEXING', 0.0)
+    never = tmp_path.parent / f'{tmp_path.name}-never'
+    never.write_text('#!/bin/sh\n: > "$5"\nexec sleep infinity\n')
+    never.chmod(0o755)
+    monkeypatch.setattr(file_endpoint, 'rerun_program', lambda: str(never))
+    monkeypatch.setattr(file_endpoint.FileEndpoint, 'closing', PATIENCE)
     path = tmp_path / 'it.rrd'
     viewer = viewers(record_file=path)
     show(viewer, 100)
-    viewer.close()
+    until(lambda: ', 100 frames' in viewer.state)
+    viewer.close(within=1.0)
+    until(lambda: ', ended' in viewer.state)
 
     assert list(tmp_path.iterdir()) == [path]
     assert rows(path)[BOX] >= 100

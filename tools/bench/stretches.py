@@ -86,7 +86,7 @@ class Watched:
 
     def seek(self, stamp: int) -> None:
         """Go to a simulation time [ns]."""
-        self._measure(lambda: self.node.control.submit_seek(stamp, Origin('~/seek')))
+        self._measure(lambda: self.node.control.time.submit_seek(stamp, Origin('~/seek')))
         self.tick_until(lambda: True)
 
     def tick_until(self, is_over: Callable[[], bool]) -> None:

@@ -6,7 +6,7 @@
 
 `SEED=7 make mutate` chooses others, `COUNT=3` fewer, and `ONLY=10:20` tries a part of those.
 `make mutate ARGS=engine/core/floor` tries those of files whose path below `physsim_ros/` begins
-so, as after a change of them. The exit code is the number of mutations that no test noticed.
+so, as after a change of them. The exit code is 1 if more than `MOST_SURVIVORS` are not noticed.
 """
 
 from __future__ import annotations

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The files that repeat declarations: tables of the interface, the file of parameters, their types.
+The files that repeat declarations: tables of the interface, parameters, types, a script.
 
-In the interface and in the types, such a part stands between two comments, which name it.
+In documents, types and scripts, such a part stands between two comments, which name it.
 """
 
 from __future__ import annotations
@@ -13,9 +13,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING
 from pathlib import Path
 import textwrap
-from typing import Any
+from types import NoneType
+from typing import Any, get_args, get_origin, get_type_hints
 
 import physsim_ros
+from physsim_ros.appearance.joint_strips import SYMBOLS
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.actors import ACTORS, Start
 from physsim_ros.model.applied_forces import AppliedForce
@@ -75,13 +77,19 @@ def files() -> dict[Path, str]:
         'cheat_sheet': {'keys of the page': cheat_sheet.tables()},
     }
     pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
-    types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'
+    package = ROOT / 'physsim_ros'
+    types, messages = (package / 'testing' / f'{name}.py' for name in ('parameters', 'messages'))
+    script = package / 'sketchpad' / 'page' / 'view' / 'joint_view.js'
     return {
         **{
             page: with_parts(page, parts, '<!-- {}: made by `make tables` -->')
             for page, parts in pages.items()
         },
         types: with_parts(types, _types(), '# {}: made by `make tables`'),
+        messages: with_parts(
+            messages, {'properties': _property_types()}, '# {}: made by `make tables`'
+        ),
+        script: with_parts(script, {'symbols': _symbols()}, '// {}: made by `make tables`'),
         ROOT / 'config' / 'physsim.yaml': _YAML_HEAD + '\n'.join(_yaml()),
     }
 
@@ -305,6 +313,30 @@ def _yaml_value(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return "''" if value == '' else str(value)
+
+
+def _property_types() -> str:
+    """Return the annotations of the properties of a body, as a marker has them."""
+    hints = get_type_hints(Properties)
+    lines = [f'    {name}: {_property_type(hints[name])} | None\n' for name in Properties.FIELDS]
+    return ''.join(lines) + '\n\n'
+
+
+def _property_type(hint: Any) -> str:
+    """Return the annotation of a property: that of its field, as YAML can write it."""
+    (kind,) = (each for each in get_args(hint) if each is not NoneType)
+    if get_origin(kind) is tuple:
+        is_vector = get_args(kind)[0] is float
+        return 'Numbers' if is_vector else 'Sequence[Mapping[str, Any]]'
+    if kind in (bool, float, int, str):
+        return str(kind.__name__)
+    # A shipped robot is named.
+    return 'str | Mapping[str, Any]' if kind is Robot else 'Mapping[str, Any]'
+
+
+def _symbols() -> str:
+    """Return the counts of the symbols of joints, for the script that draws them on the page."""
+    return f'const {", ".join(f"{name} = {number}" for name, number in SYMBOLS.items())};\n'
 
 
 def _types() -> dict[str, str]:

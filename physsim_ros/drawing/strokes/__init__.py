@@ -5,5 +5,5 @@
 Freehand strokes: resampled, recognised, read in the scene, regularised into requests.
 
 Not here: clicks (`drawing.tools`), and the session that both belong to (`drawing.session`). Start
-with `stages`, which lists the stages; `signs` has one file for each sign.
+with `reading`, which has the stages in their order; `signs` has one file for each sign.
 """

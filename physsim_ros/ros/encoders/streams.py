@@ -17,8 +17,7 @@ from functools import lru_cache
 
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 import numpy as np
-from physsim_ros.maps import anchored_grid, is_on_map
-from physsim_ros.maps import OccupancyGrid as Grid
+from physsim_ros.maps import anchored_grid, Grid, is_on_map
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD

@@ -4,9 +4,9 @@
 """
 The ROS parameters: their table, their declaration and check, the settings that they make.
 
-Not here: what follows when one is set (`ros.node`). A new parameter is a field of `NodeSettings`
-in `table`, or of the settings of the world or of drawing (`model.settings`, `drawing.settings`).
-Start with `table`.
+Not here: what follows when one is set (`ros.live_parameters`). A new parameter is a field of
+`NodeSettings` in `table`, or of the settings of the world or of drawing (`model.settings`,
+`drawing.settings`). Start with `table`.
 """
 
 from physsim_ros.ros.parameters.table import NodeSettings, Spec, SPECS

@@ -23,12 +23,11 @@ from threading import Thread
 
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.ros.programs.process import open_closed_streams, TerminationWatch
+from physsim_ros.runtime.ending import CLOSING
 from physsim_ros.sketchpad import ClassServer, Role, WorldAddresses
 
 # Most worlds of a class.
 MOST_PUPILS = 60
-# Time for an orderly end of the worlds [s].
-_ENDING = 2.0
 
 
 def shares(pupils: int, processes: int) -> list[range]:
@@ -141,7 +140,7 @@ def _end(processes: list[subprocess.Popen[str]]) -> None:
         process.terminate()
     for process in processes:
         with suppress(subprocess.TimeoutExpired):
-            process.wait(_ENDING)
+            process.wait(CLOSING)
         process.kill()
         process.wait()
 

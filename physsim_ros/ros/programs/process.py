@@ -21,9 +21,7 @@ import sys
 import threading
 from typing import NoReturn
 
-# Time for an orderly end after the first signal [s]. With that of the interpreter itself it is
-# less than 3 s.
-ENDING = 2.5
+from physsim_ros.runtime.ending import ENDING
 
 # `mallopt(3)` of glibc: the number of its option, and the size from which on a block comes from
 # the system itself and not from the heap [bytes]; that costs a third of a microsecond for each

@@ -16,6 +16,7 @@ import time
 
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.programs.collector import Collector
+from physsim_ros.runtime.ending import CLOSING
 import rclpy
 from rclpy.executors import Executor
 from rclpy.experimental import EventsExecutor
@@ -48,6 +49,7 @@ def run_worlds(nodes: Sequence[PhysSimNode], is_over: Callable[[], bool]) -> Non
             executor.remove_node(node)
         executor.shutdown()
         for node in nodes:
+            node.outputs.viewer.close(CLOSING)
             node.destroy_node()
         rclpy.shutdown()
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Publishers of the world: streams of frames, events, the timeline, the content of `/diagnostics`.
+Publishers of the world: streams of frames, events, the timeline.
 
-Not here: the bytes of messages (`ros.encoders`). Start with `publishers`, which has a line for
-each topic.
+Not here: the bytes of messages (`ros.encoders`), and the report on `/diagnostics`
+(`ros.diagnostics`). Start with `publishers`, which has a line for each topic.
 """

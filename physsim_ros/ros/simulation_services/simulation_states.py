@@ -18,7 +18,7 @@ from physsim_ros.model.requests import DeleteBodies
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.results import coded
 from physsim_ros.ros.simulation_services.worlds import Worlds
-from physsim_ros.runtime.slices import at_once, end_slice, in_slices
+from physsim_ros.runtime.slices import end_slice
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
@@ -122,9 +122,9 @@ class SimulationStates:
         begins_paused = (now, target) == (_STOPPED, _PAUSED)
         self._begins_paused = self._control.simulation.loaded if begins_paused else None
         if target == _PLAYING:
-            return self._perform('play')
-        message = self._perform('pause')
-        return await self._control.reset() if target == _STOPPED else message
+            return self._control.time.play()
+        message = self._control.time.pause()
+        return await self._control.time.reset() if target == _STOPPED else message
 
     def _quit(self) -> str:
         if not self._control.end_program():
@@ -134,7 +134,7 @@ class SimulationStates:
                 field='state',
             )
         self._quits = True
-        self._perform('pause')
+        self._control.time.pause()
         return 'the program ends'
 
     async def step(
@@ -150,7 +150,7 @@ class SimulationStates:
         for count in range(1, request.steps + 1):
             if count > 1:
                 await end_slice()
-            message = self._control.advance_frame()
+            message = self._control.time.advance_frame()
             on_frame(count)
         return message
 
@@ -176,11 +176,11 @@ class SimulationStates:
         scope = request.scope
         if scope in _ALL:
             self._begins_paused = None
-            return await self._control.reset()
+            return await self._control.time.reset()
         simulation = self._control.simulation
         loaded = simulation.loaded
         if scope == _STATE | _SPAWNED:
-            return simulation.load(await self._control.beginning())
+            return simulation.load(await self._control.time.beginning())
         if scope == _SPAWNED:
             known = {each.body.name for each in loaded.bodies}
             scene = self._control.current_snapshot().scene
@@ -193,9 +193,6 @@ class SimulationStates:
             Result.RESULT_FEATURE_UNSUPPORTED,
             field='scope',
         )
-
-    def _perform(self, service: str) -> str:
-        return at_once(in_slices(self._control.services[service].perform))
 
     @property
     def _state(self) -> int:

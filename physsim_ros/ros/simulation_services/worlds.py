@@ -92,7 +92,7 @@ class Worlds:
         if Path(uri).suffix not in ('', '.yaml'):
             raise coded('a world is a YAML file', codes.UNSUPPORTED_FORMAT, field='uri')
         try:
-            message = await self._control.perform_on('load_world', uri)
+            message = await self._control.load_world(uri)
         except BadWorldFile as refusal:
             # One that is there, but no world, has a cause.
             result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND
@@ -122,8 +122,8 @@ class Worlds:
         return ''
 
     async def _stop(self) -> None:
-        self._control.services['pause'].perform()
-        await self._control.reset()
+        self._control.time.pause()
+        await self._control.time.reset()
 
     def _current(self) -> WorldResource:
         uri = str(self._control.values['world_file'])

@@ -78,9 +78,10 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
     origin = origin._replace(topic=f'~/{name}')
     action, wait = page.world.service(name)
     if world:
-        if name not in ('load_world', 'save_world'):
+        of_files = {'load_world': page.world.load_world, 'save_world': page.world.save_world}
+        if name not in of_files:
             raise BadWorldFile(f'~/{name} takes no world', field='world')
-        action = partial(page.world.perform_on, name, world)
+        action = partial(of_files[name], world)
     if name == 'save_world':
         page.perform(origin, partial(_saving, page, action), wait)
     elif name in ('clear', 'load_world', 'reset', 'undo', 'redo'):
@@ -98,13 +99,13 @@ def _replace_bodies(page: PageSession, origin: Origin, action: Sliced[str], wait
 @message('speed', '~/speed', speed=number)
 def set_speed(page: PageSession, origin: Origin, speed: float) -> None:
     """Set the speed of time [simulation seconds a second]."""
-    page.perform(origin, partial(page.world.set_speed, speed))
+    page.perform(origin, partial(page.world.time.set_speed, speed))
 
 
 @message('seek', '~/seek', time=_stamp)
 def seek(page: PageSession, origin: Origin, time: int) -> None:
     """Go to a simulation time, which a message has in [s] and the function in [ns]."""
-    page.world.submit_seek(time, origin)
+    page.world.time.submit_seek(time, origin)
 
 
 @message('course', '~/timeline', course=Whole(0, 2**31))
@@ -134,7 +135,7 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     async def save() -> str:
         with reaching(name):
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
-        return await page.world.perform_on('save_world', name)
+        return await page.world.save_world(name)
 
     page.perform(origin, partial(_saving, page, save), Wait.TO_READ)
 

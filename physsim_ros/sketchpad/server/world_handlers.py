@@ -31,7 +31,7 @@ from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, GuardedUpload, TYPES
-from physsim_ros.sketchpad.server.world_picture import picture_of
+from physsim_ros.sketchpad.server.world_picture import svg_of_world
 
 # Uploads at once, and size of each [bytes].
 MOST_UPLOADS, MOST_UPLOADED = 4, 2**20
@@ -85,7 +85,7 @@ class WorldPicture(_OfWorlds):
             path = self.world_path(name)
             changed = path.stat().st_mtime_ns
             # YAML of a megabyte takes a second to be read.
-            picture = await asyncio.to_thread(picture_of, path, changed)
+            picture = await asyncio.to_thread(svg_of_world, path, changed)
         except (PhysSimError, OSError):
             self.refuse(404, 'there is no such world')
         self.set_header('Content-Type', TYPES['.svg'])

@@ -39,7 +39,7 @@ _INK = '#55585f'
 
 
 @lru_cache(maxsize=128)
-def picture_of(path: Path, changed: int) -> str:  # noqa: ARG001 - a key
+def svg_of_world(path: Path, changed: int) -> str:  # noqa: ARG001 - a key
     """
     Return the picture of a world file.
 

@@ -10,7 +10,7 @@ from threading import get_ident
 
 from physsim_ros.files import title_of
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.ros import node_control, world_files
+from physsim_ros.ros import time_control, world_files
 from physsim_ros.simulation.world import Beginning, beginning_of
 from physsim_ros.testing import disc
 import pytest
@@ -164,7 +164,7 @@ def test_no_service_builds_a_world_on_the_thread_of_time(
         threads.append(get_ident())
         return beginning_of(state, physics_rate)
 
-    for module in (node_control, world_files):
+    for module in (time_control, world_files):
         monkeypatch.setattr(module, 'beginning_of', build)
     stopped, playing, spawned_and_state = 0, 1, 6
     calls = (

@@ -10,9 +10,9 @@ import {distance, rotated} from '../vectors.js';
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
 const ON_BODIES = ['pin', 'axle', 'motor', 'slider']; // kinds whose symbol lies on their bodies, and is no larger than they
-const COILS = 8, TEETH = 10, SPIRAL = 3; // turns of a coil, teeth of a wheel, turns of a torsion spring
-const RACK = 10; // teeth to each side of a rack that is no body
-const RAIL = 1; // m of rail shown to each side where there is no limit
+// symbols: made by `make tables`
+const COILS = 8, SPIRAL = 3, TEETH = 10, TRACK = 8;
+// end: made by `make tables`
 const TENSE = 10; // weights at which a joint is drawn in the colour of warning
 
 export class JointView {
@@ -222,7 +222,7 @@ export class JointView {
     /** @type {(along: number, across: number, from?: Point) => Point} */
     const at = (along, across, from = q) => [from[0] + along * dx - across * dy,
       from[1] + along * dy + across * dx];
-    const least = (lower ?? -RAIL) * scale, most = (upper ?? RAIL) * scale;
+    const least = (lower ?? -TRACK * SIZE) * scale, most = (upper ?? TRACK * SIZE) * scale;
     this.ctx.save();
     // Nothing slides beyond the bounds of the world.
     this.ctx.clip(this.view.boundsPath());
@@ -246,7 +246,7 @@ export class JointView {
   #teeth({axis: [ux, uy], b, points: [, [sx, sy]], rest_length: radius}, [x, y]) {
     const {scene: {bodies}, frame} = this.world, scale = this.camera.scale;
     const [dx, dy] = rotated([ux, uy], b < 0 ? 0 : frame.yaw[b]), pitch = 2 * Math.PI * radius / TEETH;
-    const [least, , most] = b < 0 ? [-RACK * pitch, 0, RACK * pitch] :
+    const [least, , most] = b < 0 ? [-TEETH * pitch, 0, TEETH * pitch] :
       boundsOf(bodies[b].shape, (point) => rotated([point[0] - sx, point[1] - sy], -Math.atan2(uy, ux)));
     /** @type {Point[]} */
     const points = [];
