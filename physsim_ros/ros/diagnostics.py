@@ -28,7 +28,7 @@ from rclpy.time import Time
 _PERIOD = 1_000_000_000
 # Wait of messages above which the diagnostics warn [s].
 LONG_DELAY = 1.0
-# CPU time of a message above which they do [s]: six frames at 60 Hz.
+# CPU time of a message above which they do [s]: a pause that a person sees.
 LONG_MESSAGE = 0.1
 # Real-time factor over speed, below which late frames are an error and not a warning [1].
 FAR_BEHIND = 0.5

@@ -5,16 +5,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from physsim_ros.ros.publishers import interactive_markers
-from physsim_ros.ros.publishers.interactive_markers import FRAMES
+from physsim_ros.ros.publishers.interactive_markers import PERIOD
 from physsim_ros.testing import box, delete, disc, PhysSim
 import pytest
 from visualization_msgs.msg import InteractiveMarkerUpdate, Marker
 from visualization_msgs.srv import GetInteractiveMarkers
 
 from ..client import Client
+
+# Frames between updates of poses, at 60 Hz.
+FRAMES = round(60.0 * PERIOD)
 
 
 class Viewer:
@@ -129,6 +133,14 @@ def test_what_stands_is_not_told_again(physsim: PhysSim, client: Client) -> None
     viewer = Viewer(client)
     physsim.step(5 * FRAMES)
     assert viewer.updates == []
+
+
+def test_poses_are_told_as_often_at_any_rate_of_frames(start: Callable[..., PhysSim]) -> None:
+    physsim = start(publish_rate=120.0)
+    physsim.spawn(disc('ball/0', at=(0.0, 50.0)))
+    viewer = Viewer(Client(physsim))
+    physsim.run(10 * PERIOD)
+    assert len(viewer.updates) == 10
 
 
 def test_nothing_is_sent_to_nobody_and_little_to_somebody(
