@@ -29,11 +29,12 @@ from physsim_ros.files.world_file import (
     worlds_in,
 )
 from physsim_ros.files.world_reader import robot_spawn, spawn_from, state_from
-from physsim_ros.files.world_schema import PROPERTIES, SETTINGS
+from physsim_ros.files.world_schema import BODY_KEYS, PROPERTIES, SETTINGS
 from physsim_ros.files.world_writer import text_of, yaml_line
 from physsim_ros.files.yaml12 import load_mapping
 
 __all__ = [
+    'BODY_KEYS',
     'CONVERTED',
     'MOST_BYTES',
     'PROPERTIES',

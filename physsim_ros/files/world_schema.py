@@ -17,9 +17,12 @@ import numpy as np
 from physsim_ros.files.yaml12 import Located
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import shown
+from physsim_ros.model.colors import COLOR_WORDS
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal
+from physsim_ros.model.robots.sensors.sensor import AT_WORDS
 from physsim_ros.model.settings import LIMIT, WorldSettings
-from physsim_ros.model.shapes import SHAPES
+from physsim_ros.model.shapes import SHAPE_WORDS
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
 
 FORMAT = 1
@@ -27,11 +30,20 @@ FORMAT = 1
 LIMITS = [name for name, each in WorldSettings.FIELDS.items() if LIMIT in each.notes]
 SETTINGS = [name for name in WorldSettings.FIELDS if name not in LIMITS]
 PROPERTIES = [*Properties.FIELDS]
-WORLD_KEYS = ['format', 'lesson', 'map', 'bodies', 'joints', 'memory', *SETTINGS]
-BODY_KEYS = [
-    *('name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES),
-    *('motion', 'field_lead', 'wrench', 'driven', 'acting'),
-]
+# Keys of a world and of a body, with everyday words for them.
+WORLD_KEYS = {
+    **dict.fromkeys(('format', 'lesson', 'map', 'bodies', 'joints', 'memory'), Words()),
+    **{name: WorldSettings.WORDS[name] for name in SETTINGS},
+}
+BODY_KEYS = {
+    'name': Words(),
+    **SHAPE_WORDS,
+    'at': AT_WORDS,
+    'color': COLOR_WORDS,
+    'lifetime': Words(),
+    **Properties.WORDS,
+    **dict.fromkeys(('motion', 'field_lead', 'wrench', 'driven', 'acting'), Words()),
+}
 # Keys of a joint that the text of a marker does not have.
 OWN_JOINT_KEYS = ['name', 'points', 'seat', 'command', 'coming']
 # Greatest number of commands on their way to a drive or a motor: one for each step of the longest

@@ -20,7 +20,7 @@ from typing import Any, get_args
 
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.spelling import canonical
-from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.texts import nearest_name, Words
 from physsim_ros.model.transform import Point, Pose
 
 # Greatest speed [m/s] and spin [rad/s]. A body at this speed covers metres in a step, which
@@ -258,6 +258,11 @@ class Vector:
 VELOCITY = Vector(FASTEST, 'm/s', 'faster')
 MASS, DENSITY = Within(LIGHTEST, HEAVIEST, 'kg'), Within(LIGHTEST, HEAVIEST, 'kg/m²')
 FRICTION, ELASTICITY = Within(0.0, 10.0), Within(0.0, 1.0)
+# Everyday words for them, and for greatest speeds.
+MASS_WORDS, DENSITY_WORDS = Words('weight', 'heavy', 'kg'), Words('specific_weight', 'rho')
+FRICTION_WORDS = Words('rough', 'roughness', 'grip', 'slippery', 'slip', 'mu')
+ELASTICITY_WORDS = Words('bouncy', 'bounce', 'bounciness', 'restitution', 'rebound')
+MOST_SPEED_WORDS = Words('max_velocity', 'velocity_limit', 'speed_limit')
 
 
 def flag(value: object, name: str) -> bool:

@@ -17,6 +17,7 @@ import zlib
 from physsim_ros.model.checks import check_finite, number, shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.names import split_name
+from physsim_ros.model.texts import Words
 
 # Red, green, blue, alpha, each 0 .. 1.
 Color = tuple[float, float, float, float]
@@ -42,6 +43,10 @@ def color_from(text: str) -> Color:
         )
     red, green, blue, alpha = (each / 255 for each in (*bytes.fromhex(text[1:]), 255)[:4])
     return red, green, blue, alpha
+
+
+# Everyday words for a colour.
+COLOR_WORDS = Words('colour', 'rgb', 'rgba')
 
 
 def color_value(value: object, name: str) -> Color:

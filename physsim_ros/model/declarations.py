@@ -25,7 +25,7 @@ from typing import Any, ClassVar, Generic, Self, TypeVar
 
 from physsim_ros.model.checks import Check, LONGEST_SHOWN, shown
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.texts import name_meant, nearest_name, property_meant
+from physsim_ros.model.texts import name_meant, nearest_name, Words
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class Declaration:
     :param sentence: what it is, in Markdown
     :param check: None where the class itself checks it
     :param default: MISSING for a field that must be set
-    :param notes: what else its users need, as its default among ROS parameters
+    :param notes: what else its users need, as its default among ROS parameters, or everyday words
     """
 
     name: str
@@ -45,6 +45,11 @@ class Declaration:
     check: Check | None
     default: Any
     notes: tuple[Any, ...]
+
+    @property
+    def words(self) -> Words:
+        """Return the everyday words for it."""
+        return next((note for note in self.notes if isinstance(note, Words)), Words())
 
     @property
     def span(self) -> str:
@@ -66,12 +71,14 @@ class Checked:
 
     :cvar KIND: word for the class among others of its base; '' for a class that is alone
     :cvar FIELDS: declarations of the fields, by name
+    :cvar WORDS: everyday words for each of them
     :raises Refusal: a check raised it
     """
 
     __slots__ = ()
     KIND: ClassVar[str] = ''
     FIELDS: ClassVar[Mapping[str, Declaration]] = {}
+    WORDS: ClassVar[Mapping[str, Words]] = {}
     # Name, check, and whether None is not checked, of each field that has a check.
     _CHECKS: ClassVar[tuple[tuple[str, Check, bool], ...]] = ()
 
@@ -80,6 +87,7 @@ class Checked:
         if 'FIELDS' in cls.__dict__:
             return
         cls.FIELDS = {**cls.FIELDS, **{each.name: each for each in _declarations(cls)}}
+        cls.WORDS = {each.name: each.words for each in cls.FIELDS.values()}
         cls._CHECKS = tuple(
             (each.name, each.check, each.default is None)
             for each in cls.FIELDS.values()
@@ -148,7 +156,7 @@ class Checked:
         :raises BadProperty: a value is null
         """
         for key, value in mapping.items():
-            check_key(key, cls.FIELDS)
+            check_key(key, cls.WORDS)
             if value is None:
                 raise BadProperty(f'{key} has no value', field=str(key))
 
@@ -194,16 +202,17 @@ def _declarations(cls: type[Checked]) -> Iterator[Declaration]:
         yield Declaration(name, sentence, check, default, tuple(notes))
 
 
-def check_key(key: object, known: Collection[str]) -> None:
+def check_key(key: object, known: Mapping[str, Collection[str]]) -> None:
     """
     Refuse an unknown key, and name the known one that is meant or similar, else all of them.
 
+    :param known: everyday words for each of the keys that there are
     :raises UnknownProperty: the key is not one of the known
     """
     if key in known:
         return
     word = str(key)
-    meant = property_meant(word, known)
+    meant = name_meant(word, known)
     hint = f'; use {meant!r}' if meant else nearest_name(word.lower(), known)
     if known and not hint:
         hint = f'; there are {", ".join(known)}'
@@ -221,7 +230,7 @@ def known_mapping(value: object, name: str, known: Collection[str]) -> dict[Any,
     if not isinstance(value, dict):
         raise BadProperty(f'{name} must be a mapping', field=name)
     for key in value:
-        check_key(key, known)
+        check_key(key, dict.fromkeys(known, ()))
     return value
 
 

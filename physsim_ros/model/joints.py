@@ -9,18 +9,29 @@ Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its gly
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 from typing import Annotated, Any, Self
 
-from physsim_ros.model.checks import brief, FASTEST, flag, HEAVIEST, shown, text, texts, Within
+from physsim_ros.model.checks import (
+    brief,
+    FASTEST,
+    flag,
+    FRICTION_WORDS,
+    HEAVIEST,
+    MOST_SPEED_WORDS,
+    shown,
+    text,
+    texts,
+    Within,
+)
 from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.latency import COMMAND_RATE, delays
+from physsim_ros.model.latency import COMMAND_RATE, COMMAND_RATE_WORDS, delays, LATENCY_WORDS
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.texts import name_meant, nearest_name
+from physsim_ros.model.texts import name_meant, nearest_name, Words
 from physsim_ros.model.transform import Point
 
 # Greatest ratio of a gear, and the inverse of the least: between the fastest and the slowest wheel
@@ -254,16 +265,19 @@ class JointProperties(Checked):
         Within(-LARGEST, LARGEST, 'rad or m'),
         'least angle of `a` relative to `b`, or least displacement of `a` along the axis, from '
         'where they were joined; of a winch, the least length',
+        Words('min', 'minimum', 'from'),
     ] = None
     upper: Annotated[
         float | None,
         Within(-LARGEST, LARGEST, 'rad or m'),
         'greatest angle, displacement or length',
+        Words('max', 'maximum', 'to'),
     ] = None
     ratchet: Annotated[
         float | None,
         _direction,
         '1: `a` turns against `b` only counter-clockwise; -1: only clockwise',
+        Words('freewheel', 'pawl', 'clutch'),
     ] = None
     rate: Annotated[
         float | None,
@@ -272,59 +286,71 @@ class JointProperties(Checked):
         '`a` along its line, by default not driven; winch: rate of its length, which begins as '
         '`length`, by default none',
         1.0,
+        Words('speed', 'angular_velocity', 'omega', 'rpm', 'motor_speed', 'target'),
     ] = None
     max_torque: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', 1000.0
+        float | None,
+        Within(0.0, HEAVIEST, 'N m'),
+        'greatest torque of a motor',
+        1000.0,
+        Words('torque', 'strength', 'power'),
     ] = None
     effort: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N m or N'),
         'gives the joint a motor of this greatest torque or force, which holds until it is '
         'commanded; not together with `rate`',
+        Words('motor_torque', 'motor_force', 'max_effort'),
     ] = None
     max_speed: Annotated[
         float | None,
         Within(0.0, FASTEST, 'rad/s or m/s'),
         'greatest rate of that motor',
         1.0,
+        MOST_SPEED_WORDS,
     ] = None
     gain: Annotated[
         float | None,
         Within(0.0, 200.0, '1/s'),
         'speed of that motor towards a commanded position, divided by the distance to it',
         20.0,
+        Words('kp', 'p_gain', 'proportional_gain'),
     ] = None
-    # Digests leave both out: what they change is in the commands on their way, which digests have.
     latency: Annotated[
         Point | None,
         delays,
         'least and greatest time from a command to that motor, drawn by `seed`; one number is '
         'both [s]',
         0.0,
-    ] = field(default=None, repr=False)
+        LATENCY_WORDS,
+    ] = None
     command_rate: Annotated[
         float | None,
         COMMAND_RATE,
         'times a second at which that motor looks for a new command; 0 is each step',
         0.0,
-    ] = field(default=None, repr=False)
+        COMMAND_RATE_WORDS,
+    ] = None
     friction: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N m or N'),
         'torque or force with which a bearing or a slide resists motion, whatever its load',
         0.0,
+        FRICTION_WORDS,
     ] = None
     stiffness: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N/m or N m/rad'),
         'spring: force per strain; axle: torque per angle, by default none',
         100.0,
+        Words('k', 'spring_constant', 'hardness', 'stiff'),
     ] = None
     damping: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N s/m or N m s/rad'),
         'spring: force against the rate of strain; axle: torque against its angular velocity',
         0.0,
+        Words('damper', 'viscosity', 'c'),
     ] = None
     rest_angle: Annotated[
         float | None,
@@ -332,12 +358,21 @@ class JointProperties(Checked):
         'angle of `a` relative to `b`, from where they were joined, at which a torsion spring '
         'has no torque',
         0.0,
+        Words('neutral_angle', 'zero_angle', 'equilibrium'),
     ] = None
     rest_length: Annotated[
-        float | None, Within(0.0, LARGEST, 'm'), 'length of a spring without force', AS_DRAWN
+        float | None,
+        Within(0.0, LARGEST, 'm'),
+        'length of a spring without force',
+        AS_DRAWN,
+        Words('natural_length', 'free_length', 'rest'),
     ] = None
     length: Annotated[
-        float | None, Within(0.0, LARGEST, 'm'), "greatest distance of a rope's points", AS_DRAWN
+        float | None,
+        Within(0.0, LARGEST, 'm'),
+        "greatest distance of a rope's points",
+        AS_DRAWN,
+        Words('distance', 'long'),
     ] = None
     over: Annotated[
         tuple[str, ...] | None,
@@ -345,6 +380,7 @@ class JointProperties(Checked):
         'names of the bodies at the points between the ends, `world` for the background; on a '
         'disc the rope runs as on a wheel, without slipping; other points are rings',
         AS_DRAWN,
+        Words('via', 'through', 'wheels', 'pulleys', 'rings', 'sheaves'),
     ] = None
     ratio: Annotated[
         float | None,
@@ -352,32 +388,41 @@ class JointProperties(Checked):
         'turns of `a` for one of `b`; negative for opposite directions; '
         f'{brief(1 / MOST_RATIO)} .. {brief(MOST_RATIO)}, either sign',
         1.0,
+        Words('transmission', 'teeth'),
     ] = None
     phase: Annotated[
         float | None,
         Within(-_MOST_PHASE, _MOST_PHASE, 'rad'),
         'angle of `b` times `ratio` minus angle of `a`',
         AS_DRAWN,
+        Words('angle', 'offset'),
     ] = None
     carrier: Annotated[
         str | None,
         _name,
         'name of a third body relative to which the angles of a gear are measured, such as the '
         'arm of a planet; by default, and with `world`, they are absolute',
+        Words('arm', 'planet_carrier', 'reference'),
     ] = None
     max_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
         'greatest force of the joint; for torques, N m. For a driven slider, the force of its '
         'drive, by default 1000 N',
+        Words('force'),
     ] = None
     break_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
         'force above which the joint is removed; for torques, N m',
+        Words('breaks', 'breakable', 'breaking_force', 'fragile'),
     ] = None
     collide: Annotated[
-        bool | None, flag, 'whether the joined bodies collide with each other', False
+        bool | None,
+        flag,
+        'whether the joined bodies collide with each other',
+        False,
+        Words('collision', 'collisions', 'collide_connected'),
     ] = None
 
     def __post_init__(self) -> None:
@@ -416,15 +461,15 @@ class JointProperties(Checked):
                 )
 
 
-# Keys of a joint in the text of a marker.
-JOINT_KEYS = ['kind', 'a', 'b', *JointProperties.FIELDS]
+# Keys of a joint in the text of a marker, with everyday words for them.
+JOINT_KEYS = {'kind': (), 'a': (), 'b': (), **JointProperties.WORDS}
 # Values of the properties that nobody sets, by name; those that are not here are absent, or
 # as drawn.
 DEFAULTS: dict[str, float] = {
     name: note
     for name, each in JointProperties.FIELDS.items()
     for note in each.notes
-    if note != AS_DRAWN
+    if isinstance(note, float | bool)
 }
 
 

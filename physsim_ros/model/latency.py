@@ -10,6 +10,7 @@ Law: it depends on seed, name and step alone, so that a rewind repeats it.
 from physsim_ros.model.checks import Row, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.noise import uniform
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
 
 # Longest latency [s]. Commands on their way are part of the state, at most one for each step.
@@ -17,6 +18,9 @@ LONGEST_DELAY = 5.0
 _DELAY = Within(0.0, LONGEST_DELAY, 's')
 # Looks for a command in a second: at most as many as a world makes steps.
 COMMAND_RATE = Within(0.0, 1e4, 'Hz')
+# Everyday words for both.
+LATENCY_WORDS = Words('delay', 'dead_time', 'lag')
+COMMAND_RATE_WORDS = Words('update_rate', 'control_rate', 'control_frequency')
 
 
 def delays(value: object, name: str) -> Point:

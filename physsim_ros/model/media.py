@@ -14,7 +14,7 @@ from typing import Annotated
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.checks import HEAVIEST, VELOCITY, Whole, Within
+from physsim_ros.model.checks import DENSITY_WORDS, HEAVIEST, VELOCITY, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.noise import normals
 from physsim_ros.model.transform import Point
@@ -45,6 +45,7 @@ class Medium(Checked):
         FLUID_DENSITY,
         'buoyancy is the weight of as much of the medium as a body displaces; quadratic drag '
         'grows with it',
+        DENSITY_WORDS,
     ]
     viscosity: Annotated[
         float,

@@ -9,8 +9,8 @@ Law: everything here is immutable, and constant while the world steps.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from functools import cached_property
 import math
 from typing import Any, NamedTuple
@@ -64,19 +64,18 @@ class Body:
     group: int = 0
     sensor: bool = False
     expires: int | None = None
-    # Not part of the text, which every digest has, since few bodies have them.
-    surface_velocity: Point = field(default=(0.0, 0.0), repr=False)
-    belt: float = field(default=0.0, repr=False)
-    rolling_resistance: float = field(default=0.0, repr=False)
-    one_way: Point = field(default=(0.0, 0.0), repr=False)
-    closed_sides: bool = field(default=False, repr=False)
-    robot: Robot | None = field(default=None, repr=False)
-    towed: Towed | None = field(default=None, repr=False)
-    label: str = field(default='', repr=False)
-    actor: Actor | None = field(default=None, repr=False)
-    forces: tuple[AppliedForce, ...] = field(default=(), repr=False)
-    charge: float = field(default=0.0, repr=False)
-    medium: Medium | None = field(default=None, repr=False)
+    surface_velocity: Point = (0.0, 0.0)
+    belt: float = 0.0
+    rolling_resistance: float = 0.0
+    one_way: Point = (0.0, 0.0)
+    closed_sides: bool = False
+    robot: Robot | None = None
+    towed: Towed | None = None
+    label: str = ''
+    actor: Actor | None = None
+    forces: tuple[AppliedForce, ...] = ()
+    charge: float = 0.0
+    medium: Medium | None = None
 
     @property
     def total_mass(self) -> float:
@@ -106,14 +105,6 @@ class Body:
 
 # Of the fields of a body; MISSING where the world or the request has it.
 BODY_DEFAULTS = {each.name: each.default for each in fields(Body)}
-# The fields that few bodies have, which are not part of its text.
-_RARE = [(each.name, each.default) for each in fields(Body) if not each.repr]
-# The same of settings that move bodies; the key has the others beside them.
-_RARE_SETTINGS = [
-    (each.name, each.default)
-    for each in fields(WorldSettings)
-    if not each.repr and each.name not in {'floor_friction', 'seed', 'datum'}
-]
 # Its properties, in the order of their declarations.
 _HELD = [name for name in Properties.FIELDS if name in BODY_DEFAULTS]
 
@@ -198,7 +189,7 @@ class Joint:
     b: str
     seat: Seat
     properties: JointProperties
-    guides: tuple[Guide, ...] = field(default=(), repr=False)
+    guides: tuple[Guide, ...] = ()
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -292,6 +283,13 @@ class Joint:
         return {name: values[name] for name in drawn if name in values}
 
 
+def _columns(parts: Sequence[Any]) -> dict[str, list[Any]]:
+    """Return the fields of values of one class, but those that all have at the default."""
+    declared = fields(parts[0]) if parts else ()
+    columns = ((each, [getattr(part, each.name) for part in parts]) for each in declared)
+    return {each.name: column for each, column in columns if column != [each.default] * len(parts)}
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scene:
     """
@@ -313,24 +311,9 @@ class Scene:
 
     @cached_property
     def key(self) -> bytes:
-        """Its content as bytes, for digests; names of classes and fields are part of them."""
-        settings = self.settings
-        parts = repr((self.bodies, settings, self.joints))
-        rare = [
-            (body.name, name, value)
-            for name, default in _RARE
-            for body in self.bodies
-            if (value := getattr(body, name)) != default
-        ]
-        rare += [(joint.name, 'guides', joint.guides) for joint in self.joints if joint.guides]
-        rare += [
-            ('', name, value)
-            for name, default in _RARE_SETTINGS
-            if (value := getattr(settings, name)) != default
-        ]
-        if rare or settings.floor_friction or settings.seed:
-            parts += repr((settings.floor_friction, settings.seed, rare))
-        return parts.encode()
+        """Its content as bytes, for digests, but for the lesson."""
+        parts = (self.settings,), self.bodies, self.joints
+        return repr([*map(_columns, parts)]).encode()
 
     @cached_property
     def names(self) -> tuple[str, ...]:

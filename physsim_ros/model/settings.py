@@ -3,14 +3,17 @@
 
 """Settings of a world: gravity, damping, solver, walls, and the default material of bodies."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import math
 from typing import Annotated
 
 from physsim_ros.model.checks import (
     DENSITY,
+    DENSITY_WORDS,
     ELASTICITY,
+    ELASTICITY_WORDS,
     FRICTION,
+    FRICTION_WORDS,
     HEAVIEST,
     Row,
     shown,
@@ -92,54 +95,51 @@ class WorldSettings(Checked):
         'walls around the world: xmin, ymin, xmax, ymax, each '
         f'{-LARGEST:g} .. {LARGEST:g} [m]; empty is no walls',
     ] = None
-    density: Annotated[float, DENSITY, 'density of new bodies, unless they have their own'] = 1.0
+    density: Annotated[
+        float, DENSITY, 'density of new bodies, unless they have their own', DENSITY_WORDS
+    ] = 1.0
     friction: Annotated[
         float,
         FRICTION,
         'coefficient of friction of new bodies, unless they have their own',
+        FRICTION_WORDS,
     ] = 0.5
     elasticity: Annotated[
         float,
         ELASTICITY,
         'coefficient of restitution of new bodies, unless they have their own',
+        ELASTICITY_WORDS,
     ] = 0.5
-    # Not part of the text, so that older digests stay valid.
     floor_friction: Annotated[
         float,
         FRICTION,
         'coefficient of friction between bodies and the floor of a world seen from above; 0 for a '
         'world seen from the side',
-    ] = field(default=0.0, repr=False)
-    seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of the noise of robots, and of gusts'] = field(
-        default=0, repr=False
-    )
+    ] = 0.0
+    seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of the noise of robots, and of gusts'] = 0
     air_density: Annotated[
         float,
         FLUID_DENSITY,
         'density of the air, which fills the world outside of bodies with a `medium`: it buoys '
         'bodies up, and resists them by v²',
         OF_WORLD,
-    ] = field(default=0.0, repr=False)
+    ] = 0.0
     air_viscosity: Annotated[
         float,
         VISCOSITY,
         'viscosity of the air, which resists bodies by v (Stokes)',
         OF_WORLD,
-    ] = field(default=0.0, repr=False)
-    air_drag: Annotated[float, DRAG, 'coefficient of the drag of the air by v²', OF_WORLD] = field(
-        default=1.0, repr=False
-    )
-    wind: Annotated[Point, VELOCITY, 'velocity of the air', OF_WORLD] = field(
-        default=(0.0, 0.0), repr=False
-    )
+    ] = 0.0
+    air_drag: Annotated[float, DRAG, 'coefficient of the drag of the air by v²', OF_WORLD] = 1.0
+    wind: Annotated[Point, VELOCITY, 'velocity of the air', OF_WORLD] = (0.0, 0.0)
     gusts: Annotated[
         float,
         GUSTS,
         'root mean square of the gusts of the wind, in x and in y; they depend on `seed`',
         OF_WORLD,
-    ] = field(default=0.0, repr=False)
+    ] = 0.0
     gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next', OF_WORLD] = (
-        field(default=2.0, repr=False)
+        2.0
     )
     gravitation: Annotated[
         float,
@@ -147,32 +147,32 @@ class WorldSettings(Checked):
         'constant G of the attraction G m m / r² between all bodies except sensors; its unit '
         'depends on `attraction_power`',
         OF_WORLD,
-    ] = field(default=0.0, repr=False)
+    ] = 0.0
     coulomb: Annotated[
         float,
         Within(0.0, HEAVIEST, 'N m²/C²'),
         'constant k of the force k q q / r² between bodies with a `charge`; its unit depends on '
         '`attraction_power`',
         OF_WORLD,
-    ] = field(default=0.0, repr=False)
+    ] = 0.0
     attraction_power: Annotated[
         float,
         Within(-1.0, 4.0),
         'exponent p of the distance, 1 / r^p, in both forces: 2 as in space, 1 in a flat world',
         OF_WORLD,
-    ] = field(default=2.0, repr=False)
+    ] = 2.0
     softening: Annotated[
         float,
         Within(0.0, 1000.0, 'm'),
         'length ε that limits both forces at small distances: r² becomes r² + ε²',
         OF_WORLD,
-    ] = field(default=0.001, repr=False)
+    ] = 0.001
     datum: Annotated[
         Point | None,
         Row((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),
         'latitude and longitude of the origin, -90 .. 90 and -180 .. 180 [deg], for receivers of '
         'satellite navigation; x points east, y north. Without a datum they have no fix',
-    ] = field(default=None, repr=False)
+    ] = None
     command_timeout: Annotated[
         float,
         Within(0.0, 1e9, 's'),

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 import difflib
 from itertools import islice
+from typing import Self
 import unicodedata
 
 # Unicode categories of control characters, surrogates, line and paragraph separators. Format
@@ -28,58 +29,15 @@ _LEAST_PART = 3
 # has 0.67; `position` and `friction`, which are two words, have 0.63.
 _SIMILAR = 0.65
 
-# The words for each property. Bodies and joints share words, as speed: of a body it is its
-# velocity, of a motor its rate.
-EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
-    'mass': ('weight', 'heavy', 'kg'),
-    'density': ('specific_weight', 'rho'),
-    'friction': ('rough', 'roughness', 'grip', 'slippery', 'slip', 'mu'),
-    'elasticity': ('bouncy', 'bounce', 'bounciness', 'restitution', 'rebound'),
-    'velocity': ('speed', 'v', 'vel', 'linear_velocity', 'twist'),
-    'spin': ('angular_velocity', 'omega', 'rotation', 'turn'),
-    'anchored': ('fixed', 'static', 'immovable', 'frozen', 'locked', 'pinned'),
-    'kinematic': ('scripted', 'animated', 'platform'),
-    'group': ('layer', 'category', 'filter', 'mask'),
-    'sensor': ('trigger', 'ghost', 'detector', 'is_trigger'),
-    'surface_velocity': ('conveyor', 'conveyor_velocity'),
-    'belt': ('belt_speed', 'tread', 'surface_speed'),
-    'one_way': ('oneway', 'one_way_collision', 'one_sided', 'platform', 'passable'),
-    'closed_sides': ('sides', 'one_way_sides'),
-    'rolling_resistance': ('rolling_friction', 'crr', 'roll'),
-    'robot': ('vehicle', 'drive'),
-    'towed': ('trailer', 'wheels', 'caster', 'cart'),
-    'actor': ('path', 'trajectory', 'waypoints', 'tween', 'walk', 'pedestrian', 'behavior'),
-    'at': ('position', 'pose', 'x', 'y', 'yaw', 'angle', 'orientation'),
-    'color': ('colour', 'rgb', 'rgba'),
-    'circle': ('disc', 'disk', 'sphere', 'radius', 'diameter'),
-    'box': ('rectangle', 'cube', 'size', 'width', 'height'),
-    'forces': ('force', 'applied_force', 'thrust', 'thruster', 'push'),
-    'charge': ('q', 'coulomb', 'electric_charge'),
-    'medium': ('water', 'fluid', 'liquid', 'air', 'buoyancy', 'wind', 'region'),
-    'label': ('text', 'caption', 'note', 'title'),
-    'lower': ('min', 'minimum', 'from'),
-    'upper': ('max', 'maximum', 'to'),
-    'rate': ('speed', 'angular_velocity', 'omega', 'rpm', 'motor_speed', 'target'),
-    'max_torque': ('torque', 'strength', 'power'),
-    'effort': ('motor_torque', 'motor_force', 'max_effort'),
-    'max_speed': ('max_velocity', 'velocity_limit', 'speed_limit'),
-    'gain': ('kp', 'p_gain', 'proportional_gain'),
-    'latency': ('delay', 'dead_time', 'lag'),
-    'command_rate': ('update_rate', 'control_rate', 'control_frequency'),
-    'stiffness': ('k', 'spring_constant', 'hardness', 'stiff'),
-    'damping': ('damper', 'viscosity', 'c'),
-    'rest_length': ('natural_length', 'free_length', 'rest'),
-    'rest_angle': ('neutral_angle', 'zero_angle', 'equilibrium'),
-    'length': ('distance', 'long'),
-    'over': ('via', 'through', 'wheels', 'pulleys', 'rings', 'sheaves'),
-    'ratio': ('transmission', 'teeth'),
-    'phase': ('angle', 'offset'),
-    'ratchet': ('freewheel', 'pawl', 'clutch'),
-    'carrier': ('arm', 'planet_carrier', 'reference'),
-    'max_force': ('force',),
-    'break_force': ('breaks', 'breakable', 'breaking_force', 'fragile'),
-    'collide': ('collision', 'collisions', 'collide_connected'),
-}
+
+class Words(tuple[str, ...]):
+    """The everyday words that people use for a key, which a refusal then names."""
+
+    __slots__ = ()
+
+    def __new__(cls, *words: str) -> Self:
+        """Make it of the words."""
+        return super().__new__(cls, words)
 
 
 def is_printable(text: str) -> bool:
@@ -133,17 +91,6 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
     near = (begun[:_MOST_NAMED] if len(name) >= _LEAST_PART else []) or similar
     verb = 'are' if len(near) > 1 else 'is'
     return f'; nearest {verb} {", ".join(map(repr, near))}' if near else ''
-
-
-def property_meant(word: str, known: Collection[str]) -> str:
-    """
-    Return the property that people mean by a word, or ''.
-
-    :param known: the properties that there are
-    """
-    return name_meant(
-        word, {name: EVERYDAY_WORDS[name] for name in EVERYDAY_WORDS if name in known}
-    )
 
 
 def name_meant(word: str, everyday: Mapping[str, Collection[str]]) -> str:

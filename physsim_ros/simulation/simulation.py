@@ -228,17 +228,18 @@ class Simulation(FrameMaker):
         :raises Malformed: the value is neither
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
-        message = self.perform(Restore(state=self._put_ahead(world)))
+        state, ahead = self._to_begin_with(world)
+        self.at_shown_moment().cursor.world.put_ahead(ahead)
+        message = self.perform(Restore(state=state))
         self.stop_driving()
         return message
 
-    def _put_ahead(self, world: WorldState | Beginning) -> WorldState:
-        """Return a state, with which the world begins as it was built, where it was."""
+    def _to_begin_with(self, world: WorldState | Beginning) -> tuple[WorldState, Beginning | None]:
+        """Return a state, and its beginning if that is built."""
         OfClass(WorldState | Beginning)(world, 'world')
         if isinstance(world, WorldState):
-            return world.at_rate(self.physics_rate)
-        self.at_shown_moment().cursor.world.put_ahead(world)
-        return world.state
+            return world.at_rate(self.physics_rate), None
+        return world.state, world
 
     def save(self) -> WorldState:
         """
@@ -336,12 +337,7 @@ class Simulation(FrameMaker):
         :raises BadProperty: the seed is out of range
         """
         with self._jump() as past:
-            world = past.cursor.world
-            world.put_ahead(ahead)
-            try:
-                done = past.reset(seed)
-            finally:
-                world.put_ahead(None)
+            done = past.reset(seed, ahead)
             self._note_beginning()
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
@@ -353,8 +349,8 @@ class Simulation(FrameMaker):
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
         with self._jump() as past:
-            state = self._put_ahead(world)
-            past.open_world(state)
+            state, ahead = self._to_begin_with(world)
+            past.open_world(state, ahead)
             self._note_beginning()
         return load_message(state)
 

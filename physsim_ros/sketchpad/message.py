@@ -144,7 +144,7 @@ def _checked(request: str, type_: object, fields: dict[str, Any], role: Role) ->
         raise Malformed(f'there is no message {shown(type_)}', field='type')
     check_right(kind.right, role)
     for name in fields:
-        check_key(name, [*kind.fields])
+        check_key(name, dict.fromkeys(kind.fields, ()))
     arguments = {}
     for name, read in kind.fields.items():
         if not isinstance(read, Optional):

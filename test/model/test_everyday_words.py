@@ -3,20 +3,14 @@
 
 """Refusals that tell the property which an everyday word means."""
 
-from dataclasses import fields
-
+from physsim_ros.files import BODY_KEYS
 from physsim_ros.model.actors import actor_from
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.joints import JointKind, JointProperties, kind_from
+from physsim_ros.model.joints import JOINT_KEYS, JointKind, JointProperties, kind_from
 from physsim_ros.model.robots.drives import drive_from
 from physsim_ros.model.robots.sensors import sensor_from
-from physsim_ros.model.texts import EVERYDAY_WORDS
 import pytest
-
-KEYS = {each.name for kind in (Properties, JointProperties) for each in fields(kind)} | {
-    *('at', 'box', 'circle', 'color')  # of a body in a world file
-}
 
 
 @pytest.mark.parametrize(
@@ -86,9 +80,12 @@ def test_a_key_of_another_kind_is_refused_with_those_of_this_one():
     assert refused.value.field == 'wheelbase'
 
 
-def test_every_property_has_everyday_words_and_none_of_them_is_a_property():
-    assert set(EVERYDAY_WORDS) == KEYS
-    assert not {word for words in EVERYDAY_WORDS.values() for word in words} & KEYS
+def test_every_property_has_everyday_words_and_none_of_them_is_a_key():
+    assert all(Properties.WORDS.values())
+    assert all(JointProperties.WORDS.values())
+    every = {**JOINT_KEYS, **BODY_KEYS}
+    said = (word for words in (*JOINT_KEYS.values(), *BODY_KEYS.values()) for word in words)
+    assert every.keys().isdisjoint(said)
 
 
 def test_every_kind_of_joint_has_everyday_words_and_none_of_them_is_a_kind():

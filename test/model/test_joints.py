@@ -31,7 +31,7 @@ def test_every_property_belongs_to_a_kind_and_is_a_key():
     owned = {name for kind in JointKind for name in kind.schema.properties}
 
     assert owned == {*JointProperties.FIELDS}
-    assert ['kind', 'a', 'b', *JointProperties.FIELDS] == JOINT_KEYS
+    assert ['kind', 'a', 'b', *JointProperties.FIELDS] == [*JOINT_KEYS]
 
 
 @pytest.mark.parametrize('name', DEFAULTS)

@@ -9,10 +9,12 @@ import time
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.files import find_world, load_world, spawn_from
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import Configure
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import beginning_of, World
 import pytest
 from tools.bench.scenes import FREE, MACHINES, Scene
 
@@ -171,6 +173,32 @@ def test_a_seek_in_the_middle_of_a_step_goes_to_its_goal(in_sub_steps):
     assert simulation.world.digest() == at_half
     other.run(0.5)
     assert other.world.digest() == at_half
+
+
+def reset(simulation: Simulation) -> None:
+    simulation.reset(ahead=beginning_of(simulation.loaded, simulation.physics_rate))
+
+
+def open_empty(simulation: Simulation) -> None:
+    empty = WorldState(settings=WorldSettings())
+    simulation.open_world(beginning_of(empty, simulation.physics_rate))
+
+
+@pytest.mark.parametrize('begin', [reset, open_empty])
+def test_undo_returns_to_the_last_step_before_a_world_that_began_within_a_frame(
+    in_sub_steps, begin
+):
+    simulation = in_sub_steps(FREE['stack of ten'])
+    simulation.run(0.5)
+    for tick in range(3):
+        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+    shown = simulation.step
+    assert simulation.past.cursor.is_working
+
+    begin(simulation)
+    simulation.undo()
+
+    assert simulation.step == shown
 
 
 @pytest.mark.parametrize('kind', ['social_force', 'orca'])

@@ -8,7 +8,7 @@ import math
 from typing import Annotated, ClassVar
 
 from physsim_ros.model.actors.actor import Actor, PACE
-from physsim_ros.model.checks import Within
+from physsim_ros.model.checks import MOST_SPEED_WORDS, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 
@@ -23,7 +23,9 @@ class Pedestrian(Actor):
     """Somebody who walks from point to point; `points` have no yaw."""
 
     speed: Annotated[float, PACE, 'desired speed'] = 1.34
-    max_speed: Annotated[float | None, PACE, 'greatest speed; by default 1.3 `speed`'] = None
+    max_speed: Annotated[
+        float | None, PACE, 'greatest speed; by default 1.3 `speed`', MOST_SPEED_WORDS
+    ] = None
     goal_radius: Annotated[float, _LENGTH, 'distance at which a point counts as reached'] = 0.3
 
     def __post_init__(self) -> None:

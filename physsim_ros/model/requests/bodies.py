@@ -55,7 +55,7 @@ def _each_once(value: object, name: str) -> tuple[str, ...]:
 def _unset(value: object, name: str) -> tuple[str, ...]:
     names = texts(value, name)
     for each in names:
-        check_key(each, Properties.FIELDS)
+        check_key(each, Properties.WORDS)
     return names
 
 

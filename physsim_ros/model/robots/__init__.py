@@ -13,7 +13,7 @@ new sensor one in `sensors`.
 from physsim_ros.model.robots.battery import Battery, MOST_DOCKS
 from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
 from physsim_ros.model.robots.part_names import BASE, part_name
-from physsim_ros.model.robots.parts import Link, LinkJoint, Towed, TREE_KINDS
+from physsim_ros.model.robots.parts import Link, LinkJoint, Towed, TOWED_WORDS, TREE_KINDS
 from physsim_ros.model.robots.robot import (
     BATTERY_TOPIC,
     check_namespace,
@@ -28,6 +28,7 @@ __all__ = [
     'BATTERY_TOPIC',
     'DRIVES',
     'MOST_DOCKS',
+    'TOWED_WORDS',
     'TREE_KINDS',
     'Battery',
     'Car',

@@ -12,13 +12,13 @@ vy to the left [m/s], turn counter-clockwise [rad/s], at the origin of the body 
 """
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import FASTEST, FRICTION, Within
+from physsim_ros.model.checks import FASTEST, FRICTION, MOST_SPEED_WORDS, Within
 from physsim_ros.model.declarations import Checked, OfKind
-from physsim_ros.model.latency import COMMAND_RATE, delays
+from physsim_ros.model.latency import COMMAND_RATE, COMMAND_RATE_WORDS, delays, LATENCY_WORDS
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Point, Pose, Twist
 
@@ -39,9 +39,9 @@ class Drive(Checked, ABC):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    max_speed: Annotated[float, Within(0.0, FASTEST, 'm/s'), 'a command beyond it is cut off'] = (
-        0.5
-    )
+    max_speed: Annotated[
+        float, Within(0.0, FASTEST, 'm/s'), 'a command beyond it is cut off', MOST_SPEED_WORDS
+    ] = 0.5
     max_turn: Annotated[float, Within(0.0, FASTEST, 'rad/s'), 'a command beyond it is cut off'] = (
         2.0
     )
@@ -54,18 +54,19 @@ class Drive(Checked, ABC):
         Within(0.0, _LONGEST, 's'),
         'simulation time after which it stops without another command; 0 is no limit',
     ] = 0.5
-    # Digests leave both out: what they change is in the commands on their way, which digests have.
     latency: Annotated[
         Point,
         delays,
         'least and greatest time from a command to the wheels, drawn by `seed`; one number is '
         'both [s]',
-    ] = field(default=(0.0, 0.0), repr=False)
+        LATENCY_WORDS,
+    ] = (0.0, 0.0)
     command_rate: Annotated[
         float,
         COMMAND_RATE,
         'times a second at which it looks for a new command; 0 is each step',
-    ] = field(default=0.0, repr=False)
+        COMMAND_RATE_WORDS,
+    ] = 0.0
     track: Annotated[
         float,
         LENGTH,

@@ -14,25 +14,34 @@ from typing import Annotated, Any, Self
 
 from physsim_ros.model.checks import (
     DENSITY,
+    DENSITY_WORDS,
     ELASTICITY,
+    ELASTICITY_WORDS,
     FRICTION,
+    FRICTION_WORDS,
     MASS,
+    MASS_WORDS,
     OfClass,
     point_list,
     Within,
 )
-from physsim_ros.model.colors import Color, color_value
+from physsim_ros.model.colors import Color, color_value, COLOR_WORDS
 from physsim_ros.model.declarations import check_key, Checked, entry_of
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import JointKind, JointProperties, kind_from
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots.part_names import BASE, check_part, part_name
-from physsim_ros.model.robots.sensors.sensor import mounting
-from physsim_ros.model.shapes import LARGEST, Shape, SHAPES, SMALLEST
+from physsim_ros.model.robots.sensors.sensor import AT_WORDS, mounting
+from physsim_ros.model.shapes import LARGEST, Shape, SHAPE_WORDS, SHAPES, SMALLEST
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 # Kinds of joints that a link hangs on, which have a place in its description.
 TREE_KINDS = (JointKind.PIN, JointKind.AXLE, JointKind.MOTOR, JointKind.SLIDER)
+
+
+# Everyday words for a body with towed wheels.
+TOWED_WORDS = Words('trailer', 'wheels', 'caster', 'cart')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,17 +77,17 @@ class Link(Checked):
 
     name: Annotated[str, check_part, 'of the link, and of its frame']
     shape: Annotated[Shape, OfClass(Shape), 'a key of shapes, as `box`: as of a body']
-    at: Annotated[Pose, mounting, 'x, y [m], yaw [rad] in the frame of the body of the robot'] = (
-        ORIGIN
-    )
-    color: Annotated[Color | None, color_value, 'as of a body; by default that of the robot'] = (
-        None
-    )
-    mass: Annotated[float | None, MASS, 'not together with `density`'] = None
-    density: Annotated[float | None, DENSITY, 'as of a body'] = None
-    friction: Annotated[float | None, FRICTION, 'as of a body'] = None
-    elasticity: Annotated[float | None, ELASTICITY, 'as of a body'] = None
-    towed: Annotated[Towed | None, Towed.from_value, 'a mapping, as of a body'] = None
+    at: Annotated[
+        Pose, mounting, 'x, y [m], yaw [rad] in the frame of the body of the robot', AT_WORDS
+    ] = ORIGIN
+    color: Annotated[
+        Color | None, color_value, 'as of a body; by default that of the robot', COLOR_WORDS
+    ] = None
+    mass: Annotated[float | None, MASS, 'not together with `density`', MASS_WORDS] = None
+    density: Annotated[float | None, DENSITY, 'as of a body', DENSITY_WORDS] = None
+    friction: Annotated[float | None, FRICTION, 'as of a body', FRICTION_WORDS] = None
+    elasticity: Annotated[float | None, ELASTICITY, 'as of a body', ELASTICITY_WORDS] = None
+    towed: Annotated[Towed | None, Towed.from_value, 'a mapping, as of a body', TOWED_WORDS] = None
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
@@ -88,7 +97,10 @@ class Link(Checked):
         :raises Refusal: as `Checked.from_mapping`, or there is not one shape
         """
         for key in mapping:
-            check_key(key, [*SHAPES, *(each for each in cls.FIELDS if each != 'shape')])
+            check_key(
+                key,
+                SHAPE_WORDS | {each: cls.WORDS[each] for each in cls.FIELDS if each != 'shape'},
+            )
         keys = [key for key in SHAPES if key in mapping]
         if len(keys) != 1:
             raise BadProperty(f'a link has one of {", ".join(SHAPES)}', field='shape')
@@ -139,7 +151,7 @@ class LinkJoint(Checked):
         """
         own = [each for each in cls.FIELDS if each != 'properties']
         for key in mapping:
-            check_key(key, [*own, *JointProperties.FIELDS])
+            check_key(key, {**dict.fromkeys(own, ()), **JointProperties.WORDS})
         rest = {key: mapping[key] for key in mapping if key in own}
         properties = {key: mapping[key] for key in mapping if key not in own}
         joint = {**rest, 'properties': JointProperties.from_mapping(properties)}

@@ -15,7 +15,7 @@ from typing import Annotated
 from physsim_ros.model.checks import ListOf, Row, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.latency import delays
+from physsim_ros.model.latency import delays, LATENCY_WORDS
 from physsim_ros.model.robots.battery import Battery
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.part_names import BASE, part_name
@@ -42,13 +42,13 @@ class Odometry(Checked):
         'standard deviations of its drift, 0 .. 1: of the path after 1 m [m], of the heading '
         'after 1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
     ] = (0.0, 0.0)
-    # Digests leave it out, as it moves nothing.
     latency: Annotated[
         Point,
         delays,
         'least and greatest time from a pose to its messages on `odom` and `/tf`, as of a sensor '
         '[s]',
-    ] = field(default=(0.0, 0.0), repr=False)
+        LATENCY_WORDS,
+    ] = (0.0, 0.0)
 
 
 # Names of topics that every robot has beside that of its commands.
@@ -105,28 +105,26 @@ class Robot(Checked):
     odometry: Annotated[
         Odometry, Odometry.from_value, 'rate and errors of `odom`: a mapping, see below'
     ] = field(default_factory=Odometry)
-    # Digests leave it out, as they have the charge that it has given.
     battery: Annotated[
         Battery | None,
         Battery.from_value,
         'of its drive: a mapping, see below; by default it never ends',
-    ] = field(default=None, repr=False)
+    ] = None
     sensors: Annotated[
         tuple[Sensor, ...],
         ListOf(sensor_from, 'mappings', MOST_SENSORS),
         f'a list of mappings, at most {MOST_SENSORS}; each with its own topic',
     ] = ()
-    # Digests leave it out, as the parts are bodies, which they have.
     links: Annotated[
         tuple[Link, ...],
         ListOf(Link.from_value, 'mappings', MOST_PARTS),
         f'a list of mappings, at most {MOST_PARTS}: further bodies, see below',
-    ] = field(default=(), repr=False)
+    ] = ()
     joints: Annotated[
         tuple[LinkJoint, ...],
         ListOf(LinkJoint.from_value, 'mappings', MOST_PARTS),
         f'a list of mappings, at most {MOST_PARTS}: what holds the links, see below',
-    ] = field(default=(), repr=False)
+    ] = ()
     namespace: Annotated[
         str | None,
         check_namespace,
@@ -134,9 +132,8 @@ class Robot(Checked):
         'Robots of a world must differ in namespaces, topics and frames (a sensor `x/odom` in '
         '`tb` and a robot in `tb/x` collide)',
     ] = None
-    # Digests leave it out, as it moves nothing.
     command_topic: Annotated[str, topic_name, 'topic of the commands, below its namespace'] = (
-        field(default='cmd_vel', repr=False)
+        'cmd_vel'
     )
 
     def __post_init__(self) -> None:

@@ -33,6 +33,7 @@ from physsim_ros.model.shapes.kinds import (
     Disc,
     Polygon,
     Shape,
+    SHAPE_WORDS,
     SHAPES,
     Triangles,
 )
@@ -43,6 +44,7 @@ __all__ = [
     'LARGEST',
     'MOST_POINTS',
     'SHAPES',
+    'SHAPE_WORDS',
     'SMALLEST',
     'Box',
     'Capsule',

@@ -38,6 +38,7 @@ from physsim_ros.model.shapes.validation import (
     checked_points,
     distinct_points,
 )
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import cross, Point
 
 
@@ -265,3 +266,8 @@ class Compound(Checked):
 Shape = Disc | Box | Polygon | Chain | Triangles | Compound
 # By the key of world files.
 SHAPES: dict[str, type[Shape]] = {each.KEY: each for each in get_args(Shape)}
+# Everyday words for each of these keys.
+SHAPE_WORDS = dict.fromkeys(SHAPES, Words()) | {
+    Disc.KEY: Words('disc', 'disk', 'sphere', 'radius', 'diameter'),
+    Box.KEY: Words('rectangle', 'cube', 'size', 'width', 'height'),
+}

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid, Path
 import numpy as np
-from physsim_ros.files import load_mapping, PROPERTIES, with_shipped_robot
+from physsim_ros.files import BODY_KEYS, load_mapping, PROPERTIES, with_shipped_robot
 from physsim_ros.maps import OccupancyGrid as Grid
 from physsim_ros.maps import walls_of
 from physsim_ros.model.arrays import Floats
@@ -47,7 +47,7 @@ from physsim_ros.model.requests import (
     UnjoinAll,
 )
 from physsim_ros.model.settings import MOST_SAMPLES, WorldSettings
-from physsim_ros.model.texts import property_meant
+from physsim_ros.model.texts import name_meant
 from physsim_ros.ros.marker_shapes import points_from, shape_from
 from physsim_ros.ros.planar import named_frame, planar_pose, point_in_frame, yaw_of
 from sensor_msgs.msg import MultiDOFJointState
@@ -58,7 +58,7 @@ NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
 # Name of the hand of feedback without `client_id`.
 ANONYMOUS_HAND = 'hand'
 # Keys of a body in a world file for which a marker has fields.
-_FIELDS = ('at', 'circle', 'box', 'color', 'lifetime')
+_FIELDS = {key: BODY_KEYS[key] for key in ('at', 'circle', 'box', 'color', 'lifetime')}
 # The greatest length of `text` [characters]: ten times all properties with all digits.
 LONGEST_TEXT = 10_000
 
@@ -136,7 +136,7 @@ def _properties(marker: Marker) -> tuple[Properties, tuple[str, ...]]:
     mapping, unset = without_unset(mapping_of(marker.text, 'text'), Properties)
     for key in mapping:
         word = str(key)
-        if word in _FIELDS or property_meant(word, _FIELDS):
+        if word in _FIELDS or name_meant(word, _FIELDS):
             raise UnknownProperty(
                 f'{shown(key)} is no property in a text: a marker has pose, scale, color and '
                 'lifetime as fields',

@@ -29,7 +29,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.past.line import Keyframe, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
-from physsim_ros.simulation.world import Change, World
+from physsim_ros.simulation.world import Beginning, Change, World
 
 # Share of the time between two checkpoints in which the bodies for the next one are built [1], so
 # that no frame builds all.
@@ -271,14 +271,15 @@ class Cursor(Replay):
 
     # To another moment
 
-    def begin(self, state: WorldState) -> None:
+    def begin(self, state: WorldState, ahead: Beginning | None = None) -> None:
         """
         Begin a line with a state, at time 0.
 
+        :param ahead: the beginning of the state, if it is built
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         self.finish_amendment()
-        self._world.begin(state, 0)
+        self._world.begin(state, 0, ahead)
         self._begin_line(state, self._world.renew())
 
     def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:

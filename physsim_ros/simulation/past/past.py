@@ -31,7 +31,7 @@ from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.line import CachedFrame, Line, Moment
 from physsim_ros.simulation.past.tree import Budget, Tree
-from physsim_ros.simulation.world import Change, World
+from physsim_ros.simulation.world import Beginning, Change, World
 
 # Check of the times of a past [s].
 _SPAN = Within(0.0, LONGEST, 's')
@@ -292,11 +292,12 @@ class Past:
         self.frames.drop_from(0)
         self.tree.course = self._courses = 1
 
-    def reset(self, seed: int | None = None) -> bool:
+    def reset(self, seed: int | None = None, ahead: Beginning | None = None) -> bool:
         """
         Return to the state that was loaded last, at time 0.
 
         :param seed: of all noise; None is that of the state
+        :param ahead: the beginning of the state, if it is built
         :return: whether anything had happened since
         :raises BadProperty: the seed is out of range
         """
@@ -308,18 +309,19 @@ class Past:
         if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
-        self._begin_anew(state, 'reset')
+        self._begin_anew(state, 'reset', ahead)
         return True
 
-    def open_world(self, state: WorldState) -> None:
+    def open_world(self, state: WorldState, ahead: Beginning | None = None) -> None:
         """
         Begin with another state, at time 0; undo reverts it.
 
+        :param ahead: the beginning of the state, if it is built
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
-        self._begin_anew(state, 'open world')
+        self._begin_anew(state, 'open world', ahead)
 
-    def _begin_anew(self, state: WorldState, words: str) -> None:
+    def _begin_anew(self, state: WorldState, words: str, ahead: Beginning | None) -> None:
         """
         Put a line in force that begins with a state, at time 0.
 
@@ -330,7 +332,7 @@ class Past:
         before = tree.line(self.cursor.moment)
         before.words = words
         try:
-            self.cursor.begin(state)
+            self.cursor.begin(state, ahead)
         except Refusal:
             tree.drop(before)
             raise

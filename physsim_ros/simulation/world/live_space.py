@@ -150,23 +150,32 @@ class LiveSpace:
         self._retire(old, pool)
 
     def put_ahead(self, beginning: Beginning | None) -> None:
-        """Have the next `begin` take a beginning, if it is that of the same state; or none."""
+        """Have the next request that loads a state find its beginning built; None is not built."""
         self._ahead = beginning
 
     def slices_of_beginning(self, state: WorldState) -> Generator[None]:
-        """Build what the next `begin` with a state at this step takes; yield after each slice."""
+        """Build ahead what a request that loads a state begins with; yield after each slice."""
         self._ahead = yield from _slices_of_beginning(state, self.step_count, self._sub_step)
 
-    def begin(self, state: WorldState, step: int) -> None:
+    def load(self, state: WorldState) -> None:
+        """
+        Begin with a saved state at this step, as it was built ahead.
+
+        :raises WorldFull: the state is too large; nothing is changed
+        """
+        ahead, self._ahead = self._ahead, None
+        self.begin(state, self.step_count, ahead)
+
+    def begin(self, state: WorldState, step: int, ahead: Beginning | None = None) -> None:
         """
         Replace the space by one that begins with a saved state.
 
         :param step: number of steps that the world has made then
+        :param ahead: a beginning that was built, used if it is that of the same state
         :raises WorldFull: the state is too large; nothing is changed
         """
-        beginning, self._ahead = self._ahead, None
-        if beginning is not None and beginning.state is state:
-            beginning = beginning.at(step)
+        if ahead is not None and ahead.state is state:
+            beginning = ahead.at(step)
         else:
             if self.capacity.checking:
                 check_state(state)

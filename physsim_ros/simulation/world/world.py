@@ -66,7 +66,7 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
     :raises WorldFull: the state is too large; nothing is changed
     :raises BadProperty: springs are too stiff for the steps; nothing is changed
     """
-    live.begin(request.state, live.step_count)
+    live.load(request.state)
     return Answer(message=load_message(request.state))
 
 
@@ -219,9 +219,7 @@ class World(LiveSpace):
             digest.update(repr(grip).encode())
         for states in (self.space.table.robot_states, self.space.table.actor_states):
             for name in states.dtype.names or ():
-                # The digest of a world does not change with what only batteries have.
-                if name != 'drawn' or states[name].any():
-                    digest.update(states[name].tobytes())
+                digest.update(states[name].tobytes())
         return digest.hexdigest()
 
     @property

@@ -7,7 +7,7 @@ Sensors of distances: at equal angles, the nearest one in a cone, or of landmark
 Their messages are `sensor_msgs/LaserScan`, `sensor_msgs/Range` and `geometry_msgs/PoseArray`.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import math
 from typing import Annotated, ClassVar
 
@@ -53,13 +53,12 @@ class Laser(Sensor):
         Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
     ] = (0.1, 10.0)
     noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
-    # Digests leave it out, as it moves nothing.
     blind: Annotated[
         tuple[Point, ...],
         ListOf(angles, 'pairs of angles', _MOST_SECTORS),
         'sectors hidden by a mast or a cover, a list of `[first, last]` angles [rad]; their beams '
         'are NaN (REP 117)',
-    ] = field(default=(), repr=False)
+    ] = ()
 
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.

@@ -7,7 +7,7 @@ Sensors of the robot itself: of its motion, of what touches it, and of the floor
 Bumpers and floors have messages of `std_msgs/Bool` and `sensor_msgs/Image`.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import math
 from typing import Annotated, ClassVar
 
@@ -32,12 +32,11 @@ class Imu(Sensor):
         Row((Within(0.0, FASTEST),) * 2),
         'standard deviations of acceleration [m/s²] and turn rate [rad/s]',
     ] = (0.0, 0.0)
-    # Digests leave it out, as it moves nothing.
     gravity: Annotated[
         float,
         Within(0.0, 100.0, 'm/s²'),
         'z of its acceleration: 9.81 where the world is seen from above and a node expects it',
-    ] = field(default=0.0, repr=False)
+    ] = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -59,13 +58,12 @@ class Gps(Sensor):
     name: str = 'fix'
     rate: float = 5.0
     noise: Annotated[float, LENGTH, 'standard deviation to the east, and to the north'] = 0.0
-    # Digests leave it out, as it moves nothing.
     status: Annotated[
         str,
         OneOf(('none', 'fix', 'sbas', 'gbas')),
         'augmentation of its fixes: `fix` none, `sbas` by satellites, `gbas` from the ground '
         '(RTK); `none` has no position',
-    ] = field(default='fix', repr=False)
+    ] = 'fix'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

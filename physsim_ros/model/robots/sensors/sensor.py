@@ -4,7 +4,7 @@
 """The base of all sensors: a topic, a place on the body, a rate."""
 
 from abc import ABC
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import math
 import re
 from typing import Annotated
@@ -12,9 +12,10 @@ from typing import Annotated
 from physsim_ros.model.checks import Row, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.latency import delays
+from physsim_ros.model.latency import delays, LATENCY_WORDS
 from physsim_ros.model.robots.part_names import BASE, check_part
 from physsim_ros.model.shapes import LARGEST
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 # Tokens of ROS (https://design.ros2.org/articles/topic_and_service_names.html).
@@ -49,6 +50,10 @@ def topic_name(value: object, name: str) -> str:
             field=name,
         )
     return word
+
+
+# Everyday words for such a pose.
+AT_WORDS = Words('position', 'pose', 'x', 'y', 'yaw', 'angle', 'orientation')
 
 
 def mounting(value: object, name: str) -> Pose:
@@ -108,18 +113,19 @@ class Sensor(Checked, ABC):
     """
 
     name: Annotated[str, topic_name, 'of its topic, below the namespace of the robot']
-    at: Annotated[Pose, mounting, 'x, y [m], yaw [rad] in the frame of its link'] = ORIGIN
+    at: Annotated[Pose, mounting, 'x, y [m], yaw [rad] in the frame of its link', AT_WORDS] = (
+        ORIGIN
+    )
     rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'readings a second of simulation time'] = (
         10.0
     )
-    # Digests leave it out, as it moves nothing.
     link: Annotated[str, check_part, 'that it is mounted on; `base` is the body of the robot'] = (
-        field(default=BASE, repr=False)
+        BASE
     )
-    # Digests leave it out, as it moves nothing.
     latency: Annotated[
         Point,
         delays,
         'least and greatest time from a reading to its message, which has the stamp of the '
         'reading, drawn by `seed`; one number is both [s]',
-    ] = field(default=(0.0, 0.0), repr=False)
+        LATENCY_WORDS,
+    ] = (0.0, 0.0)
