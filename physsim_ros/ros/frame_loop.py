@@ -101,14 +101,14 @@ class FrameLoop:
         step = self._simulation.step
         request_time = _RequestTime(self._rest_ns)
         # In a rewind commands are ignored, and no controller is awaited.
-        if self._simulation.speed < 0.0 or not self._fleet.waits():
+        if self._simulation.speed < 0.0 or not self._fleet.lockstep.waits():
             frames = self._simulation.advance(
                 now_ns,
                 is_overdue=tick_time.is_overdue,
                 is_spent=request_time.is_spent,
                 # Controllers answer whole frames.
-                ends_frame=lambda: self._fleet.in_lockstep or tick_time.is_overdue(),
-                by_steps=self._was_overdue and not self._fleet.in_lockstep,
+                ends_frame=lambda: self._fleet.lockstep.is_on or tick_time.is_overdue(),
+                by_steps=self._was_overdue and not self._fleet.lockstep.is_on,
             )
         elif self._simulation.is_changed:
             # By a service, as a reset, after which a robot may be gone, or its scan.

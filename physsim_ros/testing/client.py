@@ -17,7 +17,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PointStamped
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.qos_safe_node import LOSSLESS
+from physsim_ros.ros.topics import LOSSLESS
 from physsim_ros.testing.values import Refused
 from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle

@@ -116,9 +116,9 @@ class PhysSim(ChangedWorld):
             frames -= made
             self._frames_to_look -= made
             self.settle()
-            if self.node.fleet.waits():
+            if self.node.fleet.lockstep.waits():
                 self._executor.spin_until(
-                    lambda: not self.node.fleet.waits(), 'no answer to a scan', math.inf
+                    lambda: not self.node.fleet.lockstep.waits(), 'no answer to a scan', math.inf
                 )
 
     def run(

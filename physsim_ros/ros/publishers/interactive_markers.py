@@ -25,7 +25,7 @@ from physsim_ros.model.timeline import frames_in
 from physsim_ros.ros.encoders.streams import InteractivePosesEncoder
 from physsim_ros.ros.marker_shapes import geometry_of, THIN
 from physsim_ros.ros.planar import pose_message
-from physsim_ros.ros.qos_safe_node import CALLS
+from physsim_ros.ros.topics import CALLS
 from rclpy.node import Node
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header

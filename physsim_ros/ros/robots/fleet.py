@@ -5,9 +5,8 @@
 The fleet: all robots of the world, whose topics come and go with their bodies.
 
 Laws: a command that comes while the past is shown is refused, so that a rewind repeats what was
-driven; with `lockstep` the world waits for the commands that answer a scan, so that a controller
-in another process acts at the same simulation time in every run. Topics of many robots that come
-or go at once take a second: they are made and taken back in slices, and time waits for them.
+driven. Topics of many robots that come or go at once take a second: they are made and taken back
+in slices, and time waits for them.
 """
 
 from __future__ import annotations
@@ -30,6 +29,7 @@ from physsim_ros.model.transform import REST
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.frames import RobotTf
+from physsim_ros.ros.robots.lockstep import Lockstep
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.runtime.error_boundary import ErrorBoundary
@@ -61,6 +61,7 @@ class Fleet:
 
     :ivar name: of the output
     :ivar robots: topics of each, by the name of its body, in the order of the scene
+    :ivar lockstep: the wait for commands that answer scans
     :ivar view: the last frame, as the sensors of all robots see it; None before the first
     """
 
@@ -77,6 +78,7 @@ class Fleet:
         expected: type | None = None,
     ) -> None:
         self.robots: dict[str, RobotTopics] = {}
+        self.lockstep = Lockstep(values, lambda: self._drive_topics)
         self.view: StampedView | None = None
         self._node = node
         self._values = values
@@ -91,8 +93,6 @@ class Fleet:
         self._lasers: dict[str, Any] = {}
         # Steady time of the next look at the graph [s].
         self._look_due = 0.0
-        # Steady time since which a command is waited for [s]; None is none.
-        self._waiting_since: float | None = None
         # Whether time went back at the last frame: messages are on their way that are of before.
         self._went_back = False
         # Whether it was told that a robot has stopped as no command came.
@@ -172,36 +172,6 @@ class Fleet:
     def _refuse(self, body: str, refusal: Refusal, topic: str) -> None:
         self._requests.refuse(refusal, Origin(topic), subject=body, joined=True)
 
-    @property
-    def in_lockstep(self) -> bool:
-        """Whether time goes on by single publish periods, each of which robots may answer."""
-        return bool(self._values['lockstep'] and self.robots)
-
-    def waits(self) -> bool:
-        """
-        Return whether the world waits for commands that answer the last scans (`lockstep`).
-
-        Only robots whose commands are stamped are waited for, and no longer than `lockstep` by
-        the wall from the first time it is asked; then no answer to these scans is expected.
-        """
-        longest = self._values['lockstep']
-        if not longest or not any(topic.is_awaited for topic in self._drive_topics):
-            self._waiting_since = None
-            return False
-        now = time.monotonic()
-        if self._waiting_since is None:
-            self._waiting_since = now
-        if now < self._waiting_since + longest:
-            return True
-        self._expect_no_answers()
-        return False
-
-    def _expect_no_answers(self) -> None:
-        """End the wait for commands that answer the scans up to now."""
-        self._waiting_since = None
-        for topic in self._drive_topics:
-            topic.awaited = None
-
     # Frames
 
     def show(self, frame: Frame) -> None:
@@ -216,7 +186,7 @@ class Fleet:
         goes_back = before is not None and snapshot.stamp < before.stamp
         if frozen or goes_back:
             # The scan that was to be answered is of a time that is not shown.
-            self._expect_no_answers()
+            self.lockstep.expect_no_answers()
         self._match_scene(snapshot.scene)
         self._went_back |= goes_back
         if stands or frozen or not self.robots:
@@ -224,16 +194,16 @@ class Fleet:
         if self._went_back and not goes_back:
             self._send_again(frame, before)
             self._went_back = False
-        self._waiting_since = None
-        for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
+        self.lockstep.note_frame()
+        for row in snapshot.scene.robot_rows.tolist():
             robot = self.robots.get(snapshot.scene.names[row])
             with self._boundary.output('robots'):
                 if robot is None:
                     continue
-                scanned = robot.publish(view, row, number)
+                scanned = robot.publish(view, row)
                 if scanned is not None and robot.drive_topic is not None:
                     robot.drive_topic.expect_answer(scanned)
-            if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
+            if robot is not None and not self._has_told_timeout and _has_stopped(view, row):
                 self._tell_timeout(robot)
 
     def _send_again(self, frame: Frame, last: Snapshot | None) -> None:
@@ -244,11 +214,11 @@ class Fleet:
         step, stamp = frame.snapshot.step - last.step, frame.snapshot.stamp - last.stamp
         begin = last.step - math.ceil(longest * 1e9 * step / stamp)
         frames = self._past.frames.frames_after(begin - 1, last.step)
-        views: dict[str, list[tuple[StampedView, int, int]]] = {name: [] for name in self.robots}
+        views: dict[str, list[tuple[StampedView, int]]] = {name: [] for name in self.robots}
         for (before, _), (snapshot, contacts) in itertools.pairwise(frames):
             view = StampedView(replace(frame, snapshot=snapshot, contacts=contacts), before)
-            for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
-                views.get(snapshot.scene.names[row], []).append((view, row, number))
+            for row in snapshot.scene.robot_rows.tolist():
+                views.get(snapshot.scene.names[row], []).append((view, row))
         for name, robot in self.robots.items():
             with self._boundary.output('robots'):
                 robot.send_again(views[name], last.stamp)
@@ -326,14 +296,10 @@ class Fleet:
         )
 
 
-def _has_stopped(view: StampedView, number: int) -> bool:
-    """
-    Return whether the command of a robot has ended since the frame before.
-
-    :param number: of the robot among those of the scene
-    """
+def _has_stopped(view: StampedView, row: int) -> bool:
+    """Return whether the command of a robot has ended since the frame before."""
     now, before = view.snapshot, view.before
     if before is None or before.scene is not now.scene:
         return False
-    until = int(now.robots['until'][number])
+    until = int(now.robots['until'][now.scene.robot_number(row)])
     return before.step < until <= now.step

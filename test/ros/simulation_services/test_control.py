@@ -11,7 +11,7 @@ from typing import Any
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.ros import frame_loop
-from physsim_ros.ros.qos_safe_node import CALLS
+from physsim_ros.ros.topics import CALLS
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rclpy.action import ActionClient
