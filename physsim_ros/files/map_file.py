@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from physsim_ros.files.regular_file import read_bytes, read_file
 from physsim_ros.files.world_schema import entries_of
 from physsim_ros.files.yaml12 import load_mapping
-from physsim_ros.maps import MOST_CELLS, OccupancyGrid, walls_of
+from physsim_ros.maps import Grid, MOST_CELLS, walls_of
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.checks import number, Row, shown, Within
 from physsim_ros.model.errors import BadProperty
@@ -68,7 +68,7 @@ def with_map_walls(content: Mapping[Any, Any], folder: Path, most: int) -> dict[
     return {**{key: content[key] for key in content if key != 'map'}, 'bodies': bodies}
 
 
-def load_map(name: object, folder: Path) -> OccupancyGrid:
+def load_map(name: object, folder: Path) -> Grid:
     """
     Return the map of a file.
 
@@ -95,7 +95,7 @@ def load_map(name: object, folder: Path) -> OccupancyGrid:
     if thresholds[0] > thresholds[1]:
         raise BadProperty('free_thresh is above occupied_thresh', field='free_thresh')
     image = _file_in(path.parent, content['image'], 'image', root=folder.resolve())
-    return OccupancyGrid(
+    return Grid(
         occupied=_occupied(image, negate=_negate(content), threshold=thresholds[1]),
         resolution=resolution,
         origin=_ORIGIN(content['origin'], 'origin'),

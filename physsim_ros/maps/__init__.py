@@ -11,16 +11,16 @@ The anchored bodies of a world become a grid; a grid becomes a few anchored boxe
 
 from physsim_ros.maps.occupancy_grid import (
     anchored_grid,
+    Grid,
     is_on_map,
     MOST_CELLS,
-    OccupancyGrid,
     walls_of,
 )
 from physsim_ros.maps.rectangle_partition import rectangles_of
 
 __all__ = [
     'MOST_CELLS',
-    'OccupancyGrid',
+    'Grid',
     'anchored_grid',
     'is_on_map',
     'rectangles_of',

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Occupancy grids: square cells that are occupied or not (`nav_msgs/OccupancyGrid`).
+Occupancy grids: square cells that are occupied or not (`nav_msgs/Grid`).
 
 The anchored bodies of a world become a grid; a grid becomes walls, a few boxes.
 
@@ -36,7 +36,7 @@ MOST_CELLS = 16_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OccupancyGrid:
+class Grid:
     """
     An occupancy grid.
 
@@ -92,7 +92,7 @@ def is_on_map(body: Body) -> bool:
     return body.anchored and not body.sensor
 
 
-def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
+def anchored_grid(snapshot: Snapshot, resolution: float) -> Grid:
     """
     Return the map of a world: of `bounds` and a ring of cells around, or of anchored bodies.
 
@@ -114,7 +114,7 @@ def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
     bounds = snapshot.scene.settings.bounds
     boxes = np.array([box for *_, box in placed] if bounds is None else [bounds]).reshape(-1, 4)
     if not len(boxes):
-        return OccupancyGrid(occupied=np.zeros((0, 0), dtype=np.bool_), resolution=resolution)
+        return Grid(occupied=np.zeros((0, 0), dtype=np.bool_), resolution=resolution)
     ring = 0 if bounds is None else 1
     left, bottom = (math.floor(low / resolution) - ring for low in boxes[:, :2].min(axis=0))
     right, top = (math.ceil(high / resolution) + ring for high in boxes[:, 2:].max(axis=0))
@@ -134,7 +134,7 @@ def anchored_grid(snapshot: Snapshot, resolution: float) -> OccupancyGrid:
             local = rotated_each(centers, -pose[2])
             occupied[rows, columns] |= contains((piece,), local[..., 0], local[..., 1])
     origin = (left * resolution, bottom * resolution, 0.0)
-    return OccupancyGrid(occupied=occupied, resolution=resolution, origin=origin)
+    return Grid(occupied=occupied, resolution=resolution, origin=origin)
 
 
 def _bands(first: int, last: int, width: int) -> Iterator[slice]:
@@ -144,7 +144,7 @@ def _bands(first: int, last: int, width: int) -> Iterator[slice]:
         yield slice(row, min(row + height, last))
 
 
-def walls_of(grid: OccupancyGrid, namespace: str, most: int) -> tuple[Spawn, ...]:
+def walls_of(grid: Grid, namespace: str, most: int) -> tuple[Spawn, ...]:
     """
     Return the requests for anchored boxes that are the occupied cells.
 

@@ -28,7 +28,7 @@ from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.requests.services import Service
-from physsim_ros.runtime.slices import at_once
+from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import Beginning, beginning_of
@@ -58,7 +58,7 @@ class WorldFiles:
 
         :raises Refusal: there is no such file, or it is refused
         """
-        state, _ = at_once(self._read(self._values['world_file'], confined=False))
+        state, _ = finish(self._read(self._values['world_file'], confined=False))
         self._simulation.begin(state)
 
     @property

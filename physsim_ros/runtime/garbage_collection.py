@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import gc
 
-# Objects made while collection was suspended from which on they are left out of the next one [1].
+# Least number of objects, made while collection was suspended, that the next one leaves out [1].
 _MANY = 10_000
 
 
@@ -28,7 +28,8 @@ def suspended_collection() -> Iterator[None]:
     finally:
         if was_enabled:
             if gc.get_count()[0] > _MANY and not gc.get_freeze_count():
-                # To the oldest objects, without a visit.
+                # Both together put all objects into the oldest generation, which the next
+                # collections do not visit.
                 gc.freeze()
                 gc.unfreeze()
             gc.enable()

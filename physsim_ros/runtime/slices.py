@@ -4,8 +4,9 @@
 """
 Work in slices: between two of them the world's thread handles messages, and may step the world.
 
-Laws: a generator ends a slice where a tick may end, as in a replay. A coroutine ends one where it
-waits for another thread, as for a file that is read, or by `end_slice`.
+Laws: a generator ends a slice where a tick may end, as in a replay. A coroutine (`Slices`) ends
+one where it waits for another thread, as for a file that is read, or by `end_slice`. `finish`
+carries out either without a pause.
 """
 
 from __future__ import annotations
@@ -66,21 +67,13 @@ def _checked(
         yield awaited
 
 
-def finish(slices: Generator[None, None, _Result]) -> _Result:
-    """Carry out all slices of a generator, and return its result."""
+def finish(slices: Generator[object, None, _Result] | Slices[_Result]) -> _Result:
+    """Carry out all slices, wait for the threads that they wait for, and return the result."""
     while True:
         try:
-            next(slices)
+            awaited = slices.send(None)
         except StopIteration as end:
             result: _Result = end.value
             return result
-
-
-def at_once(slices: Slices[_Result]) -> _Result:
-    """Carry out all slices of a coroutine, wait for their threads, and return its result."""
-    while True:
-        try:
-            wait((slices.send(None),))
-        except StopIteration as end:
-            result: _Result = end.value
-            return result
+        if isinstance(awaited, Future):
+            wait((awaited,))

@@ -23,7 +23,7 @@ from physsim_ros.sensing.motion import (
     true_motion,
     WheelReading,
 )
-from physsim_ros.sensing.mounting import is_due
+from physsim_ros.sensing.sampling import is_due
 from physsim_ros.sensing.surroundings import Surroundings
 from physsim_ros.sensing.touch import is_bumped, read_bumper, read_floor
 from physsim_ros.sensing.view import read_sensor, View

@@ -18,7 +18,8 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots.sensors import Landmarks, Laser, RangeFinder
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, rotated_each
-from physsim_ros.sensing.mounting import noise_of, placed
+from physsim_ros.sensing.mounting import placed
+from physsim_ros.sensing.sampling import noise_of
 from physsim_ros.sensing.surroundings import Surroundings
 
 # Tolerance within which an angle at the end of a sector lies in it [rad]: more than rounding.

@@ -16,7 +16,8 @@ from typing import NamedTuple
 from physsim_ros.model.robots.sensors import Gps
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
-from physsim_ros.sensing.mounting import noise_of, placed
+from physsim_ros.sensing.mounting import placed
+from physsim_ros.sensing.sampling import noise_of
 
 # Of WGS 84 (NIMA TR 8350.2): semi-major axis [m], flattening, and the squares of its first and
 # second eccentricity.

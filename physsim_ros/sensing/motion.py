@@ -24,7 +24,8 @@ from physsim_ros.model.robots.sensors import Imu
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.states import Covariance
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, rotated, Twist
-from physsim_ros.sensing.mounting import mounted_row, noise_of, placed
+from physsim_ros.sensing.mounting import mounted_row, placed
+from physsim_ros.sensing.sampling import noise_of
 
 
 class OdometryReading(NamedTuple):

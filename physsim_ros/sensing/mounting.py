@@ -1,14 +1,10 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Poses of sensors, the times at which they read, and the noise of their readings."""
+"""Poses of sensors, and the bodies that they are on."""
 
 from __future__ import annotations
 
-import zlib
-
-from physsim_ros.model.arrays import Floats
-from physsim_ros.model.noise import normals
 from physsim_ros.model.robots import BASE, part_name
 from physsim_ros.model.robots.sensors import Sensor
 from physsim_ros.model.snapshot import Snapshot
@@ -36,30 +32,3 @@ def mounted_row(snapshot: Snapshot, row: int, sensor: Sensor) -> int:
         return row
     scene = snapshot.scene
     return scene.row_of.get(part_name(scene.names[row], sensor.link), row)
-
-
-def noise_of(snapshot: Snapshot, row: int, sensor: Sensor, count: int) -> Floats:
-    """
-    Return (count,) float64: normal numbers of mean 0 and variance 1 for a reading.
-
-    :param row: of the body in the scene
-    """
-    name = f'{snapshot.scene.bodies[row].name}|{sensor.name}'
-    return normals(snapshot.scene.settings.seed, name, snapshot.step, count)
-
-
-def is_due(name: str, rate: float, before: int, now: int) -> bool:
-    """
-    Return whether a sensor reads between two frames; at most once.
-
-    It depends on these times alone, so that a rewind repeats the readings. Sensors of one rate
-    read in different frames, by their names, so that the cost is spread.
-
-    :param name: of body and sensor
-    :param rate: readings a second [Hz]
-    :param before: simulation time of the frame before [ns]
-    :param now: simulation time of this frame [ns]
-    """
-    period = max(round(1e9 / rate), 1)
-    phase = zlib.crc32(name.encode()) % period
-    return (now + phase) // period > (before + phase) // period

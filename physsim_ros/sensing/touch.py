@@ -20,11 +20,11 @@ from physsim_ros.model.robots.sensors import Bumper, FloorEye
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import dots, rotated_each
-from physsim_ros.sensing.mounting import mounted_row, noise_of, placed
+from physsim_ros.sensing.mounting import mounted_row, placed
+from physsim_ros.sensing.sampling import noise_of
 
-# A contact as far round as the end of the sector lies in it [rad], however it rounds.
+# Tolerance of rounding [rad]: a contact at the end of the sector lies within the sector.
 _ROUNDING = 1e-9
-
 # A bumper all around.
 _ALL_ROUND = Bumper(sector=math.tau)
 

@@ -8,9 +8,10 @@ Law: a run depends on the experiment and its case alone, to the bit, in whatever
 pickles, as an experiment and a case do whose functions are defined in a module.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, field, replace
 from inspect import Parameter, signature
+import math
 from pathlib import Path
 import traceback
 from typing import Annotated, Any
@@ -23,6 +24,7 @@ from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, StepFailed, UnknownProperty
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.texts import nearest_name
+from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
 
@@ -75,31 +77,8 @@ class Run:
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
-@dataclass(frozen=True, slots=True)
-class End:
-    """
-    The end of an attempt whose process is gone.
-
-    :param calls: of the controller, the last of which did not return
-    :param failure: how the process ended
-    """
-
-    calls: int
-    failure: str
-
-
-class _EndedError(Exception):
-    """An attempt is where an earlier one ended."""
-
-
-def _end_at(call: int, end: End | None) -> None:
-    """End an attempt before the call at which an earlier one ended."""
-    if end is not None and call == end.calls:
-        raise _EndedError(end.failure)
-
-
-def _unheard(_: int) -> None:
-    """Have nobody be told of calls."""
+class Ended(Exception):
+    """The process of a run has ended; the message tells how."""
 
 
 def has_bumped(robot: Robot) -> str:
@@ -189,39 +168,27 @@ class Experiment(Checked):
 
         :raises Refusal: the world cannot be simulated, or has no such robot; also as `check`
         """
-        return self.attempt(case)
+        return finish(self.calls(case))
 
-    def attempt(
-        self, case: Case, note_call: Callable[[int], object] = _unheard, end: End | None = None
-    ) -> Run:
+    def calls(self, case: Case) -> Generator[int, None, Run]:
         """
-        Run a case, as `run`, in a process that may not outlive it.
+        Run a case, as `run`: a generator that returns the run.
 
-        :param note_call: is told the count of the controller's calls before each; 0 is its making
-        :param end: at which the run is over, as an earlier attempt was; None is none
+        It yields the count of the controller's calls before each; 0 is before `begin` and the
+        making of the controller. `Ended` that is thrown there ends the run, as failed.
         """
         self.check(case)
-        simulation = Simulation(
-            physics_rate=self.physics_rate,
-            publish_rate=1.0 / self.period,
-            history=self.before + _MARGIN,
-            checkpoints=_MARGIN,
-        )
-        settings = replace(self.world.settings, seed=case.seed)
-        simulation.begin(replace(self.world, settings=settings))
+        simulation = self._simulation(case)
         robot = Robot(simulation, self.robot)
-        way, failure, score = [robot.truth().pose[:2]], '', float('nan')
-        last = round(self.seconds / self.period)
+        way, failure, score = [robot.truth().pose[:2]], '', math.nan
         try:
-            note_call(0)
-            _end_at(0, end)
+            yield 0
             if self.begin is not None:
                 self.begin(robot, np.random.default_rng(case.seed))
-            way = [robot.truth().pose[:2]]
+            way[0] = robot.truth().pose[:2]
             control = self.controller(**case.parameters)
-            for call in range(1, last + 1):
-                note_call(call)
-                _end_at(call, end)
+            for call in range(1, round(self.seconds / self.period) + 1):
+                yield call
                 control(robot)
                 simulation.run(self.period)
                 way.append(robot.truth().pose[:2])
@@ -230,8 +197,8 @@ class Experiment(Checked):
                     break
             if self.score is not None:
                 score = float(self.score(robot))
-        except _EndedError as error:
-            failure = str(error)
+        except Ended as ended:
+            failure = str(ended)
         except (Exception, StepFailed, SystemExit) as error:  # noqa: BLE001 - a result
             failure = _in_one_line(error)
         seconds = simulation.step / self.physics_rate
@@ -244,6 +211,18 @@ class Experiment(Checked):
             before=_world_at(simulation, seconds - self.before) if failure else None,
             physics_rate=self.physics_rate,
         )
+
+    def _simulation(self, case: Case) -> Simulation:
+        """Return the simulation with which the run of a case begins."""
+        simulation = Simulation(
+            physics_rate=self.physics_rate,
+            publish_rate=1.0 / self.period,
+            history=self.before + _MARGIN,
+            checkpoints=_MARGIN,
+        )
+        settings = replace(self.world.settings, seed=case.seed)
+        simulation.begin(replace(self.world, settings=settings))
+        return simulation
 
 
 def _in_one_line(error: BaseException) -> str:

@@ -30,12 +30,25 @@ from typing import NoReturn
 import warnings
 
 import numpy as np
-from physsim_ros.sweeps.experiment import Case, End, Experiment, Run
+from physsim_ros.sweeps.experiment import Case, Ended, Experiment, Run
 
 # Bytes that are read from a pipe at once.
 _CHUNK = 1 << 16
 # Length of what a process sends, before it.
 _LENGTH = struct.Struct('<q')
+
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """
+    The end of a process without a result.
+
+    :param calls: of the controller, the last of which did not return
+    :param how: it ended
+    """
+
+    calls: int
+    how: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +63,7 @@ class _Job:
 
     number: int
     case: Case
-    end: End | None = None
+    end: _End | None = None
 
 
 class _Process:
@@ -106,7 +119,7 @@ class _Process:
             resource.setrlimit(resource.RLIMIT_CPU, (soft, most))
             result: Run | Exception
             try:
-                result = self._experiment.attempt(self.job.case, self._note_call, self.job.end)
+                result = self._run()
             except Exception as error:  # noqa: BLE001 - raised where the sweep is
                 result = error
             if isinstance(result, Run):
@@ -122,8 +135,18 @@ class _Process:
             # Neither the stack nor the exit functions of the parent are this process's own.
             os._exit(status)
 
-    def _note_call(self, count: int) -> None:
-        _LENGTH.pack_into(self._calls, 0, count)
+    def _run(self) -> Run:
+        """Run the case, note each call, and stop at that in which the first process ended."""
+        calls, end = self._experiment.calls(self.job.case), self.job.end
+        try:
+            while True:
+                count = next(calls)
+                _LENGTH.pack_into(self._calls, 0, count)
+                if end is not None and count == end.calls:
+                    calls.throw(Ended(end.how))
+        except StopIteration as stop:
+            run: Run = stop.value
+            return run
 
     def receive(self) -> bool:
         """Read what has been sent; return whether nothing more comes."""
@@ -168,12 +191,12 @@ class _Process:
             return replace(result, case=case)
         if self.job.end is None:
             (calls,) = _LENGTH.unpack_from(self._calls)
-            return _Job(number, case, End(calls, how))
+            return _Job(number, case, _End(calls, how))
         # It does not repeat itself: no more is known than when it ended.
         experiment = self._experiment
         return Run(
             case=case,
-            failure=self.job.end.failure,
+            failure=self.job.end.how,
             seconds=max(0, self.job.end.calls - 1) * experiment.period,
             way=np.empty((0, 2)),
             score=math.nan,

@@ -12,7 +12,7 @@ each run that failed, whatever other cases had its number in another call.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 import hashlib
 from itertools import count
 import json
@@ -43,10 +43,10 @@ class Rows:
         self._path = folder / _FILE
         folder.mkdir(parents=True, exist_ok=True)
         self._rows: dict[str, Mapping[str, Any]] = {}
-        begin, rows = _line(_identity(experiment)), self._read()
+        identity, rows = _line(_identity(experiment)), self._read()
         if not rows:
-            self._path.write_text(begin, encoding='utf-8')
-        elif _line(rows[0]) != begin:
+            self._path.write_text(identity, encoding='utf-8')
+        elif rows[0] != json.loads(identity):
             message = f'{self._path} has the runs of another experiment: {_line(rows[0]).strip()}'
             raise BadProperty(message, field='folder')
         self._rows.update((row['case'], row) for row in rows[1:])
@@ -142,15 +142,14 @@ def _key(case: Case) -> str:
 
 
 def _identity(experiment: Experiment) -> dict[str, Any]:
-    """Return the identity of an experiment: world to the bit, functions by name, times, limits."""
+    """Return every field of an experiment: the world to the bit, functions by their names."""
+    values = {each.name: getattr(experiment, each.name) for each in fields(experiment)}
     # Not the digest of the world, which leaves out what moves nothing, as how a sensor sees.
     text = text_of(replace(experiment.world, memory=None), experiment.physics_rate)
-    functions = ('controller', 'begin', 'failure', 'score')
-    times = ('robot', 'seconds', 'period', 'physics_rate', 'before', 'cpu_limit', 'wall_limit')
+    values['world'] = hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
     return {
-        'world': hashlib.blake2b(text.encode(), digest_size=16).hexdigest(),
-        **{name: _name_of(getattr(experiment, name)) for name in functions},
-        **{name: getattr(experiment, name) for name in times},
+        name: _name_of(value) if value is None or callable(value) else value
+        for name, value in values.items()
     }
 
 

@@ -32,32 +32,34 @@ Numbers = Sequence[float]
 
 
 class BodyProperties(TypedDict, total=False):
-    """Properties of a body (`model.body_properties.Properties`)."""
+    """Properties of a body (`model.body_properties.Properties`); None restores the default."""
 
-    mass: float
-    density: float
-    friction: float
-    elasticity: float
-    velocity: Numbers
-    spin: float
-    anchored: bool
-    kinematic: bool
-    group: int
-    sensor: bool
-    surface_velocity: Numbers
-    belt: float
-    rolling_resistance: float
-    one_way: Numbers
-    closed_sides: bool
-    robot: str | Mapping[str, Any]
-    towed: Mapping[str, Any]
-    actor: Mapping[str, Any]
-    forces: Sequence[Mapping[str, Any]]
-    charge: float
+    # properties: made by `make tables`
+    mass: float | None
+    density: float | None
+    friction: float | None
+    elasticity: float | None
+    velocity: Numbers | None
+    spin: float | None
+    anchored: bool | None
+    kinematic: bool | None
+    group: int | None
+    sensor: bool | None
+    surface_velocity: Numbers | None
+    belt: float | None
+    rolling_resistance: float | None
+    one_way: Numbers | None
+    closed_sides: bool | None
+    robot: str | Mapping[str, Any] | None
+    towed: Mapping[str, Any] | None
+    actor: Mapping[str, Any] | None
+    forces: Sequence[Mapping[str, Any]] | None
+    charge: float | None
     medium: Mapping[str, Any] | None
-    label: str
+    label: str | None
 
 
+# end: made by `make tables`
 class MarkerOptions(BodyProperties, total=False):
     """
     What the markers of all shapes may have.

@@ -14,7 +14,7 @@ from typing import Any, Self, Unpack
 from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
-from physsim_ros.runtime.slices import at_once
+from physsim_ros.runtime.slices import finish
 from physsim_ros.testing.changed_world import ChangedWorld
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
 from physsim_ros.testing.context import own_context
@@ -79,14 +79,14 @@ class PhysSim(ChangedWorld):
         self.node.set_parameters([Parameter('world_file', value=str(path or world))])
         try:
             with refusals_as_refused():
-                at_once(self.node.world_files.load(str(path or world), confined=False))
+                finish(self.node.world_files.load(str(path or world), confined=False))
         except Refused as refused:
             if path is None:
                 looked = ', '.join(dict.fromkeys(map(str, paths)))
                 refused.add_note(f'A test also looks for {looked}.')
             raise
         self.node.simulation.stop_driving()
-        self.node.apply_requests()
+        self.node.loop.apply_requests()
         self.settle()
 
     def add(self, node: Node) -> None:
@@ -107,11 +107,14 @@ class PhysSim(ChangedWorld):
         # Messages of the test's own publishers come first.
         self.settle()
         while frames > 0:
-            self._match_publishers(new=self._frames_to_look > 0)
+            if self._frames_to_look > 0:
+                self._match_new_publishers()
+            else:
+                self._match_publishers()
             # The test itself reads the last frame.
-            made = self.node.pass_frames(min(frames - 1, self._frames_to_look))
+            made = self.node.loop.pass_frames(min(frames - 1, self._frames_to_look))
             if not made:
-                self.node.advance_frame()
+                self.node.loop.advance_frame()
                 made = 1
             frames -= made
             self._frames_to_look -= made
@@ -182,7 +185,7 @@ class PhysSim(ChangedWorld):
 
         def is_true() -> object:
             self.node.fleet.match_publishers()
-            self.node.apply_requests()
+            self.node.loop.apply_requests()
             return predicate()
 
         try:
@@ -207,7 +210,7 @@ class PhysSim(ChangedWorld):
         self.node.simulation.stop_driving()
         with refusals_as_refused():
             self.node.simulation.seek(round(seconds * 1e9))
-        self.node.apply_requests()
+        self.node.loop.apply_requests()
         self.settle()
 
     def rewind(self, seconds: float) -> None:
@@ -226,16 +229,15 @@ class PhysSim(ChangedWorld):
         """
         self._executor.settle()
 
-    def _match_publishers(self, *, new: bool = False) -> None:
-        """
-        Connect robots with the publishers of their commands, as the node does by the wall clock.
+    def _match_publishers(self) -> None:
+        """Connect robots with the publishers of their commands, as the node does by the clock."""
+        self._frames_to_look = _LOOK_FRAMES
+        if self.node.fleet.match_publishers():
+            self.settle()
 
-        :param new: whether only a change of the number of publishers counts
-        """
-        fleet = self.node.fleet
-        if not new:
-            self._frames_to_look = _LOOK_FRAMES
-        if fleet.match_new_publishers() if new else fleet.match_publishers():
+    def _match_new_publishers(self) -> None:
+        """Connect robots whose number of publishers has changed, which costs little."""
+        if self.node.fleet.match_new_publishers():
             self.settle()
 
     # Recording
@@ -266,10 +268,10 @@ class PhysSim(ChangedWorld):
                 with suppress(Refusal):
                     commands.take()
         simulation.seek(round(status.oldest * 1e9))
-        self.node.apply_requests()
+        self.node.loop.apply_requests()
         self.node.outputs.viewer.record(path)
         for _ in range(self._frames(status.newest - status.oldest)):
-            self.node.advance_frame()
+            self.node.loop.advance_frame()
 
     def __enter__(self) -> Self:
         return self

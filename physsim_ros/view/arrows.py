@@ -32,15 +32,13 @@ CONTACT_COLOR, _VELOCITY_COLOR, _FORCE_COLOR = (214, 39, 40), (44, 120, 60), (74
 # Length of the arrow of the force that the legend tells [units], and the greatest one in lengths
 # of that: arrows of impacts are cut.
 LENGTH, CUT = 1.2, 1.5
-# Number of frames of which the median of the greatest forces is shown in full: half a second, so
-# that an impact does not change the scale.
-_FITTED = 30
+# Duration of contacts of which the median of the greatest forces is shown in full [s], so that an
+# impact does not change the scale.
+_FITTED = 0.5
 # Share of the force of the legend below which that median has a legend of its own.
 _SMALL = 0.35
-# Time in which the impulses of the first frame act [ns]: a period of 60 Hz, the default rate.
-_FIRST_PERIOD = 16_666_667
-# Time by which a velocity is multiplied [s], and the shortest period of sending it [frames].
-_AHEAD, _VELOCITY_PERIOD = 0.2, 10
+# Time by which a velocity is multiplied, and the shortest period of sending it [s].
+_AHEAD, _VELOCITY_PERIOD = 0.2, 1 / 6
 _NONE: Floats = np.empty((0, 2))
 
 # In pixels of the image of the camera, so that they stay when the camera moves.
@@ -65,12 +63,11 @@ class ContactArrows:
         self._legend = _Legend(recording)
         # The force of the legend [N]; 0 before the first contact.
         self._force = 0.0
-        # The greatest force in each of the last frames with contacts [N].
-        self._greatest: deque[float] = deque(maxlen=_FITTED)
+        # Time [ns] and greatest force [N] of the last frames with contacts, `_FITTED` long.
+        self._greatest: deque[tuple[int, float]] = deque()
         _log_style(recording, CONTACTS, CONTACT_COLOR)
-        # Whether the last row that was sent has arrows, and the time of the frame before [ns].
+        # Whether the last row that was sent has arrows.
         self._shown = False
-        self._stamp: int | None = None
 
     def send(self, batch: FrameBatch, change: Change) -> None:
         """Send the contacts of a batch: an empty row after the last contact, then none."""
@@ -78,14 +75,14 @@ class ContactArrows:
             0 if each.contacts is None else len(each.contacts.pairs) for each in batch.frames
         )
         chosen = batch.sampled(sampling_period(most)) if self._shown or most else []
-        rows = [self._forces(batch, index) for index in chosen]
-        self._stamp = batch.frames[-1].snapshot.stamp
-        rescaled = self._fit([forces for _, forces in rows])
+        rows = [_contact_forces(batch, index) for index in chosen]
+        forces = [each for _, each in rows]
+        rescaled = self._fit(batch.recorded[chosen].tolist(), forces)
         if change.scene or rescaled:
             self._legend.send(batch, self._force)
         if not rows:
             return
-        origins, forces = zip(*rows, strict=True)
+        origins = [points for points, _ in rows]
         lengths = [len(each) for each in origins]
         self._shown = lengths[-1] > 0
         vectors = np.concatenate(forces) / (self._force or 1.0)
@@ -95,24 +92,32 @@ class ContactArrows:
         arrows = _arrow_columns(np.concatenate(origins), vectors, height, lengths)
         self._recording.send_columns(CONTACTS, batch.times_at(chosen), arrows)
 
-    def _forces(self, batch: FrameBatch, index: int) -> tuple[Floats, Floats]:
-        """Return points [m] and forces [N] of the contacts of a frame, (m, 2) float64 each."""
-        frame = batch.frames[index]
-        if frame.contacts is None or not len(frame.contacts.pairs):
-            return _NONE, _NONE
-        before = batch.frames[index - 1].snapshot.stamp if index else self._stamp
-        period = 0 if before is None else abs(frame.snapshot.stamp - before)
-        seconds = (period or _FIRST_PERIOD) * 1e-9
-        return frame.contacts.points, contact_impulses(frame.contacts, batch.scene) / seconds
+    def _fit(self, times: list[int], forces: list[Floats]) -> bool:
+        """
+        Fit the force of the legend to those of most frames; return whether it is new.
 
-    def _fit(self, forces: list[Floats]) -> bool:
-        """Fit the force of the legend to those of most frames; return whether it is new."""
-        self._greatest += (float(np.hypot(*each.T).max()) for each in forces if len(each))
-        most = float(np.median(self._greatest)) if self._greatest else 0.0
+        :param times: of frames [ns]
+        :param forces: of contacts in each
+        """
+        for time, each in zip(times, forces, strict=True):
+            if len(each):
+                self._greatest.append((time, float(np.hypot(*each.T).max())))
+                while self._greatest[0][0] <= time - _FITTED * 1e9:
+                    self._greatest.popleft()
+        most = float(np.median([force for _, force in self._greatest] or [0.0]))
         if most == 0.0 or _SMALL * self._force <= most <= self._force:
             return False
         self._force = nice_number(most)
         return True
+
+
+def _contact_forces(batch: FrameBatch, index: int) -> tuple[Floats, Floats]:
+    """Return points [m] and forces [N] of the contacts of a frame, (m, 2) float64 each."""
+    contacts = batch.frames[index].contacts
+    if contacts is None or not len(contacts.pairs):
+        return _NONE, _NONE
+    seconds = batch.elapsed[index] * 1e-9
+    return contacts.points, contact_impulses(contacts, batch.scene) / seconds
 
 
 def contact_impulses(contacts: Contacts, scene: Scene) -> Floats:

@@ -31,10 +31,10 @@ import rerun as rr
 ROOT, NAMES, WORDS = 'world/bodies', 'world/names', 'world/labels'
 # Greatest ratio of two boxes or discs that share a scaled mesh: it scales their outlines too.
 _SIZE_RATIO = 1.5
-# Greatest number of texts or arrows in a frame: of more, fewer frames have them.
-_BUDGET = 150
-# Shortest period at which the places of texts are sent [frames]: ten times a second.
-_TEXT_PERIOD = 6
+# Greatest number of texts or arrows that are sent in a second: of more, fewer frames have them.
+_BUDGET = 9000
+# Shortest period at which the places of texts are sent [s].
+_TEXT_PERIOD = 0.1
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -169,9 +169,9 @@ class BodyTexts:
             self._recording.send_columns(self._path, times, points.partition([len(shown)]))
 
 
-def sampling_period(count: int) -> int:
-    """Return the period at which texts or arrows are sent [frames], by their number in a frame."""
-    return max(1, math.ceil(count / _BUDGET))
+def sampling_period(count: int) -> float:
+    """Return the period at which texts or arrows are sent [s], by their number in a frame."""
+    return count / _BUDGET
 
 
 def _appearance(body: Body) -> Hashable:

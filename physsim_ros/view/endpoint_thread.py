@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
+from enum import Enum
 import math
 import threading
 import time
@@ -34,13 +35,19 @@ RETRY_PERIOD = 1.0
 # Time without progress of the thread at which that is reported [s]: ten times what an import of
 # Rerun takes, and more than a busy disk blocks.
 SILENT_AFTER = 10.0
-# The reason before the endpoint has been opened.
-STARTING = 'starting'
+
+
+class _State(Enum):
+    """Whether frames are logged; the values are the words for messages."""
+
+    STARTING = 'starting'
+    OPEN = 'open'
+    FAILED = 'failed'
 
 
 class EndpointThread:
     """
-    An endpoint with the thread that logs to it; either open, or closed for a reason.
+    An endpoint with the thread that logs to it.
 
     :param endpoint: to log to
     :param boundary: of the thread
@@ -55,8 +62,9 @@ class EndpointThread:
         report: Callable[[Answer], None],
         context: Callable[[], FrameContext] = FrameContext,
     ) -> None:
-        # The reason why nothing is logged; '' where it is open.
-        self._reason = STARTING
+        self._state = _State.STARTING
+        # The reason why it has failed; '' in other states.
+        self._reason = ''
         self._endpoint = endpoint
         self._boundary = boundary
         self._report = report
@@ -67,8 +75,9 @@ class EndpointThread:
         # Answers of dropped frames: the next frame that is logged has them.
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
         self._logged = self._dropped = 0
-        # Number of dropped frames beyond which that is reported: of each opening once.
-        self._known_drops = 0.0
+        # Frames that were dropped before the endpoint was opened, and whether it has been reported
+        # that more were.
+        self._earlier_drops, self._has_told_drops = 0, False
         self._is_silent = False
         # Steady times of the last progress, and until which the last frames are waited for [s].
         self._progress, self._end_by = time.monotonic(), math.inf
@@ -83,20 +92,20 @@ class EndpointThread:
     def state(self) -> str:
         """Return address, state and counts of frames, as a sentence."""
         ended = self.has_ended and not self.failure
-        state = 'ended' if ended else self._reason or 'open'
+        state = 'ended' if ended else self._reason or self._state.value
         counts = f'{self._logged} frames, {self._dropped} dropped'
         return f'{self._endpoint.kind}: {self._endpoint.where}, {state}, {counts}'
 
     @property
     def failure(self) -> str:
         """Return the reason why nothing is logged; '' where there is none."""
-        failed = self._reason not in ('', STARTING)
+        failed = self._state is _State.FAILED
         return f'{self._endpoint.kind}: {self._reason}' if failed else ''
 
     def wait_until_tried(self) -> str:
         """Wait until the endpoint is open or has failed; return why, '' where it is open."""
         self._tried.wait(SILENT_AFTER)
-        return self._reason if self.failure else ''
+        return self._reason
 
     @property
     def is_open(self) -> bool:
@@ -137,8 +146,8 @@ class EndpointThread:
         if self.is_open and time.monotonic() - self._progress > SILENT_AFTER:
             self._is_silent = True
             self._fail(f'no answer for {SILENT_AFTER:g} s')
-        if self.is_open and self._dropped > self._known_drops:
-            self._known_drops = math.inf
+        if self.is_open and not self._has_told_drops and self._dropped > self._earlier_drops:
+            self._has_told_drops = True
             message = f'{self._endpoint.address}: too slow, frames are missing'
             self._report(Answer(topic='viewer', message=message, code='frames_dropped'))
 
@@ -195,7 +204,7 @@ class EndpointThread:
         stream = self._endpoint.open_stream()
         recorder = FrameRecorder(stream.recording)
         try:
-            self._known_drops = self._dropped
+            self._earlier_drops, self._has_told_drops = self._dropped, False
             self._note_progress()
             ending = False
             while not ending:
@@ -230,15 +239,15 @@ class EndpointThread:
     def _note_progress(self) -> None:
         """Note that the receiver has answered, and report it where there was none before."""
         self._progress, self._is_silent = time.monotonic(), False
-        if self._reason and not self._ending.is_set():
-            self._reason = ''
+        if self._state is not _State.OPEN and not self._ending.is_set():
+            self._state, self._reason = _State.OPEN, ''
             self._report(Answer(topic='viewer', message=self._endpoint.address))
         self._tried.set()
 
     def _fail(self, reason: str) -> None:
         """Note the reason why nothing is logged, and report the first one."""
-        known, self._reason = self.failure, reason
-        if not known:
+        before, self._state, self._reason = self._state, _State.FAILED, reason
+        if before is not _State.FAILED:
             self._report(self._endpoint.lost_answer(reason))
         self._tried.set()
 

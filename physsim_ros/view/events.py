@@ -20,8 +20,8 @@ import rerun.blueprint as rrb
 LOG, TIME = 'events', 'time/run'
 # In the view of the world, which may fill the window: the time and the word of the track.
 _LABEL = 'world/camera/legend/time'
-# Place of the label [pixels of the image of the camera], and period of its rows [frames].
-_LABEL_AT, _LABEL_PERIOD = (1150.0, 14.0), 6
+# Place of the label [pixels of the image of the camera], and period of its rows [s].
+_LABEL_AT, _LABEL_PERIOD = (1150.0, 14.0), 0.1
 # Green while playing, orange while rewinding; the faster, the darker.
 _COLORS = {
     'slow': (160, 205, 150),

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Frames of one scene that are logged together, the times at which they are logged, line strips.
+Frames of one scene that are logged together, and the times at which they are logged.
 
 The timeline `recorded` is the time of the picture: it never goes back, also while the world does,
 and runs at the pace of the wall clock while the world keeps up. `sim_time` is the world's.
+
+Law: what is sent at intervals has a period in seconds of `recorded`, and so the same rate at any
+rate of frames.
 """
 
 from __future__ import annotations
@@ -16,19 +19,16 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.model.arrays import Floats, Ints, Singles
+from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
-import pyarrow as pa
 import rerun as rr
 
 RECORDED = 'recorded'
 Times = list[rr.TimeColumn]
 
-# Time between two frames where stamps and speed do not give it [ns]: a period of 60 Hz.
-_PERIOD = 16_666_667
-_VECTOR = pa.list_(pa.field('item', pa.float32(), nullable=False), 3)
-_STRIP = pa.list_(pa.field('item', _VECTOR, nullable=False))
+# Time between two frames until stamps and speed give one [ns]: a period of the default rate.
+_FIRST_PERIOD = 16_666_667
 # Shortest and longest time between two frames [ns]: after a seek the picture does not wait.
 _SHORTEST, _LONGEST = 1_000_000, 1_000_000_000
 
@@ -54,16 +54,19 @@ class FrameBatch:
     Frames of one scene.
 
     :param frames: at least one, in order
-    :param numbers: of the frames in the recording, without gaps
-    :param recorded: (f,) int64: times of the frames on the timeline `recorded` [ns]
+    :param recorded: (f + 1,) int64: times on the timeline `recorded` of the frame before, -1 if
+        there is none, and of the frames [ns]
+    :param elapsed: (f,) int64: simulation time since the frame before each, forth or back [ns]
 
+    :ivar recorded: (f,) int64: times of the frames [ns]
     :ivar poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
     """
 
-    def __init__(self, frames: Sequence[Frame], numbers: range, recorded: Ints) -> None:
+    def __init__(self, frames: Sequence[Frame], recorded: Ints, elapsed: Ints) -> None:
         self.frames = frames
-        self.numbers = numbers
-        self.recorded = recorded
+        self.recorded = recorded[1:]
+        self.elapsed = elapsed
+        self._recorded_with_last = recorded
         self.scene: Scene = frames[0].snapshot.scene
         self.poses: Floats = np.stack([each.snapshot.poses for each in frames])
         self._stamps = np.array([each.snapshot.stamp for each in frames], dtype=np.int64)
@@ -80,78 +83,56 @@ class FrameBatch:
             rr.TimeColumn('sim_time', duration=self._stamps[rows].astype('timedelta64[ns]')),
         ]
 
-    def sampled(self, period: int) -> list[int]:
-        """Return the indices of every `period`-th frame of the recording, and of the last one."""
-        last = len(self.frames) - 1
-        return [
-            index
-            for index, number in enumerate(self.numbers)
-            if number % period == 0 or index == last
-        ]
+    def due(self, period: float) -> list[int]:
+        """Return the indices of the frames at which another period [s] of the recording begins."""
+        periods = self._recorded_with_last // max(round(period * 1e9), 1)
+        due: list[int] = np.flatnonzero(np.diff(periods)).tolist()
+        return due
+
+    def sampled(self, period: float) -> list[int]:
+        """Return the indices of the frames that are due, as `due` does, and of the last one."""
+        return sorted({*self.due(period), len(self.frames) - 1})
 
 
 class RecordedClock:
     """
-    The number and the time of frames in a recording.
+    The times of frames in a recording.
 
-    :ivar recorded: time of the last frame [ns]
+    :ivar recorded: time of the last frame [ns]; -1 before the first one
     """
 
     def __init__(self) -> None:
-        self._count = 0
-        self.recorded = 0
+        self.recorded = -1
         self._before: Frame | None = None
+        # Of the last frame to which steps led: simulation time, and recorded time, since the one
+        # before it [ns].
+        self._elapsed = self._period = _FIRST_PERIOD
 
     def batches(self, frames: Sequence[Frame]) -> Iterator[FrameBatch]:
         """Yield frames in batches of one scene each."""
         for _, group in groupby(frames, key=lambda frame: id(frame.snapshot.scene)):
-            run = list(group)
-            recorded = np.array([self._advance(frame) for frame in run], dtype=np.int64)
-            numbers = range(self._count, self._count + len(run))
-            self._count = numbers.stop
-            yield FrameBatch(run, numbers, recorded)
+            run, recorded, elapsed = list(group), [self.recorded], []
+            for frame in run:
+                self._advance(frame)
+                recorded.append(self.recorded)
+                elapsed.append(self._elapsed)
+            yield FrameBatch(run, np.array(recorded, np.int64), np.array(elapsed, np.int64))
 
-    def _advance(self, frame: Frame) -> int:
-        """Return the time of the next frame [ns]."""
-        if self._before is not None:
-            elapsed = abs(frame.snapshot.stamp - self._before.snapshot.stamp)
-            period = elapsed / abs(frame.speed) if frame.speed and elapsed else _PERIOD
-            self.recorded += round(min(max(period, _SHORTEST), _LONGEST))
-        self._before = frame
-        return self.recorded
-
-
-class _StripBatch:
-    """
-    Line strips as an Arrow array: `LineStrip3DBatch` (Rerun 0.41) is a loop in Python.
-
-    :param corners: (c, 3) float32: of all strips [m]
-    :param counts: (s,) intp: number of corners of each strip
-    """
-
-    def __init__(self, corners: Singles, counts: NDArray[np.intp]) -> None:
-        self._corners, self._counts = corners, counts
-
-    def as_arrow_array(self) -> pa.Array:
-        """Return a list of corners for each strip."""
-        offsets = np.concatenate(([0], np.cumsum(self._counts))).astype(np.int32)
-        vectors = pa.FixedSizeListArray.from_arrays(pa.array(self._corners.ravel()), type=_VECTOR)
-        return pa.ListArray.from_arrays(pa.array(offsets), vectors, type=_STRIP)
-
-
-def strip_column(
-    corners: Singles, counts: NDArray[np.intp] | int, lengths: Sequence[int]
-) -> rr.ComponentColumn:
-    """
-    Return line strips as a column.
-
-    :param corners: (c, 3) float32: of all strips [m]
-    :param counts: (s,) intp: number of corners of each strip; or that of every strip
-    :param lengths: number of strips of each row
-    """
-    each = np.broadcast_to(counts, sum(lengths)).astype(np.intp)
-    batch = _StripBatch(corners, each)
-    return rr.ComponentColumn(rr.LineStrips3D.descriptor_strips(), batch, lengths=lengths)
+    def _advance(self, frame: Frame) -> None:
+        """Advance to the time of the next frame."""
+        before, self._before = self._before, frame
+        if before is None:
+            self.recorded = 0
+            return
+        elapsed = abs(frame.snapshot.stamp - before.snapshot.stamp)
+        period = self._period
+        if elapsed and frame.speed:
+            period = min(max(round(elapsed / abs(frame.speed)), _SHORTEST), _LONGEST)
+        if elapsed and frame.stepped:
+            self._elapsed = elapsed
+        if elapsed and frame.passing:
+            self._period = period
+        self.recorded += period
 
 
 class Track(Protocol):

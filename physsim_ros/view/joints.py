@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance import JointGlyphs, Symbol
 from physsim_ros.model.arrays import Floats, Singles
-from physsim_ros.view.frame_batch import Change, FrameBatch, strip_column
+from physsim_ros.view.frame_batch import Change, FrameBatch
 from physsim_ros.view.mesh import Mesh, MeshBuilder, MeshGroup, MeshTrack, Path
 from physsim_ros.view.scenery import JOINTS
+from physsim_ros.view.strips import strip_column
 import rerun as rr
 
 ROOT = 'world/joints'

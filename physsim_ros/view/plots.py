@@ -15,8 +15,8 @@ from physsim_ros.view.frame_batch import Change, FrameBatch, RECORDED
 import rerun as rr
 import rerun.blueprint as rrb
 
-# Period of the plots [frames].
-SAMPLE = 6
+# Period of the plots [s].
+_PERIOD = 0.1
 # Time before the moment that is shown, and room for the legend after it, in plots [s].
 _SPAN, _ROOM = 10.0, 4.0
 _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
@@ -108,11 +108,11 @@ class Plots:
 
     def send(self, batch: FrameBatch, _: Change) -> None:
         """
-        Send the values of every `SAMPLE`-th frame of a batch, and of its last one.
+        Send the values of a batch, ten times a second, and of its last frame.
 
         A frame without one of the values of a plot has no row of it.
         """
-        chosen = batch.sampled(SAMPLE)
+        chosen = batch.sampled(_PERIOD)
         for path, plot in PLOTS.items():
             rows = {index: plot.values(batch.frames[index]) for index in chosen}
             measured = {index: values for index, values in rows.items() if values is not None}

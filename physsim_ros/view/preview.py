@@ -17,8 +17,8 @@ import rerun as rr
 
 _LINES, _POINTS, _LABEL = (f'world/preview/{name}' for name in ('lines', 'points', 'label'))
 _PEN = (230, 51, 128)
-# Duration of the preview of a stroke [frames].
-LINGER = 180
+# Duration of the preview of a stroke [s].
+LINGER = 3.0
 # Distance of the label, which hangs below its point, from the highest point [units].
 _ABOVE = 0.7
 
@@ -32,7 +32,8 @@ class PreviewLines:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        # The preview in the recording; that of the last frame, and the frame in which it began.
+        # The preview in the recording; that of the last frame, and the time at which it began
+        # [ns].
         self._sent = self._current = NO_PREVIEW
         self._since = 0
         lines = rr.LineStrips3D.from_fields(radii=rr.Radius.ui_points(1.5), colors=[_PEN])
@@ -42,13 +43,13 @@ class PreviewLines:
         recording.log(_LABEL, LABELS, static=True)
 
     def send(self, batch: FrameBatch, change: Change) -> None:
-        """Send previews that have changed, or end after `LINGER` frames."""
+        """Send previews that have changed, or end after `LINGER`."""
         height = PREVIEW * change.unit
-        for index, number in enumerate(batch.numbers):
+        for index, recorded in enumerate(batch.recorded.tolist()):
             preview = batch.frames[index].preview
             if preview != self._current:
-                self._current, self._since = preview, number
-            if not preview.points and number - self._since >= LINGER:
+                self._current, self._since = preview, recorded
+            if not preview.points and recorded - self._since >= LINGER * 1e9:
                 preview = NO_PREVIEW
             again = change.everything and index == 0 and preview != NO_PREVIEW
             if preview == self._sent and not again:

@@ -5,7 +5,7 @@
 The recording of frames: the world with its words, the plots and the log, and the layout of these.
 
 Laws: constant components are static, since a server never drops those. Components that change
-only with the scene are sent when it changes, and every `REPEAT` frames. Positions are sent for
+only with the scene are sent when it changes, and every `REPEAT` seconds. Positions are sent for
 many frames at once, in one entity for all bodies that look alike. The bounds of the view of the
 world never change; the camera moves instead, so that a user's pan and zoom persist.
 """
@@ -28,8 +28,8 @@ from physsim_ros.view.stream import FrameContext, send_blueprint
 import rerun as rr
 import rerun.blueprint as rrb
 
-# Period of sending geometry again [frames]: a server at its memory limit drops old rows.
-REPEAT = 1800
+# Period of sending geometry again [s]: a server at its memory limit drops old rows.
+REPEAT = 30.0
 # Time span of the paths of robots [s]: they have ten rows a second.
 _DRIVEN = 30.0
 
@@ -44,7 +44,6 @@ class FrameRecorder:
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
         self._clock = RecordedClock()
-        self._due = 0
         self._last: Frame | None = None
         self._scene: Scene | None = None
         # Poses of the bodies that were sent last.
@@ -113,7 +112,7 @@ class FrameRecorder:
 
     def _log_batch(self, batch: FrameBatch) -> None:
         scene, first = batch.scene, batch.frames[0].snapshot
-        everything = batch.numbers.start >= self._due
+        everything = bool(batch.due(REPEAT))
         changed = everything or scene is not self._scene
         if changed:
             self._scene = scene
@@ -122,8 +121,6 @@ class FrameRecorder:
             moved = np.ones(len(scene.bodies), dtype=bool)
         else:
             moved = (batch.poses != self._poses).any(axis=(0, 2))
-        if everything:
-            self._due = batch.numbers.start + REPEAT
         self._poses = batch.poses[-1]
         change = Change(self._scenery.unit, changed, everything, moved)
         for track in self._tracks:

@@ -15,15 +15,16 @@ from physsim_ros.appearance import LaserScans
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Point, Pose, rotated
-from physsim_ros.view.frame_batch import Change, FrameBatch, strip_column
+from physsim_ros.view.frame_batch import Change, FrameBatch
 from physsim_ros.view.scenery import ARROWS, JOINTS
+from physsim_ros.view.strips import strip_column
 import rerun as rr
 
 SCANS, TRUTH, ODOMETRY = 'world/scans', 'world/ways/truth', 'world/ways/odometry'
 _HIT = (180, 56, 15)
 _COLORS = {TRUTH: (40, 110, 60), ODOMETRY: (150, 60, 150)}
-# Frames from one row to the next, ten a second.
-PERIOD = 6
+# Time from one row to the next [s].
+_PERIOD = 0.1
 # Longest simulation time between two rows that a segment connects [ns]: a seek draws no line.
 _LONGEST = 1_000_000_000
 
@@ -47,11 +48,13 @@ class ScanPoints:
     def send(self, batch: FrameBatch, change: Change) -> None:
         """Send the scans of a batch, where a laser has read since the row before."""
         names = {batch.scene.names[row] for row in batch.scene.robot_rows.tolist()}
-        rows, points = [], []
-        for row, number in enumerate(batch.numbers):
-            due = number % PERIOD == 0 or batch.scene is not self._scene
+        due = {*batch.due(_PERIOD)}
+        if batch.scene is not self._scene:
             self._scene = batch.scene
-            if due and self._scans.read(batch.frames[row].snapshot, names):
+            due.add(0)
+        rows, points = [], []
+        for row in sorted(due):
+            if self._scans.read(batch.frames[row].snapshot, names):
                 rows.append(row)
                 points.append(self._scans.hits())
         if not rows:
@@ -85,7 +88,7 @@ class RobotPaths:
         count = len(batch.scene.robots)
         if not count:
             self._frames, self._places = {}, {}
-        rows = [row for row, number in enumerate(batch.numbers) if number % PERIOD == 0]
+        rows = batch.due(_PERIOD)
         if not count or not rows:
             return
         # x, y of the ends of each segment; of truth and of odometry.

@@ -10,14 +10,14 @@ from threading import get_ident
 
 from physsim_ros.files import on_thread
 from physsim_ros.model.errors import BadWorldFile
-from physsim_ros.runtime.slices import at_once, in_slices
+from physsim_ros.runtime.slices import finish, in_slices
 import pytest
 
 from ..outside import run_python
 
 
 def test_the_result_comes_from_another_thread() -> None:
-    assert at_once(on_thread(get_ident)) != get_ident()
+    assert finish(on_thread(get_ident)) != get_ident()
 
 
 @pytest.mark.parametrize('error', [BadWorldFile('no'), ValueError('no')])
@@ -26,11 +26,11 @@ def test_an_error_is_raised_by_who_waits(error: Exception) -> None:
         raise error
 
     with pytest.raises(type(error), match='no'):
-        at_once(in_slices(lambda: on_thread(read)))
+        finish(in_slices(lambda: on_thread(read)))
 
 
 def test_a_function_without_parts_has_its_result_at_once() -> None:
-    assert at_once(in_slices(lambda: 'done')) == 'done'
+    assert finish(in_slices(lambda: 'done')) == 'done'
 
 
 def test_a_file_that_is_being_written_is_complete_when_the_process_ends(tmp_path: Path) -> None:

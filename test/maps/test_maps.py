@@ -6,7 +6,7 @@
 import math
 
 import numpy as np
-from physsim_ros.maps import anchored_grid, MOST_CELLS, OccupancyGrid, walls_of
+from physsim_ros.maps import anchored_grid, Grid, MOST_CELLS, walls_of
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed, WorldFull
 from physsim_ros.model.shapes import Box, Disc
 import pytest
@@ -32,7 +32,7 @@ def centers_of(grid):
 
 
 def test_walls_of_a_grid_are_its_rectangles_in_the_world():
-    grid = OccupancyGrid(occupied=CORNER, resolution=0.5, origin=(1.0, 2.0, math.pi / 2))
+    grid = Grid(occupied=CORNER, resolution=0.5, origin=(1.0, 2.0, math.pi / 2))
 
     long, short = walls_of(grid, 'walls', 10)
 
@@ -85,7 +85,7 @@ def test_the_map_of_a_bounded_world_has_a_ring_of_wall():
 def test_a_grid_is_the_same_after_it_was_a_world():
     pick = np.random.default_rng(3)
     occupied = pick.random((20, 30)) < 0.4
-    grid = OccupancyGrid(occupied=occupied, resolution=0.25, origin=(-3.0, 2.0, 0.0))
+    grid = Grid(occupied=occupied, resolution=0.25, origin=(-3.0, 2.0, 0.0))
     world = plane()
     for wall in walls_of(grid, 'walls', 1000):
         world.apply(wall)
@@ -128,4 +128,4 @@ def test_a_map_of_a_gigabyte_is_refused_before_there_is_one():
 )
 def test_grids_that_cannot_be_are_refused(changes, error):
     with pytest.raises(error):
-        OccupancyGrid(**{'occupied': CORNER, 'resolution': 0.5} | changes)
+        Grid(**{'occupied': CORNER, 'resolution': 0.5} | changes)

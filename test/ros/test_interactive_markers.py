@@ -87,11 +87,11 @@ def test_a_viewer_has_the_bodies_where_they_are(physsim: PhysSim, client: Client
 def test_each_step_of_a_paused_world_is_told(physsim: PhysSim, client: Client) -> None:
     physsim.spawn(disc('ball/0', at=(0.0, 5.0)))
     client.call('~/pause')
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     viewer = Viewer(client)
     for _ in range(3):
         client.call('~/step')
-        physsim.node.apply_requests()
+        physsim.node.loop.apply_requests()
 
         position = viewer.catch_up()['ball/0'].pose.position
         assert (position.x, position.y) == physsim.pose('ball/0')[:2]
@@ -106,7 +106,7 @@ def test_of_many_bodies_some_are_told_at_a_time_until_all_have_them(
     for number in range(count):
         physsim.spawn(box(f'box/{number}', at=(3.0 * number, 5.0)))
     client.call('~/pause')
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     first = Viewer(client)
     for now in range(count):
         physsim.node.tick(now)

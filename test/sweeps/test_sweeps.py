@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
+from dataclasses import fields, replace
 import gc
 import multiprocessing
 import os
@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros import load_world, Robot, robot_spawn, Simulation
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import Refusal, UnknownBody
 from physsim_ros.sweeps import (
     Case,
@@ -304,10 +305,26 @@ def test_a_second_call_continues_a_folder_with_the_same_runs(tmp_path: Path) -> 
     for kept, run in zip(again, runs, strict=True):
         assert (kept.before is None) == (run.before is None)
     sweep(scored, CASES, never_spread, folder=tmp_path)
-    for changes in ({'seconds': 5.0}, {'controller': Fated}, {'begin': None}):
-        with pytest.raises(Refusal, match='another experiment') as caught:
-            sweep(experiment(**{'score': way_right, **changes}), [], folder=tmp_path)
-        assert caught.value.field == 'folder'
+
+
+@pytest.mark.parametrize('name', [each.name for each in fields(Experiment)])
+def test_an_experiment_that_differs_in_any_field_is_another_one(tmp_path: Path, name: str) -> None:
+    one = experiment()
+    match getattr(one, name):
+        case float() as number:
+            other: Any = 2.0 * number
+        case str() as text:
+            other = f'{text}0'
+        case WorldState() as world:
+            other = replace(world, settings=replace(world.settings, gravity=(0.0, 1.0)))
+        case _:
+            other = never_spread
+    sweep(one, [], folder=tmp_path)
+
+    sweep(one, [], folder=tmp_path)
+    with pytest.raises(Refusal, match='another experiment') as caught:
+        sweep(replace(one, **{name: other}), [], folder=tmp_path)
+    assert caught.value.field == 'folder'
 
 
 def never_spread(_: object, cases: Any) -> Any:

@@ -5,20 +5,13 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
-from typing import Any, get_type_hints
+from typing import Any
 
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.testing import box, chain, disc, joint, PhysSim, polygon, Refused
-from physsim_ros.testing.messages import BodyProperties
 import pytest
 from visualization_msgs.msg import MarkerArray
 
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
-
-
-def test_the_properties_are_those_of_bodies() -> None:
-    assert list(get_type_hints(BodyProperties)) == [each.name for each in fields(Properties)]
 
 
 def test_properties_are_given_by_keyword(physsim: PhysSim) -> None:

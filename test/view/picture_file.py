@@ -12,7 +12,7 @@ import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
-from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.transform import cross
 from physsim_ros.view import FrameContext
 from physsim_ros.view.recording import FrameRecorder
@@ -48,6 +48,17 @@ def frame(of, poses, *, step=0, **changes):
         step=step, stamp=step * STEP_NS, scene=of, poses=poses, twists=np.ones_like(poses)
     )
     return Frame(snapshot=snapshot, contacts=changes.pop('contacts', None), **changes)
+
+
+def contacts(*impulses, pair=(0, -1)):
+    """Return contacts at (1, 2) with impulses on the second body [N s]."""
+    count = len(impulses)
+    return Contacts(
+        pairs=np.array([pair] * count, dtype=np.int64).reshape(-1, 2),
+        points=np.array([[1.0, 2.0]] * count).reshape(-1, 2),
+        normals=np.array([[0.0, -1.0]] * count).reshape(-1, 2),
+        impulses=np.array(impulses, dtype=np.float64).reshape(-1, 2),
+    )
 
 
 @dataclass

@@ -11,12 +11,11 @@ import math
 import numpy as np
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.preview import NO_PREVIEW, Preview
-from physsim_ros.model.snapshot import Contacts
 from physsim_ros.view.arrows import CUT
 from physsim_ros.view.preview import LINGER
 import pytest
 
-from .picture_file import body, frame, scene, TOLERANCE
+from .picture_file import body, contacts, frame, scene, TOLERANCE
 
 
 def test_the_walls_lie_just_outside_the_bounds(recording):
@@ -52,17 +51,6 @@ def test_the_grid_has_a_line_at_every_whole_metre_and_says_which(recording):
     up = {float(label[:-2]) for (x, _, _), label in zip(places, labels, strict=True) if x < -10.0}
     assert across == {-10.0, -5.0, 0.0, 5.0, 10.0}
     assert up == {0.0, 5.0, 10.0}
-
-
-def contacts(*impulses, pair=(0, -1)):
-    """Return contacts at (1, 2) with impulses on the second body [N s]."""
-    count = len(impulses)
-    return Contacts(
-        pairs=np.array([pair] * count, dtype=np.int64).reshape(-1, 2),
-        points=np.array([[1.0, 2.0]] * count).reshape(-1, 2),
-        normals=np.array([[0.0, -1.0]] * count).reshape(-1, 2),
-        impulses=np.array(impulses, dtype=np.float64).reshape(-1, 2),
-    )
 
 
 def draw_contacts(recording, batches):
@@ -164,11 +152,11 @@ def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):
 
 def test_the_reading_of_a_stroke_is_seen_for_a_while(recording):
     box, read = scene(body()), Preview(lines=(((0, 0), (3, 4)),), label='wall 90%')
-    for step in range(LINGER + 2):
+    for step in range(round(60 * LINGER) + 2):
         recording.draw(frame(box, [(step, 0, 0)], step=4 * step, preview=read))
 
     rows = recording.rows('world/preview/lines', 'LineStrips3D:strips')
-    assert [(row.frame, len(row.value)) for row in rows] == [(0, 1), (LINGER, 0)]
+    assert [(row.frame, len(row.value)) for row in rows] == [(0, 1), (60 * LINGER, 0)]
 
 
 def eyes(recording):

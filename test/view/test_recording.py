@@ -44,14 +44,14 @@ def test_the_recorded_time_goes_on_while_the_world_goes_back(recording):
 
 def test_geometry_is_sent_with_the_scene_and_again_now_and_then(recording):
     box = scene(body())
-    frames = [frame(box, [(step, 0, 0)], step=4 * step) for step in range(REPEAT + 10)]
+    frames = [frame(box, [(step, 0, 0)], step=4 * step) for step in range(round(60 * REPEAT) + 10)]
 
     for first in range(0, len(frames), 60):
         end = first + 60
         recording.draw(*frames[first:end])
 
     rows = recording.rows('world/bodies/box/0', 'Mesh3D:vertex_positions')
-    assert [row.frame for row in rows] == [0, REPEAT]
+    assert [row.frame for row in rows] == [0, 60 * REPEAT]
 
 
 def test_what_rests_is_not_sent_again(recording):

@@ -9,13 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 from physsim_ros.files import state_from
+from physsim_ros.model.preview import Preview
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame, NO_CONTACTS
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .picture_file import body, chunk, frame, scene
+from .picture_file import body, chunk, contacts, frame, scene
 
 
 def test_energies_and_momenta_are_plotted(recording):
@@ -120,6 +121,12 @@ def test_the_past_that_is_played_is_told(recording):
     assert [state for _, state in rows] == ['play', 'back', 'past', 'play']
 
 
+LEGEND = 'world/camera/legend/labels'
+TEN_A_SECOND = [
+    ('plots/energy', 'Scalars:scalars'),
+    ('world/labels', 'Points3D:positions'),
+    ('world/camera/legend/time', 'Points2D:labels'),
+]
 POSITIONS, STRIPS = 'Points3D:positions', 'LineStrips3D:strips'
 WALL = {'name': 'wall/0', 'box': {'width': 0.2, 'height': 9}, 'at': [2.1, 0], 'anchored': True}
 ROBOT = {'name': 'tb3/0', 'robot': 'turtlebot3_burger', 'at': [0, 0]}
@@ -218,3 +225,27 @@ def test_the_image_of_the_world_tells_time_and_that_it_goes_back(recording):
 
     labels = recording.rows('world/camera/legend/time', 'Points2D:labels')
     assert [str(row.value[0]) for row in labels] == ['1.25 s  play', '0.00 s  back']
+
+
+@pytest.mark.parametrize('rate', [30, 60, 1000])
+def test_rows_are_as_far_apart_in_time_at_every_rate_of_frames(recording, rate):
+    box, read = scene(body(label='box')), Preview(lines=(((0, 0), (3, 4)),), label='wall 90%')
+    frames = []
+    for number in range(4 * rate + 1):
+        pushed = contacts((0.0, -19.0 / rate))
+        each = frame(box, [(number / rate, 0, 0)], contacts=pushed, preview=read)
+        snapshot = replace(each.snapshot, stamp=round(number * 1e9 / rate))
+        frames.append(replace(each, snapshot=snapshot))
+
+    recording.draw(*frames)
+    recording.draw(replace(frames[-1], speed=0.0, stepped=False))
+
+    for entity, column in TEN_A_SECOND:
+        assert len(recording.rows(entity, column)) == pytest.approx(41, abs=1)
+    assert len(recording.rows('world/velocities', 'Arrows3D:vectors')) == pytest.approx(27, abs=2)
+    shown, ended = recording.rows('world/preview/lines', 'LineStrips3D:strips')[:2]
+    assert (ended.recorded - shown.recorded) * 1e-9 == pytest.approx(3.0, abs=1 / rate)
+    legend = [str(row.value[0]) for row in recording.rows(LEGEND, 'Points2D:labels')]
+    assert [text.startswith('contact force: this length = 20 N ') for text in legend] == [True]
+    states = recording.rows('time/run', 'StateChange:state')
+    assert (states[-1].recorded * 1e-9) == pytest.approx(4.0 + 1 / rate)

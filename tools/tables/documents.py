@@ -13,7 +13,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING
 from pathlib import Path
 import textwrap
-from typing import Any
+from types import NoneType
+from typing import Any, get_args, get_origin, get_type_hints
 
 import physsim_ros
 from physsim_ros.appearance.joint_strips import SYMBOLS
@@ -77,7 +78,7 @@ def files() -> dict[Path, str]:
     }
     pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
     package = ROOT / 'physsim_ros'
-    types = package / 'testing' / 'parameters.py'
+    types, messages = (package / 'testing' / f'{name}.py' for name in ('parameters', 'messages'))
     script = package / 'sketchpad' / 'page' / 'view' / 'joint_view.js'
     return {
         **{
@@ -85,6 +86,9 @@ def files() -> dict[Path, str]:
             for page, parts in pages.items()
         },
         types: with_parts(types, _types(), '# {}: made by `make tables`'),
+        messages: with_parts(
+            messages, {'properties': _property_types()}, '# {}: made by `make tables`'
+        ),
         script: with_parts(script, {'symbols': _symbols()}, '// {}: made by `make tables`'),
         ROOT / 'config' / 'physsim.yaml': _YAML_HEAD + '\n'.join(_yaml()),
     }
@@ -309,6 +313,25 @@ def _yaml_value(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     return "''" if value == '' else str(value)
+
+
+def _property_types() -> str:
+    """Return the annotations of the properties of a body, as a marker has them."""
+    hints = get_type_hints(Properties)
+    lines = [f'    {name}: {_property_type(hints[name])} | None\n' for name in Properties.FIELDS]
+    return ''.join(lines) + '\n\n'
+
+
+def _property_type(hint: Any) -> str:
+    """Return the annotation of a property: that of its field, as YAML can write it."""
+    (kind,) = (each for each in get_args(hint) if each is not NoneType)
+    if get_origin(kind) is tuple:
+        is_vector = get_args(kind)[0] is float
+        return 'Numbers' if is_vector else 'Sequence[Mapping[str, Any]]'
+    if kind in (bool, float, int, str):
+        return str(kind.__name__)
+    # A shipped robot is named.
+    return 'str | Mapping[str, Any]' if kind is Robot else 'Mapping[str, Any]'
 
 
 def _symbols() -> str:

@@ -14,8 +14,7 @@ from collections.abc import Callable
 
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 import numpy as np
-from physsim_ros.maps import anchored_grid, is_on_map
-from physsim_ros.maps import OccupancyGrid as Grid
+from physsim_ros.maps import anchored_grid, Grid, is_on_map
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.scene import Scene

@@ -17,8 +17,7 @@ from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid, Path
 import numpy as np
 from physsim_ros.files import BODY_KEYS, load_mapping, PROPERTIES, with_shipped_robot
-from physsim_ros.maps import OccupancyGrid as Grid
-from physsim_ros.maps import walls_of
+from physsim_ros.maps import Grid, walls_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import shown

@@ -18,7 +18,7 @@ from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.ros.topics import CALLS
 from physsim_ros.runtime.error_boundary import ErrorBoundary
-from physsim_ros.runtime.slices import at_once, in_slices, Sliced, Slices
+from physsim_ros.runtime.slices import finish, in_slices, Sliced, Slices
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
@@ -89,7 +89,7 @@ class ServiceCalls:
             with self._boundary.reading(topic):
                 self._make_call(partial(self._fill, topic, fill), wait, send)
         except (Busy, Failed) as refusal:
-            for answer in at_once(self._fill(topic, fill, refusal)):
+            for answer in finish(self._fill(topic, fill, refusal)):
                 self._requests.tell(answer)
             send()
         return reply

@@ -73,7 +73,7 @@ def test_a_controller_is_not_waited_for_with_a_scan_from_before_it_came(
     assert not flat.node.fleet.lockstep.waits()
     count = len(scans)
     while len(scans) == count:
-        flat.node.advance_frame()
+        flat.node.loop.advance_frame()
         flat.settle()
     assert flat.node.fleet.lockstep.waits()
     driver.send(0.2, stamp=scans[-1].header.stamp)
