@@ -25,13 +25,13 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.model.transform import REST
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.lockstep import Lockstep
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
+from physsim_ros.ros.robots.timeout_notice import TimeoutNotice
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past import Past
@@ -95,8 +95,7 @@ class Fleet:
         self._look_due = 0.0
         # Whether time went back at the last frame: messages are on their way that are of before.
         self._went_back = False
-        # Whether it was told that a robot has stopped as no command came.
-        self._has_told_timeout = False
+        self._timeout_notice = TimeoutNotice(values, self._tell_timeout)
 
     @property
     def is_read(self) -> bool:
@@ -203,8 +202,7 @@ class Fleet:
                 scanned = robot.publish(view, row)
                 if scanned is not None and robot.drive_topic is not None:
                     robot.drive_topic.expect_answer(scanned)
-            if robot is not None and not self._has_told_timeout and _has_stopped(view, row):
-                self._tell_timeout(robot)
+                self._timeout_notice.tell_if_stopped(robot, view, row)
 
     def _send_again(self, frame: Frame, last: Snapshot | None) -> None:
         """Send the messages that were on their way at a snapshot from which time goes on again."""
@@ -223,20 +221,8 @@ class Fleet:
             with self._boundary.output('robots'):
                 robot.send_again(views[name], last.stamp)
 
-    def _tell_timeout(self, robot: RobotTopics) -> None:
-        """Tell once that a robot has stopped as no command came: people expect it to drive on."""
-        topic, drive = robot.drive_topic, robot.robot.drive
-        if topic is None or drive is None or topic.velocity == REST:
-            return
-        self._has_told_timeout = True
-        asked = self._values['drive_timeout']
-        timeout = drive.timeout if asked < 0.0 else asked
-        message = (
-            f'{robot.body} has stopped: no command has come for {timeout:g} s, the timeout of its '
-            'drive. Publish commands again and again, or set the parameter drive_timeout to 0'
-        )
-        self._node.get_logger().warning(message)
-        answer = Answer(topic=topic.topic, subject=robot.body, message=message)
+    def _tell_timeout(self, answer: Answer) -> None:
+        self._node.get_logger().warning(answer.message)
         self._requests.tell(answer)
 
     def update_topics(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
@@ -294,12 +280,3 @@ class Fleet:
             lasers=self._lasers,
             expected=self._expected,
         )
-
-
-def _has_stopped(view: StampedView, row: int) -> bool:
-    """Return whether the command of a robot has ended since the frame before."""
-    now, before = view.snapshot, view.before
-    if before is None or before.scene is not now.scene:
-        return False
-    until = int(now.robots['until'][now.scene.robot_number(row)])
-    return before.step < until <= now.step
