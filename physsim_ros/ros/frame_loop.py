@@ -6,7 +6,8 @@ The frame loop: requests are applied, time goes on, and each frame is shown.
 
 Laws: requests have a share of each tick; what is left of them waits for the next one. No tick
 advances the world before all robots of its last frame have their topics. Before the node has
-started nothing is applied by itself.
+started nothing is applied by itself. A tick begins with the messages of pages; a frame that a
+message or a call makes does not, so that no message is carried out within another.
 """
 
 from __future__ import annotations
@@ -92,8 +93,9 @@ class FrameLoop:
         :param now_ns: steady time, monotonic [ns]
         """
         began, tick_time = time.perf_counter_ns(), _TickTime()
+        self._handle_messages()
         self._note_readers()
-        self._take_commands()
+        self._submit_commands()
         if not self._fleet.update_topics(tick_time.is_overdue):
             self._simulation.playback.clock.restart()
             return
@@ -140,8 +142,13 @@ class FrameLoop:
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
+        self._handle_messages()
+        self.make_frame()
+
+    def make_frame(self) -> None:
+        """Advance the world by one publish period, also within a message; show the frame."""
         self._note_readers()
-        self._take_commands()
+        self._submit_commands()
         self._show(self._simulation.advance_frame())
 
     def pass_frames(self, count: int) -> int:
@@ -152,8 +159,9 @@ class FrameLoop:
         """
         if not count:
             return 0
+        self._handle_messages()
         self._note_readers()
-        self._take_commands()
+        self._submit_commands()
         if self._simulation.is_read:
             return 0
         frame = self._simulation.pass_frames(count)
@@ -216,10 +224,13 @@ class FrameLoop:
         """Have a seek be done at once if it is short; else the next ticks go on with it."""
         self._simulation.finish_work(_TickTime().is_overdue)
 
-    def _take_commands(self) -> None:
-        """Handle messages of pages, and submit commands of robots, which the past refuses."""
+    def _handle_messages(self) -> None:
+        """Carry out messages of pages."""
         if self._outputs.sketchpad is not None:
             self._outputs.sketchpad.handle_messages()
+
+    def _submit_commands(self) -> None:
+        """Submit commands of robots, which the past refuses."""
         self._fleet.submit_commands(
             in_past=self._simulation.speed < 0.0 or self._simulation.is_past
         )

@@ -126,7 +126,7 @@ class TimeControl:
         """
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
-        self._loop.advance_frame()
+        self._loop.make_frame()
         return f'at {self._simulation.world.stamp * 1e-9:.6f} s'
 
     async def reset(self) -> str:

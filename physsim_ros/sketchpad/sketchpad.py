@@ -102,8 +102,6 @@ class Sketchpad:
             self._server.ask_to_leave,
         )
         self._sessions: dict[int, PageSession] = {}
-        # Whether messages are being carried out.
-        self._is_handling = False
         # Numbers of the colours of people, by name.
         self._colors: dict[str, int] = {}
         # The last one; None before the first.
@@ -136,19 +134,12 @@ class Sketchpad:
 
     def handle_messages(self) -> None:
         """Carry out the messages of pages that have come, as many as there is time for."""
-        if self._is_handling:
-            # A message reads a snapshot, for which a call goes on that makes frames.
-            return
         now = time.monotonic()
-        self._is_handling = True
-        try:
-            with self._boundary.output('page'):
-                self._do_periodic_work(now)
-            self._handle_until(now + BUDGET)
-            with self._boundary.output('page'):
-                self._send_class()
-        finally:
-            self._is_handling = False
+        with self._boundary.output('page'):
+            self._do_periodic_work(now)
+        self._handle_until(now + BUDGET)
+        with self._boundary.output('page'):
+            self._send_class()
 
     def _handle_until(self, end: float) -> None:
         """Carry out messages until a steady time [s]."""

@@ -276,7 +276,7 @@ def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
     sheet.begin()
     world.interrupt()
     alert = sheet.page.get_by_role('alert')
-    alert.get_by_text('gone').wait_for()
+    alert.get_by_text('does not answer').wait_for()
     requests: list[str] = []
     sockets: list[str] = []
     sheet.page.on('requestfailed', lambda request: requests.append(request.url))
@@ -284,13 +284,15 @@ def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
     # Browsers delay the sockets of a page that tried many in vain.
     sheet.until(lambda: len(requests) > 2, 'requests to a server that is gone')
     assert not sockets
-    # A stroke drawn meanwhile is not lost in silence.
+    # A stroke drawn meanwhile is not lost in silence; what means another thing later is not kept.
     sheet.drag(*circle(1.0, 5.0, 0.8))
-    sheet.page.locator('.note.refusal').get_by_text('Not done').wait_for()
+    sheet.press('Undo')
+    sheet.told('Not done')
     port = re.search(r':(\d+)/', first)[1]
     world, _ = started_world(outside, sketchpad_port=port)
     alert.wait_for(state='hidden')
     assert sheet.page.get_by_role('status').inner_text() == 'Connected again'
+    sheet.page.locator('#dock').get_by_text('1 may be lost').wait_for()
     before = sheet.names()
     sheet.drag(*circle(1.0, 5.0, 0.8))
     sheet.wait_for_new(before)

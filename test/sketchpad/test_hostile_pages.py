@@ -5,6 +5,7 @@
 
 import asyncio
 from contextlib import ExitStack, suppress
+from itertools import chain, repeat
 import json
 from pathlib import Path
 import socket
@@ -30,6 +31,8 @@ FIELDS = {
 }  # fmt: skip
 # A request whose body does not come.
 BODILESS = 'POST /login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 100\r\n\r\n'
+# Of the second byte of a frame, which also has its length (RFC 6455, section 5.2).
+MASKED = 0x80
 CLICK = '{"id": "x", "type": "click", "tool": "anchor", "point": [0, 0]}'
 
 
@@ -317,22 +320,27 @@ def test_one_upload_too_many_is_refused_with_a_code(
     ]
 
 
-@pytest.mark.parametrize('kind', ['message', 'ping'])
+@pytest.mark.parametrize('kind', ['message', 'ping', 'empty part'])
 def test_a_flood_closes_the_page_and_delays_no_other(
     browser: Browser, monkeypatch: pytest.MonkeyPatch, kind: str
 ) -> None:
     # On a busy machine, the turns of a page may read fewer messages than the rate allows.
     monkeypatch.setattr(guarded, 'RATE', 0.0)
     page, other = browser.open_page(), browser.open_page()
+    opcodes = chain([1], repeat(0))
 
     async def flood() -> None:
         with suppress(WebSocketClosedError):
             while not page.closed:
                 if kind == 'message':
                     await page.socket.write_message(CLICK)
-                else:
+                elif kind == 'ping':
                     page.socket.ping(b'x' * 125)
-                    await asyncio.sleep(0.0)
+                else:
+                    # The first part is of a text, those after it continue it.
+                    part = bytes([next(opcodes), MASKED]) + bytes(4)
+                    await page.socket.protocol.stream.write(part)
+                await asyncio.sleep(0.0)
 
     task = browser.loop.create_task(flood())
     assert other.ask('drop')['ok']

@@ -17,12 +17,14 @@ import numpy as np
 from physsim_ros.files import load_world, text_of
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.snapshot import Grip
+from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import past, Role
 from physsim_ros.sketchpad.inbox import Inbox
-from physsim_ros.sketchpad.message import KINDS
+from physsim_ros.sketchpad.message import KINDS, Message
 from physsim_ros.sketchpad.messages import worlds
+from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.server import open_pages
 from physsim_ros.sketchpad.server.frame_codec import Show
 from physsim_ros.sketchpad.server.page_handlers import PAGE
@@ -686,26 +688,32 @@ def test_a_drive_that_is_no_drive_is_refused(browser: Browser) -> None:
 def test_no_message_is_carried_out_within_another(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # A message that reads a snapshot has calls go on, which make frames, which take messages.
-    sketchpad, control = browser.physsim.node.outputs.sketchpad, browser.physsim.node.control
-    take, snapshot = Inbox.take, control.current_snapshot
+    control, take, handle = browser.physsim.node.control, Inbox.take, PageSession.handle
+    control.time.set_speed(0.0)
     taken, within = [], []
+
+    async def step() -> tuple[Answer, ...]:
+        control.time.advance_frame()
+        return ()
 
     def take_noted(inbox: Inbox) -> Any:
         taken.append(inbox)
         return take(inbox)
 
-    def snapshot_with_frames() -> Any:
+    def handle_noted(session: PageSession, message: Message) -> None:
+        # A message that reads a snapshot has this call begin.
+        control.simulation.requests.submit_call(step, Wait.FOR_SEEK)
         before = len(taken)
-        sketchpad.handle_messages()
+        handle(session, message)
         within.append(len(taken) - before)
-        return snapshot()
 
     page = browser.open_page()
     monkeypatch.setattr(Inbox, 'take', take_noted)
-    monkeypatch.setattr(control, 'current_snapshot', snapshot_with_frames)
-    page.send('click', tool='circle', point=[0.0, 5.0])
-    assert page.ask('click', tool='circle', point=[0.5, 5.0])['ok']
+    monkeypatch.setattr(PageSession, 'handle', handle_noted)
+    time = control.simulation.stamp
+    assert page.ask('click', tool='circle', point=[0.0, 5.0])['ok']
+    assert page.ask('service', name='step')['ok']
+    assert control.simulation.stamp > time
     assert {*within} == {0}
 
 

@@ -27,7 +27,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.settings import check_limit, WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.sketchpad.messages.fields import person
-from physsim_ros.sketchpad.server.page_handlers import PAGE
+from physsim_ros.sketchpad.server.page_handlers import PAGE, PageFiles
 import pytest
 
 from .chromium import OpenSheet, Sheet, WORLD
@@ -89,6 +89,13 @@ def shipped_texts() -> set[str]:
         heading = name.replace('_', ' ')
         texts |= {heading[0].upper() + heading[1:], title_of(path)}
     return texts
+
+
+def test_a_browser_gets_every_text_of_a_script_in_its_line() -> None:
+    for path in SCRIPTS:
+        served = b''.join(PageFiles.get_content(str(path))).decode()
+        assert [*texts_of(served)] == [*texts_of(path.read_text(encoding='utf-8'))], path
+        assert served.startswith('// SPDX-License-Identifier')
 
 
 @pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: path.stem)

@@ -24,6 +24,7 @@ import {Records} from './measures/records.js';
 import {Stopwatch} from './measures/stopwatch.js';
 import {Trail} from './measures/trail.js';
 import {Driving} from './panels/driving.js';
+import {Gravity} from './panels/gravity.js';
 import {Material} from './panels/material.js';
 import {Panel} from './panels/panel.js';
 import {People} from './people.js';
@@ -35,7 +36,6 @@ import {Dialog} from './ui/dialog.js';
 import {Files} from './ui/files.js';
 import {Hints} from './ui/hints.js';
 import {Lessons} from './ui/lessons.js';
-import {Links} from './ui/links.js';
 import {Narrator} from './ui/narrator.js';
 import {Notes} from './ui/notes.js';
 import {Readings} from './ui/readings.js';
@@ -78,12 +78,12 @@ const sound = new Sound({connection, frames, world});
 const time = new TimeBar({connection, gestures, notes, people, view, words, world});
 const files = new Files({connection, dialog, notes, people, room, words});
 const lessons = new Lessons({connection, files, people, room, selection, time, words, world});
-new Links({connection, dialog, files, lessons, notes, people, world});
 const plotting = new Plotting({connection, lessons, notes, records, room, selection, view, words, world});
 const plots = new Plots({connection, plotting, records, selection, view, world});
 const driving = new Driving({connection, people, selection, world});
+const gravity = new Gravity({connection, world});
 const material = new Material({connection, people});
-const panel = new Panel({connection, driving, material, meters, notes, numbers, plots, plotting, records, room, selection, sound,
+const panel = new Panel({connection, driving, gravity, material, meters, notes, numbers, plots, plotting, records, room, selection, sound,
   stopwatch, trail, view, words, world});
 new EmptyCard({connection, gestures, people, selection, view, world});
 const handles = new Handles({arrows, camera, connection, gestures, people, selection, view, world});
@@ -111,6 +111,11 @@ for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerout', 'wh
   document.addEventListener(type, () => { view.dirty = true; }, true);
 }
 listen();
+// A link with which the page is opened; in an open page, one loads it again.
+addEventListener('hashchange', () => location.reload());
+if (/[?#&](world|lesson|t)=/.test(location.href)) {
+  await notes.load(import('./ui/links.js'), ({Links}) => new Links({connection, dialog, files, lessons, notes, people, world}));
+}
 connection.connect();
 
 function listen() {
@@ -128,9 +133,10 @@ function listen() {
   };
   connection.on('open', isBack);
   connection.on('heard', isBack);
+  const silent = t('The server does not answer. This page comes back with it, and sends what you draw.');
   connection.on('silent', () => {
     gone.hidden = false;
-    gone.textContent = t('The server does not answer. What you draw is sent when it does.');
+    gone.textContent = silent;
   });
   connection.on('again', ({sent, lost}) => {
     // Beside the answers to what is sent again.
@@ -153,7 +159,7 @@ function listen() {
     gone.hidden = false;
     gone.textContent = status === 401 || status === 403 ?
       t('Wrong token: open the address that the node printed.') :
-      !status ? t('The server is gone. This page comes back with it.') :
+      !status ? silent :
         opened ? t('Connecting again …') : t('The server refused this page; trying again …');
   });
 }

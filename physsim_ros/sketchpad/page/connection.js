@@ -20,7 +20,7 @@ const TICK = 500; // ms between two looks whether something has come; a browser 
 /** Ticks of silence after which the server is asked, the page tells it, and it connects anew. */
 const ASKS = 1, TELLS = 6, LEAVES = 15;
 const REACHED = 3000; // ms within which a server that is there answers a request
-/** Messages that mean the same in a while: they are sent again where they were not received. */
+/** Messages that mean the same in a while: they wait for a server, and are sent again where they were not received. */
 const AGAIN = ['stroke', 'spawn', 'change', 'change_joint', 'delete', 'unjoin', 'copy_machine', 'move_bodies', 'place', 'answered', 'say'];
 const LASTING = 60000; // ms for which they do
 /** Messages that have no answer, or that nobody misses. */
@@ -38,7 +38,7 @@ export class Connection extends Emitter {
     /** @type {Map<string, (answer: Answer) => void>} */
     this.waiting = new Map();
     this.number = 0;
-    /** @type {Map<string, {message: {id: string, type: string}, at: number}>} sent and not answered, by id; at: when [ms] */
+    /** @type {Map<string, {message: {id: string, type: string}, at: number}>} not answered, by id; at: when they were made [ms] */
     this.unanswered = new Map();
     this.pause = SHORTEST_PAUSE;
     this.silence = 0; // ticks since the last message
@@ -75,10 +75,10 @@ export class Connection extends Emitter {
   /**
    * @param {string} type
    * @param {Record<string, unknown>} fields
-   * @returns {string} the id of the request; '' without a connection
+   * @returns {string} the id of the request; '' without a connection, for which it does not wait
    */
   send(type, fields = {}) {
-    if (this.socket?.readyState !== WebSocket.OPEN) {
+    if (!this.#isOpen && !AGAIN.includes(type)) {
       if (!PASSING.includes(type)) this.#tell('unsent', {type, ...fields});
       return '';
     }
@@ -89,8 +89,9 @@ export class Connection extends Emitter {
 
   /** @param {{id: string, type: string}} message */
   #sendOut(message) {
-    this.socket?.send(JSON.stringify(message));
     if (!PASSING.includes(message.type)) this.unanswered.set(message.id, {message, at: Date.now()});
+    if (!this.#isOpen) return;
+    this.socket?.send(JSON.stringify(message));
     this.#tell('sent', message);
   }
 
@@ -102,15 +103,21 @@ export class Connection extends Emitter {
     const missed = [...this.unanswered.values()].filter(({message: {id}}) => !received || Number(id) > Number(received));
     this.unanswered.clear();
     const again = missed.filter(({message: {type}, at}) => received && AGAIN.includes(type) && Date.now() - at < LASTING);
-    for (const {message} of again) this.#sendOut({...message, id: String(++this.number)});
+    const kept = new Set(again.map(({message: {id}}) => id));
+    for (const id of this.waiting.keys()) if (!kept.has(id)) this.waiting.delete(id);
+    for (const {message} of again) this.#sendOut(message);
     if (missed.length) this.#tell('again', {sent: again.length, lost: missed.length - again.length});
+  }
+
+  get #isOpen() {
+    return this.socket?.readyState === WebSocket.OPEN;
   }
 
   /** Ask a silent server whether it is there, tell that it does not answer, and connect anew. */
   #watch() {
     if (!this.socket) return;
     this.silence++;
-    if (this.silence === ASKS && this.socket.readyState === WebSocket.OPEN) this.send('ping');
+    if (this.silence === ASKS && this.#isOpen) this.send('ping');
     if (this.silence === TELLS) this.#tell('silent', null);
     if (this.silence < LEAVES) return;
     this.#drop();
@@ -134,7 +141,7 @@ export class Connection extends Emitter {
   /**
    * @param {string} type
    * @param {Record<string, unknown>} fields
-   * @returns {Promise<Answer>} never settles where the connection is lost before
+   * @returns {Promise<Answer>} never settles where the connection is lost before, and it is not sent again
    */
   ask(type, fields = {}) {
     const id = this.send(type, fields);
@@ -216,7 +223,6 @@ export class Connection extends Emitter {
    */
   async #retry(wasGone = false) {
     this.socket = this.scene = null;
-    this.waiting.clear();
     const status = await fetch('/session', {cache: 'no-store', signal: AbortSignal.timeout(REACHED)}).then(
       (response) => response.status, () => 0);
     if (status && wasGone) {

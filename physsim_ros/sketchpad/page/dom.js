@@ -140,13 +140,21 @@ export function range(label, min, max, step, value, change) {
 }
 
 /**
+ * @param {string} text
+ * @param {Node} field
+ */
+export function labelled(text, field) {
+  return createElement('label', {}, text, field);
+}
+
+/**
  * @param {string} label
  * @param {boolean} checked
  * @param {(checked: boolean) => void} change
  */
 export function checkField(label, checked, change) {
   const input = createElement('input', {type: 'checkbox', checked, onchange: () => change(input.checked)});
-  return createElement('label', {}, label, input);
+  return labelled(label, input);
 }
 
 /**
@@ -162,9 +170,14 @@ export function choice(label, options, value, change) {
   return input;
 }
 
+/** @type {(...how: Parameters<typeof choice>) => HTMLLabelElement} a choice with its label beside it */
+export function choiceField(label, ...how) {
+  return labelled(label, choice(label, ...how));
+}
+
 /** @returns {HTMLElement} a choice of the language; the page is loaded again in it */
 export function languageField() {
-  return createElement('label', {}, t('Language'), choice(t('Language'), Object.entries(LANGUAGES), language, chooseLanguage));
+  return choiceField(t('Language'), Object.entries(LANGUAGES), language, chooseLanguage);
 }
 
 /**

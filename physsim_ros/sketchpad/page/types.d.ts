@@ -24,6 +24,7 @@ import type {Records} from './measures/records.js';
 import type {Stopwatch} from './measures/stopwatch.js';
 import type {Trail} from './measures/trail.js';
 import type {Driving} from './panels/driving.js';
+import type {Gravity} from './panels/gravity.js';
 import type {Material} from './panels/material.js';
 import type {Panel} from './panels/panel.js';
 import type {People} from './people.js';
@@ -55,6 +56,7 @@ interface Page {
   files: Files;
   frames: FrameParts;
   gestures: Gestures;
+  gravity: Gravity;
   hints: Hints;
   lessons: Lessons;
   material: Material;
@@ -87,7 +89,7 @@ export type Parts<Names extends keyof Page> = Pick<Page, Names>;
 export type ToolParts = Parts<'camera' | 'connection' | 'frames' | 'hints' | 'notes' | 'people' | 'readings' | 'records' | 'selection' | 'view' | 'world'>;
 
 /** What the panel works with, and what it shows. */
-export type PanelParts = Parts<'connection' | 'driving' | 'material' | 'meters' | 'notes' | 'numbers' | 'plots' | 'plotting' | 'records' | 'room' | 'selection' | 'sound' | 'stopwatch' | 'trail' | 'view' | 'words' | 'world'>;
+export type PanelParts = Parts<'connection' | 'driving' | 'gravity' | 'material' | 'meters' | 'notes' | 'numbers' | 'plots' | 'plotting' | 'records' | 'room' | 'selection' | 'sound' | 'stopwatch' | 'trail' | 'view' | 'words' | 'world'>;
 
 /** x, y [m]; on the page [px]. */
 export type Point = [number, number];

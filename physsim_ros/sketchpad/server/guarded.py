@@ -10,6 +10,7 @@ a page does is closed.
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Awaitable
 from html import escape
 from http import HTTPStatus
@@ -23,7 +24,12 @@ from physsim_ros.sketchpad.server.access import Access, headers_for
 from physsim_ros.sketchpad.server.turns import Turns
 from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError, RequestHandler, stream_request_body
-from tornado.websocket import WebSocketClosedError, WebSocketHandler
+from tornado.websocket import (
+    WebSocketClosedError,
+    WebSocketHandler,
+    WebSocketProtocol,
+    WebSocketProtocol13,
+)
 
 # Content types by suffix; the machine's own table may lack some.
 TYPES = {
@@ -36,9 +42,11 @@ TYPES = {
     '.webmanifest': 'application/manifest+json',
     '.yaml': 'application/yaml; charset=utf-8',
 }
-# Rate of the messages of a socket in the long run [1/s], and messages at once. A pen and a hand
-# send one message each frame of the page, at 60 to 144 Hz.
+# Rate of the frames of a socket in the long run [1/s], and frames at once: a message is one frame,
+# or a few. A pen and a hand send one message each frame of the page, at 60 to 144 Hz.
 RATE, BURST = 200.0, 400.0
+# Time from one frame of a socket that is being closed to the next [s].
+PAUSE = 0.005
 # Size of a file that is read to its end though it is refused [bytes].
 MOST_READ = 2**26
 # Errors of a client that has left.
@@ -201,7 +209,7 @@ class GuardedUpload(Guarded):
 
 
 class GuardedSocket(Guarded, WebSocketHandler):
-    """A web socket of a page of this server, with a token bucket for its messages."""
+    """A web socket of a page of this server, with a token bucket for its frames."""
 
     # RFC 6455, section 4.1; the headers of a handshake are no answer.
     SUPPORTED_METHODS = ('GET',)
@@ -227,17 +235,16 @@ class GuardedSocket(Guarded, WebSocketHandler):
         if reason := self.too_many:
             self.refuse(503, reason, Busy.code)
 
-    def on_ping(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
-        """Count a ping, which tornado has answered, among the messages; no browser sends any."""
-        self.take_token()
-
-    def on_pong(self, data: bytes) -> None:  # noqa: ARG002 - tornado's name
-        """Count a pong among the messages; a browser sends one for each ping of the server."""
-        self.take_token()
+    def get_websocket_protocol(self) -> WebSocketProtocol | None:
+        """Return the protocol of this socket, whose frames are limited."""
+        protocol = super().get_websocket_protocol()
+        if isinstance(protocol, WebSocketProtocol13):
+            return _LimitedFrames(self, protocol.mask_outgoing, protocol.params)
+        return protocol
 
     def on_message(self, message: str | bytes) -> Awaitable[None] | None:
         """Receive a message in its turn; until then, nothing more is read from the socket."""
-        if not self.take_token():
+        if self.ws_connection is None or self.ws_connection.is_closing():
             return None
         if self.turns.begin(self):
             return self._receive(message)
@@ -260,7 +267,7 @@ class GuardedSocket(Guarded, WebSocketHandler):
 
     def take_token(self) -> bool:
         """
-        Take a token of the bucket that limits the rate of messages.
+        Take a token of the bucket that limits the rate of frames.
 
         :return: whether there was one; without one the socket is closed
         """
@@ -272,3 +279,19 @@ class GuardedSocket(Guarded, WebSocketHandler):
             return False
         self._tokens -= 1.0
         return True
+
+
+class _LimitedFrames(WebSocketProtocol13):
+    """
+    The protocol of a socket, each frame of which takes a token: also a ping, and an empty part.
+
+    Tornado 6.6 tells its handlers of whole messages alone, so `_receive_frame` is extended.
+    """
+
+    handler: GuardedSocket
+
+    async def _receive_frame(self) -> None:
+        if not self.handler.take_token():
+            # Until the client knows that it is closed, not more is read than before.
+            await asyncio.sleep(PAUSE)
+        await super()._receive_frame()

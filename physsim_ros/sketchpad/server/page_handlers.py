@@ -20,12 +20,13 @@ from tornado.web import HTTPError, StaticFileHandler
 _SCALE, _QUIET = 8, 4
 # The files that a browser runs.
 PAGE = Path(__file__).parents[1] / 'page'
-# Parts of files that browsers do not need, by their suffix: descriptions, types of editors, lines
-# that are comments, but for the licence; and indentation, since no text has several lines.
+# Parts of files that browsers do not need, by their suffix: descriptions, types of editors,
+# comments, but for the licence and after code those with quotes, which may be the end of a text;
+# and indentation, since no text has several lines.
 _FOR_READERS = {
     suffix: re.compile(pattern, re.DOTALL | re.MULTILINE)
     for suffix, pattern in {
-        '.js': rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*|^[ \t]+',
+        '.js': rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*|[ \t]+// [^\n\'"`]*$|^[ \t]+',
         '.css': rb'/\*(?! SPDX).*?\*/|^[ \t]+',
     }.items()
 }

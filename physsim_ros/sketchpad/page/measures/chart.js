@@ -15,15 +15,15 @@ const RATIO = 2; // pixels of the canvas to one of the page
 /**
  * @param {HTMLCanvasElement} canvas
  * @param {{width: number, height: number, size: number, xLabel: string, yLabel: string, range: number[],
- *   curves: Curve[], behind?: Curve[], mark?: number, palette: Palette}} what  size: of the font [px]; range: of x;
- *   behind: curves that the axes do not follow
+ *   curves: Curve[], behind?: Curve[], room?: number[][], mark?: number, palette: Palette}} what  size: of the font [px];
+ *   range: of x; behind: curves that the axes do not follow; room: points that they do
  * @returns {Scales}
  */
-export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, curves, behind = [], mark, palette}) {
+export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, curves, behind = [], room = [], mark, palette}) {
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   if (canvas.width !== RATIO * width) canvas.width = RATIO * width;
   if (canvas.height !== RATIO * height) canvas.height = RATIO * height;
-  const [least, most] = heightsOf(curves), [start, end] = range;
+  const [least, most] = heightsOf([...curves, {points: room}]), [start, end] = range;
   const left = 3.6 * size, right = width - size / 2, top = 1.5 * size, bottom = height - 1.4 * size;
   const scales = {
     x: (/** @type {number} */ value) => left + (right - left) * (value - start) / (end - start),
@@ -80,7 +80,7 @@ export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, c
 }
 
 /**
- * @param {Curve[]} curves
+ * @param {{points: number[][]}[]} curves
  * @param {number} axis 0 is x
  * @returns {[number, number]} least and greatest value; Infinity and -Infinity where there are no points
  */
@@ -91,7 +91,7 @@ export function spanOf(curves, axis) {
 }
 
 /**
- * @param {Curve[]} curves
+ * @param {{points: number[][]}[]} curves
  * @returns {[number, number]} least and greatest height of the chart
  */
 function heightsOf(curves) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Meters: a quantity of a body, or the force of a joint, that stays beside it in the world, as somebody has chosen in its panel. */
 
-import {checkField, choice, createElement} from '../dom.js';
+import {checkField, choiceField} from '../dom.js';
 import {jointTexts} from '../panels/joint_panel.js';
 import {QUANTITIES, toldOf} from './quantities.js';
 import {t} from '../strings.js';
@@ -31,12 +31,12 @@ export class Meters {
    * @returns {HTMLElement} the choice of its meter
    */
   field(name) {
-    const label = t('Meter in the world'), quantities = Object.entries(QUANTITIES).slice(1).map(([key, {label: each}]) => /** @type {[string, string]} */ ([key, each]));
-    return createElement('label', {}, label, choice(label, [['', t('none')], ...quantities], this.bodies.get(name) ?? '', (key) => {
+    const quantities = Object.entries(QUANTITIES).slice(1).map(([key, {label: each}]) => /** @type {[string, string]} */ ([key, each]));
+    return choiceField(t('Meter in the world'), [['', t('none')], ...quantities], this.bodies.get(name) ?? '', (key) => {
       if (key) this.bodies.set(name, key);
       else this.bodies.delete(name);
       this.#record();
-    }));
+    });
   }
 
   /**

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The numbers of the selected body now: mass, place, angle, velocity, momentum, energies, which can be typed, too. */
 
-import {createElement, numberField, showText} from '../dom.js';
+import {createElement, labelled, numberField, showText} from '../dom.js';
 import {neighboursOf} from '../view/forces.js';
 import {energiesOf, momentumText, motionOf, originOf, placed} from './quantities.js';
 import {digits, threeDigits, twoPlaces} from '../rounding.js';
@@ -37,7 +37,7 @@ export class Numbers {
     this.values = ENERGIES.map(() => createElement('span'));
     this.inputs = new Map(TYPED.map(([key]) => [key, numberField(null, (value) => this.#type(key, value), {inputMode: key === 'mass' ? 'decimal' : 'text'})]));
     this.typed = createElement('details', {className: 'typed'}, createElement('summary', {}, t('Enter numbers')),
-      createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
+      createElement('div', {}, ...TYPED.map(([key, label]) => labelled(label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
     parts.connection.on('open', () => { this.ahead = null; });

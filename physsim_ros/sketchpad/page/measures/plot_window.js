@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-/** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
+/** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, a predicted curve. */
 
-import {csvOf} from '../csv.js';
-import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
-import {drawChart, EVERY, spanOf} from './chart.js';
+import {choice, createElement, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
+import {drawChart, EVERY} from './chart.js';
+import {differenceOf, meanDistance, rangeOf, roomFor, sumOf, valueAt} from './curves.js';
 import {QUANTITIES, toldOf} from './quantities.js';
-import {digits, threeDigits} from '../rounding.js';
+import {copyTable} from './table.js';
+import {threeDigits} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
+import {watchTheme} from '../view/theme.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
-/** @import {Palette, Parts, Sample} from '../types.js' */
+/** @import {Palette, Parts, Point, Sample} from '../types.js' */
 /** @import {Curve, Scales} from './chart.js' */
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
 const NARROW = 560; // px
-const NOTHING = 1e-9; // in its unit: rounding of what is 0
-const LONG = 3, PREDICTED = 10; // s and units that a prediction has room for
 /** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
 const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
 
@@ -40,7 +40,7 @@ export class PlotWindow {
     this.legend = createElement('div', {className: 'row legend'});
     /** @type {?Scales} */
     this.scales = null;
-    /** @type {?[number, number]} pointer on the canvas [px] */
+    /** @type {?Point} pointer on the canvas [px] */
     this.pointed = null;
     this.canvas.onpointermove = ({offsetX, offsetY, buttons, pointerId}) => {
       this.pointed = [offsetX, offsetY];
@@ -58,11 +58,13 @@ export class PlotWindow {
     parts.connection.on('frame', drawSoon);
     parts.connection.on('body', drawSoon);
     parts.connection.on('world', () => this.isOpen && this.close());
+    watchTheme(() => this.#draw());
     new ResizeObserver(() => this.#draw()).observe(this.element);
   }
 
   /** @param {string[]} names of bodies */
   open(names) {
+    const {parts} = this, {room, selection, lessons} = parts;
     const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
     const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
       this.axes[axis] = key;
@@ -71,7 +73,7 @@ export class PlotWindow {
     });
     const rest = inRow(this.#adder(), this.#switch('sums', t('Sum'), t('Momentum or energy of all bodies of the plot together')),
       this.#switch('differs', t('Difference'), t('This run less the last one, at the same times')),
-      this.#switch('predicts', t('Predict the curve'), t('Draw the curve that you expect, then play')), textButton(t('Copy table'), () => this.#copyTable()));
+      this.#switch('predicts', t('Predict the curve'), t('Draw the curve that you expect, then play')), textButton(t('Copy table'), () => copyTable(parts, this.names)));
     rest.classList.add('rest');
     const more = foldButton(t('Bodies, sum, table'), () => {
       more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
@@ -83,7 +85,6 @@ export class PlotWindow {
       more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.reading, this.canvas);
     this.element.hidden = false;
     this.#show(names);
-    const {room, selection, lessons} = this.parts;
     lessons.settle();
     // On a small page there is no room for plot and panel.
     if (!isRoomy()) selection.select([]);
@@ -143,7 +144,7 @@ export class PlotWindow {
     this.parts.records.want(this, names);
     this.legend.replaceChildren(...names.map((name, i) => {
       const button = textButton(`${this.parts.words.item(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
-      button.style.color = this.parts.view.palette[COLORS[i % COLORS.length]];
+      button.style.color = `var(--${COLORS[i % COLORS.length]})`;
       button.title = t('Take {name} out of the plot', {name: this.parts.words.item(name)});
       return button;
     }));
@@ -151,8 +152,20 @@ export class PlotWindow {
   }
 
   #draw() {
-    if (!this.isOpen) return;
-    const {world, view: {palette}, records} = this.parts, {gravity} = world.scene, {x, y} = this.axes;
+    const {canvas: {clientWidth: width, clientHeight: height}, parts: {world, view: {palette}}, axes: {x, y}} = this;
+    if (!this.isOpen || !width || !height) return;
+    const curves = this.#curves(), real = curves[0]?.points ?? [];
+    // The axes have room for a curve before it is drawn.
+    const room = this.predicts ? roomFor(y, [...real, ...this.predicted], world.extent()) : [];
+    this.scales = drawChart(this.canvas, {width, height, size: width < NARROW ? NARROW_SIZE : SIZE, palette, curves, room,
+      xLabel: QUANTITIES[x].label, yLabel: QUANTITIES[y].label, range: rangeOf([...curves, {points: room}]),
+      mark: x === 'time' ? world.frame.time : undefined});
+    this.reading.textContent = this.pointed ? this.#read(curves, this.pointed) : this.#judge(real);
+  }
+
+  /** @returns {Curve[]} of the bodies, that of the first one first, and of what is shown beside them */
+  #curves() {
+    const {parts: {world, view: {palette}, records}, axes: {x, y}, predicted} = this, {gravity} = world.scene;
     /** @type {Curve[]} */
     const curves = [];
     this.names.forEach((name, i) => {
@@ -166,145 +179,40 @@ export class PlotWindow {
         {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
     });
     if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(curves.filter(({dash}) => !dash)), color: palette.ink, width: 4});
-    const real = curves[0]?.points ?? [];
-    if (this.predicts) {
-      curves.push({points: this.predicted, color: palette.momentum, width: 3, dash: [8, 6]});
-      // The axes have room for a curve before there is one.
-      curves.push({points: roomFor(y, [...real, ...this.predicted], world.extent()), color: palette.paper, width: 0, alpha: 0});
-    }
-    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
-    if (!width || !height) return;
-    this.scales = drawChart(this.canvas, {width, height, size: width < NARROW ? NARROW_SIZE : SIZE, palette, curves,
-      xLabel: QUANTITIES[x].label, yLabel: QUANTITIES[y].label, range: rangeOf(curves),
-      mark: x === 'time' ? world.frame.time : undefined});
-    this.#read(curves);
-    if (!this.pointed && this.predicted.length && real.length > 1) this.reading.textContent = t('off by {amount}', {amount: `${threeDigits(apart(this.predicted, real))} ${QUANTITIES[y].label.replace(/.*\[|\]/g, '')}`});
+    if (this.predicts) curves.push({points: predicted, color: palette.momentum, width: 3, dash: [8, 6]});
+    return curves;
   }
 
   /**
-   * Tell the point of a curve next to the pointer.
-   * @param {Curve[]} curves
+   * @param {number[][]} real curve of the first body
+   * @returns {string} how far the one that was predicted is off; '' where there is none
    */
-  #read(curves) {
-    const {pointed, scales} = this;
-    if (!pointed || !scales) {
-      this.reading.textContent = '';
-      return;
-    }
+  #judge(real) {
+    if (!this.predicted.length || real.length < 2) return '';
+    const unit = QUANTITIES[this.axes.y].label.replace(/.*\[|\]/g, '');
+    return t('off by {amount}', {amount: `${threeDigits(meanDistance(this.predicted, real))} ${unit}`});
+  }
+
+  /**
+   * Mark the point of a curve next to the pointer.
+   * @param {Curve[]} curves
+   * @param {Point} pointed [px]
+   * @returns {string} its values
+   */
+  #read(curves, pointed) {
+    const {scales} = this;
+    if (!scales) return '';
     let least = Infinity, nearest = [0, 0], color = '';
     for (const curve of curves) for (const point of curve.points) {
       const far = distance([scales.x(point[0]), scales.y(point[1])], pointed);
       if (far < least) [least, nearest, color] = [far, point, curve.color];
     }
-    if (!color) return;
-    this.reading.textContent = `${toldOf(this.axes.x, nearest[0])} · ${toldOf(this.axes.y, nearest[1])}`;
+    if (!color) return '';
     const ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext('2d'));
     ctx.fillStyle = color;
     ctx.beginPath();
     ctx.arc(scales.x(nearest[0]), scales.y(nearest[1]), 6, 0, 2 * Math.PI);
     ctx.fill();
+    return `${toldOf(this.axes.x, nearest[0])} · ${toldOf(this.axes.y, nearest[1])}`;
   }
-
-  /**
-   * @param {string[]} names of bodies
-   * @returns {string} a table of all quantities (CSV), the bodies one below the other
-   */
-  #tableOf(names) {
-    const {world, records} = this.parts, columns = Object.values(QUANTITIES);
-    const rows = names.flatMap((name) => {
-      const body = world.body(name);
-      return body ? records.samples(name).map((sample) => [...columns.map(({of}) => cellOf(of(sample, body, world.scene.gravity))), name]) : [];
-    });
-    return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
-  }
-
-  /** @param {string[]} names of bodies */
-  saveTable(names) {
-    download(`${names[0].replaceAll('/', '-')}.csv`, new Blob([this.#tableOf(names)], {type: 'text/csv'}));
-  }
-
-  async #copyTable() {
-    try {
-      await navigator.clipboard.writeText(this.#tableOf(this.names));
-      this.parts.notes.showMessage(t('Table copied'));
-    } catch {
-      // Browsers give the clipboard to pages of this machine or with TLS only.
-      this.saveTable(this.names);
-    }
-  }
-}
-
-/**
- * @param {number[][]} points over time
- * @param {number[][]} others
- * @returns {number[][]} points of their difference, at the times that both have
- */
-function differenceOf(points, others) {
-  const before = new Map(others.map(([time, value]) => [time.toFixed(4), value]));
-  return points.flatMap(([time, value]) => {
-    const other = before.get(time.toFixed(4));
-    return other === undefined ? [] : [[time, value - other]];
-  });
-}
-
-/**
- * @param {(value: number) => number} scale
- * @param {number} pixel
- * @returns {number} value that is there
- */
-function valueAt(scale, pixel) {
-  return (pixel - scale(0)) / (scale(1) - scale(0));
-}
-
-/**
- * @param {string} key of the quantity upwards
- * @param {number[][]} points that are known
- * @param {number[]} extent of the world
- * @returns {number[][]} corners of the part of the plot in which a curve can be drawn
- */
-function roomFor(key, points, [left, low, right, high]) {
-  const [least, most] = key === 'x' ? [left, right] : key === 'y' ? [low, high] : [Math.min(0, ...points.map(([, y]) => y)), Math.max(PREDICTED, ...points.map(([, y]) => y))];
-  return [[0, least], [Math.max(LONG, ...points.map(([x]) => x)), most]];
-}
-
-/**
- * @param {number[][]} predicted from left to right
- * @param {number[][]} real
- * @returns {number} mean distance of the curves upwards, where both are; NaN where that is nowhere
- */
-function apart(predicted, real) {
-  const distances = real.flatMap(([x, y]) => {
-    const after = predicted.findIndex((point) => point[0] >= x);
-    if (after < 1) return [];
-    const [[px, py], [qx, qy]] = predicted.slice(after - 1);
-    return [Math.abs(y - py - (qy - py) * (x - px) / (qx - px))];
-  });
-  return distances.reduce((sum, each) => sum + each, 0) / distances.length;
-}
-
-/**
- * @param {Curve[]} curves over time
- * @returns {number[][]} points of their sum, at the times that all of them have
- */
-function sumOf(curves) {
-  /** @type {Map<number, number[]>} */
-  const byTime = new Map();
-  for (const {points} of curves) for (const [time, value] of points) byTime.set(time, [...byTime.get(time) ?? [], value]);
-  return [...byTime].filter(([, values]) => values.length === curves.length).sort(([a], [b]) => a - b)
-    .map(([time, values]) => [time, values.reduce((sum, value) => sum + value, 0)]);
-}
-
-/**
- * @param {Curve[]} curves
- * @returns {number[]} least and greatest x
- */
-function rangeOf(curves) {
-  const [least, most] = spanOf(curves, 0);
-  if (least > most) return [0, 1];
-  return most - least > 1e-6 ? [least, most] : [least - 0.5, most + 0.5];
-}
-
-/** @param {number} value as spreadsheets read it, whose minus is a hyphen */
-function cellOf(value) {
-  return Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
 }

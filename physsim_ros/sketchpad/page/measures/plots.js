@@ -5,6 +5,7 @@ import {createElement, inRow, soon, textButton} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
 import {QUANTITIES} from './quantities.js';
 import {t} from '../strings.js';
+import {watchTheme} from '../view/theme.js';
 
 /** @import {Parts, Sample} from '../types.js' */
 
@@ -27,6 +28,7 @@ export class Plots {
     const drawSoon = soon(() => this.#draw(), EVERY);
     parts.connection.on('frame', drawSoon);
     parts.connection.on('body', drawSoon);
+    watchTheme(() => this.#draw());
   }
 
   #draw() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The large plot, whose script is loaded when somebody asks for it, and tables. */
+/** The large plot and tables, whose scripts are loaded when somebody asks for them. */
 
 /** @import {PlotParts, PlotWindow} from './plot_window.js' */
 
@@ -13,12 +13,15 @@ export class Plotting {
 
   /** @param {string[]} names of bodies */
   open(names) {
-    this.#with((plot) => plot.open(names));
+    this.parts.notes.load(import('./plot_window.js'), ({PlotWindow: Plot}) => {
+      this.window ??= new Plot(this.parts);
+      this.window.open(names);
+    });
   }
 
   /** @param {string[]} names of bodies */
   saveTable(names) {
-    this.#with((plot) => plot.saveTable(names));
+    this.parts.notes.load(import('./table.js'), ({saveTable}) => saveTable(this.parts, names));
   }
 
   /** @returns {boolean} whether the plot was open, which is closed */
@@ -26,10 +29,5 @@ export class Plotting {
     const wasOpen = this.window?.isOpen ?? false;
     if (wasOpen) this.window?.close();
     return wasOpen;
-  }
-
-  /** @param {(plot: PlotWindow) => void} work */
-  #with(work) {
-    this.parts.notes.load(import('./plot_window.js'), ({PlotWindow: Plot}) => work(this.window ??= new Plot(this.parts)));
   }
 }

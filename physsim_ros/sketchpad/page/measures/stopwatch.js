@@ -4,7 +4,7 @@
  * touches, also those before a gate was chosen; and a stopwatch by hand, in the time of the world, with laps.
  */
 
-import {choice, createElement, inRow, showText, textButton} from '../dom.js';
+import {choiceField, createElement, inRow, showText, textButton} from '../dom.js';
 import {fixed} from '../rounding.js';
 import {t} from '../strings.js';
 
@@ -78,10 +78,10 @@ export class Stopwatch {
    * @param {string} none
    */
   #chooser(role, label, none) {
-    return createElement('label', {}, label, choice(label, this.parts.words.choices(none), this[role], (name) => {
+    return choiceField(label, this.parts.words.choices(none), this[role], (name) => {
       this[role] = name;
       this.#follow();
-    }));
+    });
   }
 
   #follow() {

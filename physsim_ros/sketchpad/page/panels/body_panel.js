@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a body: its numbers, its material, its forces, its trail and its plots. */
 
-import {checkField, choice, createElement, inRow, numberField, textButton, textField, textOf} from '../dom.js';
+import {checkField, choiceField, createElement, inRow, labelled, numberField, textButton, textField, textOf} from '../dom.js';
 import {actorLines, drawWay} from './driving.js';
 import {mediumFields} from './field_fields.js';
 import {forceFields} from './force_fields.js';
@@ -42,13 +42,12 @@ export function bodyContent(parts, [name], render) {
     rest: [
       parts.numbers.turning, parts.numbers.typed,
       ...material,
-      createElement('label', {}, t('Label'), label),
+      labelled(t('Label'), label),
       // A robot is neither.
       ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})),
         checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
-      createElement('label', {}, t('Belt [m/s]'), numberField(body.belt ?? 0, (belt) => change({belt: belt ?? 0}))),
-      createElement('label', {}, t('Rolling resistance'), numberField(body.rolling_resistance ?? 0,
-        (share) => change({rolling_resistance: share ?? 0}))),
+      labelled(t('Belt [m/s]'), numberField(body.belt ?? 0, (belt) => change({belt: belt ?? 0}))),
+      labelled(t('Rolling resistance'), numberField(body.rolling_resistance ?? 0, (share) => change({rolling_resistance: share ?? 0}))),
       ...body.robot ? [] : oneWayFields(body, change),
       jointRow(parts, name),
       ...forceFields(parts, body, change),
@@ -75,10 +74,9 @@ export function bodyContent(parts, [name], render) {
 function oneWayFields({one_way: way, closed_sides: closed}, change) {
   /** @type {[string, string][]} */
   const ways = [['0,0', t('no')], ['0,1', t('upwards')], ['0,-1', t('downwards')], ['-1,0', t('to the left')], ['1,0', t('to the right')]];
-  const now = String(way ?? [0, 0]), label = t('Lets others pass');
+  const now = String(way ?? [0, 0]);
   if (!ways.some(([each]) => each === now)) ways.push([now, now]);
-  const field = choice(label, ways, now, (chosen) => change({one_way: chosen.split(',').map(Number)}));
-  return [createElement('label', {}, label, field),
+  return [choiceField(t('Lets others pass'), ways, now, (chosen) => change({one_way: chosen.split(',').map(Number)})),
     ...way ? [checkField(t('Its sides are closed'), Boolean(closed), (closed_sides) => change({closed_sides}))] : []];
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The fields of the constant forces on a body, in its panel. */
 
-import {checkField, createElement, inRow, numberField, textButton} from '../dom.js';
+import {checkField, createElement, inRow, labelled, numberField, textButton} from '../dom.js';
 import {numberOf} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, polar, rotated} from '../vectors.js';
@@ -34,8 +34,7 @@ export function forceFields({world}, {name, forces = []}, change) {
       replaced({axes: isOn ? 'body' : 'world', force: rotated(force, isOn ? -yaw : yaw)});
     });
     return createElement('fieldset', {className: 'force'}, createElement('legend', {}, t('Constant force {number}', {number: i + 1})),
-      createElement('label', {}, t('Force [N]'), size), createElement('label', {}, t('Direction [°]'), angle),
-      turns,
+      labelled(t('Force [N]'), size), labelled(t('Direction [°]'), angle), turns,
       inRow(textButton(t('Remove'), () => send(now().filter((_, j) => j !== i)), 'danger')));
   });
   return [...rows, inRow(textButton(t('Add a constant force'), () => send([...now(), {force: [FIRST, 0]}])))];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a joint that was tapped: its constants, its force now, and deletion. */
 
-import {choice, createElement, inRow, numberField, range, showText, textButton} from '../dom.js';
+import {choiceField, createElement, inRow, labelled, numberField, range, showText, textButton} from '../dom.js';
 import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
@@ -54,7 +54,7 @@ export function jointContent({world, connection, selection, meters, words}, [nam
     ...joint.kind === 'axle' ? [ratchetField(joint, (ratchet) => change({ratchet}))] : [],
     ...joint.kind === 'gear' ? [carrierField(joint, world, words, (carrier) => change({carrier}))] : [],
     ...limits.map(([key, label]) =>
-      createElement('label', {}, label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
+      labelled(label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
     meters.jointField(name),
     inRow(textButton(t('Delete joint'), () => selection.deleteSelected(), 'danger')),
   ], live: (view) => {
@@ -73,8 +73,8 @@ export function jointContent({world, connection, selection, meters, words}, [nam
  */
 function ratchetField(axle, change) {
   /** @type {[string, string][]} */
-  const ways = [['', t('both ways')], ['1', t('counter-clockwise')], ['-1', t('clockwise')]], label = t('Turns');
-  return createElement('label', {}, label, choice(label, ways, String(axle.ratchet ?? ''), (way) => change(Number(way) || null)));
+  const ways = [['', t('both ways')], ['1', t('counter-clockwise')], ['-1', t('clockwise')]];
+  return choiceField(t('Turns'), ways, String(axle.ratchet ?? ''), (way) => change(Number(way) || null));
 }
 
 /**
@@ -85,9 +85,9 @@ function ratchetField(axle, change) {
  * @returns {HTMLElement} a choice of the body about which the angles of a gear are measured
  */
 function carrierField(gear, world, words, change) {
-  const wheels = [gear.a, gear.b].map((row) => world.scene.bodies[row]?.name), label = t('About the arm');
+  const wheels = [gear.a, gear.b].map((row) => world.scene.bodies[row]?.name);
   const bodies = words.choices(t('none')).filter(([name]) => !wheels.includes(name));
-  return createElement('label', {}, label, choice(label, bodies, gear.carrier ?? '', (name) => change(name || null)));
+  return choiceField(t('About the arm'), bodies, gear.carrier ?? '', (name) => change(name || null));
 }
 
 /**

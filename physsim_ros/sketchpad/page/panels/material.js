@@ -7,15 +7,23 @@ export class Material {
   /** @param {Parts<'connection' | 'people'>} parts */
   constructor({connection, people}) {
     this.connection = connection;
-    /** @type {Record<string, any>} properties that this page has chosen; others are the world's */
-    this.chosen = {};
+    /** @type {Record<string, any>} properties that the server knows of */
+    this.known = {};
+    /** @type {Record<string, any>[]} changes that are not answered */
+    this.asked = [];
     /** @type {?string | number[]} where this page chose none */
     this.worldColor = null;
     connection.on('welcome', ({settings = {}}) => {
       this.worldColor = settings.draw_color ?? null;
-      // The server knows this page as a new one, without a material.
-      if (Object.keys(this.chosen).length && !people.viewOnly) connection.send('draw_with', this.chosen);
+      // The server knows this page as a new one, without a material, and answers nothing of before.
+      [this.known, this.asked] = [this.chosen, []];
+      if (Object.keys(this.known).length && !people.viewOnly) connection.send('draw_with', this.known);
     });
+  }
+
+  /** @returns {Record<string, any>} properties that this page has chosen; others are the world's */
+  get chosen() {
+    return Object.assign({}, this.known, ...this.asked);
   }
 
   /** @returns {?string | number[]} */
@@ -25,8 +33,9 @@ export class Material {
 
   /** @param {Record<string, any>} properties */
   async change(properties) {
-    const before = this.chosen;
-    this.chosen = {...before, ...properties};
-    if (!(await this.connection.ask('draw_with', properties)).ok) this.chosen = before;
+    this.asked.push(properties);
+    const {ok} = await this.connection.ask('draw_with', properties);
+    this.asked.splice(this.asked.indexOf(properties), 1);
+    if (ok) Object.assign(this.known, properties);
   }
 }

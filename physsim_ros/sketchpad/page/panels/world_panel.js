@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What the panel shows of the world: the material of the next drawings, gravity, air, sound; and the fields of a material. */
 
-import {checkField, createElement, inRow, range, textButton} from '../dom.js';
+import {checkField, createElement, inRow, labelled, range, textButton} from '../dom.js';
 import {airFields} from './field_fields.js';
 import {t} from '../strings.js';
-import {DEGREE} from '../vectors.js';
 
 /** @import {Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
@@ -23,31 +22,15 @@ const MATERIALS = {
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
 const RANGES = [['density', t('Density [kg/m²]'), 0.1, 10, 0.1], ['friction', t('Friction'), 0, 2, 0.05],
   ['elasticity', t('Bounciness'), 0, 1, 0.05]];
-/** Gravity at the surface [m/s²]. */
-const PLACES = {[t('Earth')]: 9.81, [t('Moon')]: 1.62, [t('Mars')]: 3.71, [t('None')]: 0};
-const STEP = 15; // degrees of the slider
-let turn = 0; // of gravity from down, counter-clockwise [°]: as it was, while there is none
 
 /**
- * @param {Parts<'connection' | 'material' | 'sound' | 'world'>} parts
+ * @param {Parts<'connection' | 'gravity' | 'material' | 'sound' | 'world'>} parts
  * @param {string[]} _names
  * @param {() => void} render the panel again
  * @returns {Content}
  */
 export function worldContent(parts, _names, render) {
-  const {scene} = parts.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
-  // As it was set last: the panel is not renewed while somebody works in it.
-  let size = strength;
-  if (strength) turn = Math.round(Math.atan2(gx, -gy) / DEGREE * 1e4) / 1e4;
-  const pull = () => {
-    // The sine of a half turn is not exactly 0: nine digits are.
-    parts.connection.send('gravity', {gravity: [Math.sin(turn * DEGREE) * size, -Math.cos(turn * DEGREE) * size].map((each) => Number(each.toFixed(9)))});
-  };
-  const setSize = (/** @type {number} */ value) => {
-    size = value;
-    pull();
-  };
-  const {material} = parts, {color: chosen} = material, color = chosen || [0.3, 0.47, 0.66];
+  const {material, world: {scene}} = parts, {color: chosen} = material, color = chosen || [0.3, 0.47, 0.66];
   const any = checkField(t('Each body another colour'), !chosen, (checked) => material.change({color: checked ? '' : hexOf(color)}));
   return {title: t('Material of new bodies'), rest: [
     ...materialFields({...scene, ...material.chosen, color}, (properties) => {
@@ -57,13 +40,7 @@ export function worldContent(parts, _names, render) {
       if (properties.density && properties.friction) render();
     }),
     any,
-    createElement('h3', {}, t('Gravity')),
-    range(t('Gravity [m/s²]'), 0, 25, 0.01, strength, setSize),
-    presetButtons(PLACES, setSize),
-    range(t('Direction of gravity [° from down]'), -180, 180, STEP, turn, (degrees) => {
-      turn = degrees;
-      pull();
-    }),
+    ...parts.gravity.fields(),
     ...airFields(parts),
     checkField(t('Sound of impacts'), parts.sound.on, () => parts.sound.toggle())]};
 }
@@ -73,7 +50,7 @@ export function worldContent(parts, _names, render) {
  * @param {Record<string, T>} presets by name
  * @param {(preset: T) => void} change
  */
-function presetButtons(presets, change) {
+export function presetButtons(presets, change) {
   const row = inRow(...Object.entries(presets).map(([name, preset]) => textButton(name, () => change(preset))));
   row.classList.add('presets');
   return row;
@@ -90,7 +67,7 @@ export function materialFields(values, change) {
     presetButtons(MATERIALS, change),
     ...RANGES.map(([key, label, least, most, step]) => range(label, least, most, step, values[key],
       (value) => change({[key]: value}))),
-    createElement('label', {}, t('Colour'), color)];
+    labelled(t('Colour'), color)];
 }
 
 /**

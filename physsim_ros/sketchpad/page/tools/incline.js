@@ -4,7 +4,7 @@
  * panel of any body of that form has its angle and length.
  */
 
-import {createElement, numberField} from '../dom.js';
+import {labelled, numberField} from '../dom.js';
 import {Gesture} from './gesture.js';
 import {digits} from '../rounding.js';
 import {t} from '../strings.js';
@@ -92,7 +92,7 @@ export function inclineFields(parts, {name, shape}, render) {
   };
   const shown = now();
   if (!shown) return [];
-  const field = (/** @type {string} */ label, /** @type {'angle' | 'length'} */ key) => createElement('label', {}, label, numberField(shown[key], (value) => {
+  const field = (/** @type {string} */ label, /** @type {'angle' | 'length'} */ key) => labelled(label, numberField(shown[key], (value) => {
     const incline = {...now() ?? shown, [key]: value ?? 0}, {angle, length} = incline;
     if (angle > 0 && angle < 90 && length > 0) parts.connection.send('spawn', {body: {name, ...shapeOf(incline)}});
     else {

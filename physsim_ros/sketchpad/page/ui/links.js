@@ -23,7 +23,6 @@ export class Links {
     this.wanted = null;
     // The list of lessons has come.
     parts.connection.on('worlds', () => this.#offerPlace());
-    addEventListener('hashchange', () => this.#offerPlace());
     parts.connection.on('frame', () => this.#stopAt());
   }
 

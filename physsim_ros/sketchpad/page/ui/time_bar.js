@@ -18,6 +18,7 @@ export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'
 /** States of the timeline, as the server has them. */
 const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
+const BESIDE = 24; // px: least distance of rings
 const WATCHED = 1500; // ms over which the pace is measured
 const EXPLAINED = 3000; // ms for which the world is slow before that is explained
 const SLOW = 0.9; // share of the speed asked for below which the pace is told
@@ -195,12 +196,16 @@ export class TimeBar {
     this.clock.classList.toggle('past', state === 'in the past');
     this.clock.title = STATES.get(state) ?? state;
     const before = this.rings;
-    this.rings = new Map(courses.map(({id, from}) => {
+    let place = '';
+    this.rings = new Map([...courses].sort((one, other) => one.from - other.from).map(({id, from}) => {
       const name = t('Go back to how it went before, from {time}\u00a0s', {time: fixed(from, 1)}), key = `${id} ${name}`;
       // While time runs it is the same element: one that was made anew could not be pressed.
       const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
         onclick: () => this.parts.connection.send('course', {course: id})}));
-      ring.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
+      const at = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
+      // No ring covers another, where courses part at one moment.
+      place = place ? `max(${at}, ${place} + ${BESIDE}px)` : at;
+      ring.style.left = place;
       return [key, ring];
     }));
     for (const [key, ring] of before) if (!this.rings.has(key)) ring.remove();

@@ -1,102 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Arrows of velocities, momenta and forces, round ones of angular momenta and torques, with their numbers, and
- * their legend: the scales, which fit the view, and a switch for each kind of force.
+ * Arrows of velocities, momenta and forces, round ones of angular momenta and torques, with their numbers, to the
+ * scales of the legend.
  *
  * Of selected bodies all forces are shown, and of those that touch them or that a joint connects with them. Where
  * none is selected, those of all bodies, as long as they are few, and of a force between two that move the one
  * that bears.
  */
 
-import {createElement, elementOf, foldButton, replaceContent, showText, textButton, toggling} from '../dom.js';
+import {ArrowScale, BAR} from './arrow_scale.js';
+import {elementOf} from '../dom.js';
 import {appliedTo, bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
-import {digits, roundUp, threeDigits} from '../rounding.js';
+import {Legend} from './legend.js';
+import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 
 /** @import {Force, Palette, Parts, Point, SceneView} from '../types.js' */
 
-const BAR = 60; // px: of the bar that a scale is told by
 const ROOM = 0.3; // share of the view that the longest arrow may take
-const SHORT = 0.12; // share of that room below which the scale becomes finer
-const SETTLED = 400; // ms for which an arrow is too long or too short before the scale follows
 const CUT = 1.3; // times the room: longer arrows, of impacts, are cut
 const LEAST = 4; // px: of an arrow
 const LENGTH = 34; // px: of the arrow of a constant force, where forces are not shown to scale
 const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
-const CORNERS = ['top-right', 'top-left', 'bottom-right', 'bottom-left']; // of the room, for the legend
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
 const ROUND = 30, INNER = 22, ARC = 130; // px: radius of the arrow of a torque, of an angular momentum, and the longest one
 const NO_TURN = 1e-3; // N m, N m s: below that, rounding of what does not turn
-/** Kinds of forces, in the order of the legend, and what they are called, but for those of fields. @type {Record<string, string>} */
-const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'),
-  applied: t('applied force'), air: '', sum: t('sum'), torque: t('torque')};
 
 /**
  * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,
  *   named?: boolean}} Arrow from [px]; x, y in units, y up; text: its number; unit: of its components, where they are shown
  */
 
-/** How many units are a bar's length: 1, 2 or 5 times a power of ten. */
-class ArrowScale {
-  constructor() {
-    this.unit = 0;
-    this.since = 0; // [ms] since when it does not fit
-  }
-
-  /**
-   * @param {number} most that is shown [unit]
-   * @param {number} room for it [px]
-   * @param {boolean} atOnce whether nothing moves
-   */
-  fit(most, room, atOnce) {
-    const length = this.length(most), now = performance.now();
-    if (length <= room && length >= SHORT * room || !(most > 0) && this.unit) {
-      this.since = 0;
-      return;
-    }
-    this.since ||= now;
-    if (this.unit && !atOnce && now - this.since < SETTLED) return;
-    this.since = 0;
-    this.unit = roundUp((most || 1) * BAR / room);
-  }
-
-  /** @param {number} value */
-  length(value) {
-    return value * BAR / this.unit;
-  }
-}
-
 export class Arrows {
   /** @param {Parts<'camera' | 'connection' | 'frames' | 'people' | 'records' | 'selection' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.velocities = this.forces = false; // whether they are shown
-    this.momenta = this.components = false;
-    /** @type {Set<string>} kinds of forces that are not shown */
-    this.off = new Set();
-    /** @type {Set<string>} kinds of forces that have occurred in this world */
-    this.kinds = new Set();
+    this.legend = new Legend(parts);
     /** By their units. */
     this.scales = {'m/s': new ArrowScale(), 'N s': new ArrowScale(), 'N m s': new ArrowScale(), N: new ArrowScale(), 'N m': new ArrowScale()};
     this.frozen = false; // the scale of velocities, while one is dragged
     /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
     this.drawn = []; // forces, as they are drawn
-    this.legend = elementOf('legend');
-    this.legend.dataset.corner = CORNERS[0];
-    /** The scales in the legend, by their unit. @type {Record<string, HTMLElement>} */
-    this.bars = {};
-    this.hint = createElement('span');
-    this.unfolded = false; // on a small page, where the scales alone are shown until somebody asks
-    this.more = foldButton(t('Kinds of forces'), () => {
-      this.unfolded = !this.unfolded;
-      this.showLegend();
-    }, '');
     parts.view.overlays.push((view) => this.#draw(view));
-    parts.connection.on('world', () => {
-      this.kinds.clear();
-      this.showLegend();
-    });
   }
 
   /**
@@ -105,52 +52,9 @@ export class Arrows {
    */
   toggle(what) {
     this[what] = !this[what];
-    this.showLegend();
-    this.parts.frames.want(this, {velocities: this.velocities || this.forces, contacts: this.forces});
-  }
-
-  /**
-   * @param {string} kind
-   * @returns {string} what it is called; of fields, by those that this world has
-   */
-  #nameOf(kind) {
-    const {bodies, damping, air_density: air, air_viscosity: viscosity, gravitation, coulomb} = this.parts.world.scene;
-    const fields = [[t('air'), damping || air || viscosity], [t('water'), bodies.some(({medium}) => medium)], [t('attraction'), gravitation || coulomb]];
-    return NAMES[kind] || fields.filter(([, occurs]) => occurs).map(([name]) => name).join(', ');
-  }
-
-  /** Show the legend of what is shown and occurs, with its switches. */
-  showLegend() {
-    const bar = (/** @type {string} */ unit, /** @type {string} */ kind) => {
-      this.bars[unit] = createElement('output');
-      return createElement('span', {className: `scale ${kind}`}, this.bars[unit]);
-    };
-    const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) =>
-      toggling(textButton(name, () => {}, kind), isOn, change);
-    const {legend, off} = this;
-    legend.hidden = !this.velocities && !this.forces;
-    this.more.setAttribute('aria-expanded', String(legend.classList.toggle('unfolded', this.unfolded)));
-    replaceContent(legend,
-      ...this.velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
-        this.momenta = !this.momenta;
-        this.showLegend();
-      }), ...this.momenta ? [bar('N s', 'momentum'), bar('N m s', 'momentum')] : []] : [],
-      ...this.forces ? [bar('N', ''), ...this.kinds.has('torque') ? [bar('N m', '')] : [], ...Object.keys(NAMES).filter((kind) => this.kinds.has(kind)).map((kind) =>
-        part(this.#nameOf(kind), kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
-      part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint, this.more);
-  }
-
-  /** Put the legend into a corner of the room in which no body lies that moves. */
-  #placeLegend() {
-    const {legend, parts: {world, camera}} = this, {offsetWidth: width, offsetHeight: height} = legend;
-    const {left, top, right, bottom} = elementOf('room').getBoundingClientRect();
-    const isFree = (/** @type {string} */ corner) => {
-      const x = corner.includes('left') ? left : right - width, y = corner.includes('top') ? top : bottom - height;
-      const [xmin, ymax] = camera.toWorld(x, y), [xmax, ymin] = camera.toWorld(x + width, y + height);
-      return world.isFree([xmin, ymin, xmax, ymax]);
-    };
-    const now = legend.dataset.corner ?? '';
-    legend.dataset.corner = [now, ...CORNERS].find(isFree) ?? now;
+    const {velocities, forces} = this;
+    this.legend.show({velocities, forces});
+    this.parts.frames.want(this, {velocities: velocities || forces, contacts: forces});
   }
 
   /** @param {SceneView} view */
@@ -161,17 +65,15 @@ export class Arrows {
     this.drawn = [];
     this.#fitSpeeds(room);
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
-    if (!this.legend.hidden && world.paused) this.#placeLegend();
-    for (const each of [this.legend, elementOf('panel')]) {
+    this.legend.place();
+    for (const each of [this.legend.element, elementOf('panel')]) {
       const {left, top, right, bottom} = each.getBoundingClientRect();
       view.covered.push([left, top, right, bottom]);
     }
-    this.hint.textContent = '';
+    let hint = '';
     if (!this.forces) drawApplied(this.parts, view);
-    else if (world.count) this.#drawForces(view, room);
-    for (const [unit, scale] of Object.entries(this.scales)) {
-      if (this.bars[unit]) showText(this.bars[unit], `${digits(scale.unit, 2)} ${unit}`);
-    }
+    else if (world.count) hint = this.#drawForces(view, room);
+    this.legend.tell(this.scales, hint);
   }
 
   /** @param {number} room [px] */
@@ -202,7 +104,7 @@ export class Arrows {
       const {anchored, name, centroid, mass, moment} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
       if (anchored) continue;
       const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
-      if (this.momenta) {
+      if (this.legend.momenta) {
         this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.scales['N s'], color: momentum,
           text: `${threeDigits(mass * speed)} N s`, width: WIDE});
         this.#roundArrow(view, from, moment * velocities.spin[row], {unit: 'N m s', radius: INNER, color: momentum});
@@ -210,25 +112,24 @@ export class Arrows {
       const velocity = {from, x, y, scale: this.scales['m/s'], color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
       // The arrow of the selected body can be dragged (input/handles.js).
       if (name !== selection.name) this.#arrow(view, room, velocity);
-      else if (this.components) this.#components(view, room, velocity);
+      else if (this.legend.components) this.#components(view, room, velocity);
     }
   }
 
   /**
    * @param {SceneView} view
    * @param {number} room [px]
+   * @returns {string} a hint where more can be shown
    */
   #drawForces(view, room) {
     const {world, camera, selection, people: {viewOnly}} = this.parts, all = forcesOf(world), {bodies} = world.scene;
     const selected = new Set([...selection.names].map((name) => world.row(name)));
-    const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all), known = this.kinds.size;
-    for (const {kind} of [...all, ...sums]) this.kinds.add(kind);
+    const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all);
+    this.legend.note([...all, ...sums].map(({kind}) => kind));
     this.#drawTorque(view);
-    if (this.kinds.size > known) this.showLegend();
     const some = all.some(isSelected), beside = some ? neighboursOf([...world.touches, ...world.scene.joints], selected) : selected;
     const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
-    if (!some && !few) this.hint.textContent = t('Tap a body: its forces, and those of what touches it.');
-    const forces = [...all, ...sums].filter((force) => !this.off.has(force.kind) && (some ? isSelected(force) || beside.has(force.row) : few));
+    const forces = [...all, ...sums].filter((force) => !this.legend.off.has(force.kind) && (some ? isSelected(force) || beside.has(force.row) : few));
     const shown = some ? forces : bearing(forces, world.scene.gravity);
     const below = camera.height - view.insets.bottom;
     // The tip of a weight on the floor lies above the bar of time.
@@ -236,13 +137,14 @@ export class Arrows {
       Math.max(Math.hypot(x, y), -y * room / Math.max(below - camera.toPage(...at)[1], BAR / 2))), 0), room, world.paused);
     for (const force of shown) {
       const {kind, row, at, x, y} = force, named = some && isSelected(force), color = colorOf(kind, view.palette);
-      const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${this.#nameOf(kind)} ${size}` : size;
+      const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${this.legend.nameOf(kind)} ${size}` : size;
       const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
       const to = this.#arrow(view, room, {from, x, y, scale: this.scales.N, color, text, width, unit: named || !some ? 'N' : '', named});
       // A number is told, whether or not its arrow is long enough to be drawn.
       if (!to && named) view.number({text, color, tip: kind === 'sum' ? [from[0], from[1] - BAR / 2] : from, along: [0, -1], named});
       this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
     }
+    return some || few ? '' : t('Tap a body: its forces, and those of what touches it.');
   }
 
   /**
@@ -254,11 +156,11 @@ export class Arrows {
     const sample = records.samples(name).findLast((each) => each.time <= time + 1e-9);
     if (row < 0 || sample?.spinning === undefined || time - sample.time > 2 / world.rate) return;
     const {centroid, moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
-    if (anchored || this.off.has('torque') || !(Math.abs(torque) > NO_TURN)) return;
-    this.kinds.add('torque');
+    if (anchored || this.legend.off.has('torque') || !(Math.abs(torque) > NO_TURN)) return;
+    this.legend.note(['torque']);
     this.scales['N m'].fit(Math.abs(torque), ARC, world.paused);
     this.#roundArrow(view, camera.toPage(...world.place(row, centroid)), torque,
-      {unit: 'N m', radius: ROUND, color: view.palette.ink, name: NAMES.torque});
+      {unit: 'N m', radius: ROUND, color: view.palette.ink, name: this.legend.nameOf('torque')});
   }
 
   /**
@@ -287,7 +189,7 @@ export class Arrows {
     const length = Math.min(whole, most), ux = x / size, uy = -y / size;
     /** @type {Point} */
     const tip = [from[0] + ux * length, from[1] + uy * length];
-    if (unit && this.components && whole <= most) this.#components(view, room, arrow);
+    if (unit && this.legend.components && whole <= most) this.#components(view, room, arrow);
     view.arrow(from, tip, color, {width, cut: whole > most});
     view.number({text, color, from, tip, along: [ux, uy], named});
     return tip;

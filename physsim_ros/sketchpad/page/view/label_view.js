@@ -192,14 +192,15 @@ export function drawGrid({ctx, camera, palette}) {
 
 /** @param {SceneView} view at whose insets the rulers lie, on top of bodies; a bar covers no number */
 export function drawRulers(view) {
-  const {camera, palette, insets} = view, step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
+  const {camera, palette, insets} = view, step = camera.gridStep, [size, unit] = step < 1000 ? [1, 'm'] : [1000, 'km'];
+  const digits = Math.max(0, -Math.floor(Math.log10(step)));
   const [left, top] = camera.toWorld(insets.left, insets.top), [right, bottom] = camera.toWorld(camera.width - insets.right, camera.height - insets.bottom);
-  const textOf = (/** @type {number} */ value) => `${fixed(value, digits)} m`;
+  const textOf = (/** @type {number} */ value) => `${fixed(value / size, digits)} ${unit}`;
   const write = (/** @type {number} */ value, /** @type {Point} */ at, /** @type {CanvasTextAlign} */ align) =>
     view.write(textOf(value), at, palette.faint, align, SMALLEST);
   const low = camera.height - insets.bottom;
   // Far out numbers are long: only some lines have room for one.
-  const wide = SMALLEST * (1 + DIGIT * Math.max(textOf(left).length, textOf(right).length));
+  const wide = SMALLEST * (2 + DIGIT * Math.max(textOf(left).length, textOf(right).length));
   for (const value of multiplesOf(step * Math.ceil(wide / (step * camera.scale)), left, right)) {
     const [x] = camera.toPage(value, 0);
     if (x > insets.left + 40 && x < camera.width - insets.right - 20) write(value, [x, low - 6], 'center');
