@@ -243,7 +243,8 @@ class _Message:
         self._rows = rows[rows >= 0]
         writer.poses = [offset for offset, row in zip(offsets, rows, strict=True) if row >= 0]
         self._template = MessageTemplate(writer)
-        starts = offsets[first_joint : first_joint + 2 * len(scene.joints)]
+        after_joints = first_joint + 2 * len(scene.joints)
+        starts = offsets[first_joint:after_joints]
         self._joints = None if glyphs is None else _JointColumns(glyphs, starts)
         # Offset of the points of hands, in numbers of 8 bytes.
         self._hands_at = (offsets[first_joint - 1] + _POSED.size) // 8 if hands else 0
