@@ -138,8 +138,10 @@ def test_what_stands_is_not_told_again(physsim: PhysSim, client: Client) -> None
 def test_poses_are_told_as_often_at_any_rate_of_frames(start: Callable[..., PhysSim]) -> None:
     physsim = start(publish_rate=120.0)
     physsim.spawn(disc('ball/0', at=(0.0, 50.0)))
-    viewer = Viewer(Client(physsim))
+    client = Client(physsim)
+    viewer = Viewer(client)
     physsim.run(10 * PERIOD)
+    client.spin_until(lambda: len(viewer.updates) >= 10)
     assert len(viewer.updates) == 10
 
 
