@@ -387,13 +387,13 @@ class RequestQueue:
 
     @property
     def has_answers(self) -> bool:
-        """Return whether answers, or reports of the past, wait for the next frame."""
-        return bool(self._answers or self._past.reports)
+        """Return whether answers wait for the next frame."""
+        return bool(self._answers)
 
     def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that wait, then the reports of the past, and drop them."""
+        """Return the answers that wait, and drop them."""
         answers, self._answers = self._answers, []
-        return (*answers, *self._past.take_reports())
+        return tuple(answers)
 
     def report_oldest(self, more: str = '') -> None:
         """Add the event that the moment that is shown is the oldest."""
