@@ -11,7 +11,7 @@ import re
 
 import pytest
 
-from .chromium import circle, OpenSheet, POINTER, Sheet, started_world
+from .chromium import circle, NOTE_TEXTS, OpenSheet, POINTER, Sheet, started_world
 from ..outside import Outside
 
 WITHOUT_GRAVITY = b"""
@@ -20,6 +20,12 @@ gravity: [0, 0]
 bodies:
   - {name: puck/0, circle: {radius: 0.5}, at: [0, 2]}
 """
+# What is written on canvases in the next picture.
+NEXT_TEXTS = """() => new Promise((resolve) => requestAnimationFrame(() => {
+    texts.length = 0;
+    document.dispatchEvent(new Event('pointermove'));
+    requestAnimationFrame(() => requestAnimationFrame(() => resolve(texts)));
+}))"""
 # Enters two texts into fields, the second before the first is answered.
 ENTER_BOTH = """([...given]) => {
     for (let i = 0; i < given.length; i += 2) {
@@ -542,6 +548,25 @@ def test_a_material_that_is_refused_takes_no_other_back(sheet: Sheet) -> None:
     sheet.told('does not lie between')
     sheet.until(lambda: density.input_value() == '1', 'the density before')
     assert friction.input_value() == '0.9'
+
+
+def test_a_body_that_leaves_a_resting_pointer_is_not_named_there(sheet: Sheet) -> None:
+    sheet.page.evaluate(NOTE_TEXTS)
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((2.0, 6.0), (2.5, 6.0))
+    sheet.wait_for_new(before)
+    sheet.page.mouse.move(*sheet.place(2.0, 6.0))
+    sheet.until(lambda: named(sheet), 'a name at the pointer')
+    sheet.press('Play')
+    sheet.page.mouse.move(*sheet.place(2.0, 6.0))
+    sheet.until(lambda: not named(sheet), 'no name at the pointer')
+
+
+def named(sheet: Sheet) -> bool:
+    """Return whether the next picture of the world has the name of a circle."""
+    texts = sheet.page.evaluate(NEXT_TEXTS)
+    return any(text.startswith('Circle ') for text in texts)
 
 
 @pytest.mark.parametrize('text', ['-1', 'abc', ''])
