@@ -5,13 +5,15 @@
 A ball on a drawn track loses what the corners of the track take, and no more.
 
 At a corner of an angle d, a ball without elasticity keeps cos d of its speed. On a track whose
-corners are closer than the ball's way in a step, the steps are the corners.
+corners are closer than the ball's way in a step, the steps are the corners. Law 6: what bounces on
+a smooth straight track keeps its velocity along it.
 """
 
 import math
+import random
 
 import numpy as np
-from physsim_ros.model.shapes import Chain, Disc
+from physsim_ros.model.shapes import Box, Chain, Disc
 import pytest
 
 from .scenes import DT, energy, G, NOWHERE, simulation, spawn, steps
@@ -69,3 +71,24 @@ def test_a_ball_passes_a_loop_that_it_has_the_energy_for(share, passes):
     assert (highest > RADIUS + 0.99 * WAY) == passes
     if passes:
         assert energy(snapshot) > 0.95 * before
+
+
+@pytest.mark.parametrize('elasticity', [0.8, 1.0])
+def test_boxes_that_bounce_on_a_smooth_straight_track_keep_their_velocity(report, elasticity):
+    rng = random.Random(1)
+    sim = simulation(friction=0.0, elasticity=elasticity)
+    points = tuple((0.37 * number - 185.0, 0.0) for number in range(1000))
+    spawn(sim, 'track/0', Chain(points=points, thickness=0.3), anchored=True)
+    speeds, rows = [], []
+    for number in range(60):
+        speeds.append(rng.uniform(-12.0, 12.0))
+        pose = (5.0 * number - 150.0, rng.uniform(0.8, 1.5), rng.uniform(0.0, 6.0))
+        velocity = speeds[-1], -rng.uniform(0.0, 20.0)
+        box = Box(width=0.6, height=rng.choice((0.1, 0.3, 0.6)))
+        rows.append(spawn(sim, f'box/{number}', box, pose, velocity=velocity, group=1))
+
+    changed = max(
+        np.abs(snapshot.twists[rows, 0] - speeds).max() for snapshot in steps(sim, round(1.0 / DT))
+    )
+
+    report.check(6, 'boxes on a smooth track, change along it', changed, 0.0, 1e-9, 'm/s')

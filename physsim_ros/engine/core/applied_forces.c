@@ -30,7 +30,7 @@ static Twist steady_lead(const World *world, const Body *body) {
     // Quotients, as in Python, so that a velocity that is set is reported to the bit.
     Vec change = vec(body->wrench.v.x / engine->m, body->wrench.v.y / engine->m);
     Twist gained = {add(world->space->gravity, change), body->wrench.w / engine->i};
-    return twist_sum(body->state.field, gained, world->dt / 2.0);
+    return twist_plus(body->state.field, gained, world->dt / 2.0);
 }
 
 void find_leads(World *world, bool changed) {
@@ -39,7 +39,7 @@ void find_leads(World *world, bool changed) {
     }
     for (int number = 0; changed && number < active_count(world); number++) {
         Body *body = active_at(world, number);
-        body->state.lead = steady_lead(world, body);
+        body->scratch.lead = steady_lead(world, body);
     }
     const Body *last = NULL;
     for (int number = 0; number < world->force_count; number++) {
@@ -48,11 +48,11 @@ void find_leads(World *world, bool changed) {
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
         assert(last == NULL || last <= body);
-        body->state.lead = body == last ? body->state.lead : steady_lead(world, body);
+        body->scratch.lead = body == last ? body->scratch.lead : steady_lead(world, body);
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
         Twist change = {scaled(wrench.v, engine->m_inv), wrench.w * engine->i_inv};
-        body->state.lead = twist_sum(body->state.lead, change, world->dt / 2.0);
+        body->scratch.lead = twist_plus(body->scratch.lead, change, world->dt / 2.0);
     }
 }
 

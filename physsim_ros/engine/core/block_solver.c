@@ -217,7 +217,7 @@ static void find_impulses(const World *world, Point *points, int count) {
 // adds from the impact on, and less the half-step lead while it flies.
 static Twist at_impact(const World *world, const Body *body, Twist end, bool flies) {
     double share = 2.0 * (body->scratch.since + body->scratch.remaining) / world->dt + (flies ? 1.0 : 0.0);
-    return body->dynamic ? twist_sum(end, body->state.lead, -share) : end;
+    return body->dynamic ? twist_plus(end, body->scratch.lead, -share) : end;
 }
 
 static Twist before_impact(const World *world, const cpBody *body) {

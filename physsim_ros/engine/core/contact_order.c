@@ -19,28 +19,28 @@ static const double telling_friction = 1e-6;
 // Slip that tells the direction of a contact that begins [m/s]: far above rounding.
 static const double telling_slip = 1e-6;
 
-// The slip along a tangent of the second body on the first, or against it the friction of the step before [m/s, N s].
-static double slip_of(const cpArbiter *arbiter, Vec tangent, Vec gravity_step) {
+// The direction in which the second body slips along a tangent on the first: 1 is along it, 0 none. Of a contact that
+// has had friction in the step before, it is against that.
+static int slip_direction(const cpArbiter *arbiter, Vec tangent, Vec gravity_step) {
     const cpContact *one = arbiter->contacts, *other = one + 1;
     double friction = one->jtAcc + other->jtAcc;
     if (fabs(friction) > telling_friction * (one->jnAcc + other->jnAcc)) {
-        return -friction;
+        return friction < 0.0 ? 1 : -1;
     }
     const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
     Vec at_a = velocity_at(twist_of(a), scaled(add(one->r1, other->r1), 0.5));
     Vec at_b = velocity_at(twist_of(b), scaled(add(one->r2, other->r2), 0.5));
     Vec fall = scaled(gravity_step, (b->m_inv > 0.0 ? 1.0 : 0.0) - (a->m_inv > 0.0 ? 1.0 : 0.0));
     double slip = dot(add(sub(at_b, at_a), add(fall, arbiter->surface_vr)), tangent);
-    return fabs(slip) > telling_slip ? slip : 0.0;
+    return fabs(slip) <= telling_slip ? 0 : slip > 0.0 ? 1 : -1;
 }
 
 // Whether the second point is to be solved first.
 static bool second_leads(const cpArbiter *arbiter, Vec gravity_step) {
-    const cpContact *one = arbiter->contacts, *other = one + 1;
     Vec tangent = perpendicular(arbiter->n);
-    double slip = slip_of(arbiter, tangent, gravity_step);
-    double ahead = arbiter->body_b->m_inv < arbiter->body_a->m_inv ? -slip : slip;
-    return ahead * dot(sub(other->r1, one->r1), tangent) > 0.0;
+    int direction = slip_direction(arbiter, tangent, gravity_step);
+    int ahead = arbiter->body_b->m_inv < arbiter->body_a->m_inv ? -direction : direction;
+    return ahead * dot(sub(arbiter->contacts[1].r1, arbiter->contacts[0].r1), tangent) > 0.0;
 }
 
 void order_points(World *world) {

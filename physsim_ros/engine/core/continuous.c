@@ -22,7 +22,7 @@ enum { FEW = 8 };
 
 // The displacement of a body in the coming step.
 static Twist displacement_of(const World *world, const Body *body) {
-    return twist_sum((Twist){0}, twist_of(body->engine), world->dt);
+    return twist_plus((Twist){0}, twist_of(body->engine), world->dt);
 }
 
 static bool is_fast(const World *world, const Body *body) {

@@ -67,7 +67,7 @@ static void list_jointed(World *world) {
     own->jointed = allocated((size_t)world->body_count, sizeof(int));
     own->jointed_count = 0;
     for (int place = 0; place < world->body_count; place++) {
-        if (world->bodies[place].jointed && world->bodies[place].dynamic) {
+        if (world->bodies[place].ties.jointed && world->bodies[place].dynamic) {
             own->jointed[own->jointed_count++] = place;
         }
     }
@@ -84,7 +84,7 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
     world->guides = guides;
     world->guide_count = guide_count;
     for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].jointed = false;
+        world->bodies[place].ties.jointed = false;
     }
     int next_part = 0, next_row = 0;
     for (int number = 0; number < joint_count; number++) {
@@ -94,12 +94,12 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
         next_row += joints[number].row_count;
         Body *ends[2] = {world->bodies + joints[number].a, world->bodies + joints[number].b};
         for (int end = 0; end < 2; end++) {
-            ends[end]->jointed = ends[end]->jointed || joints[number].row_count > 0;
+            ends[end]->ties.jointed = ends[end]->ties.jointed || joints[number].row_count > 0;
         }
     }
     assert(next_part == part_count && next_row == row_count);
     for (int number = 0; number < guide_count; number++) {
-        world->bodies[guides[number].body].jointed = true;
+        world->bodies[guides[number].body].ties.jointed = true;
     }
     list_jointed(world);
     prepare_springs(world);

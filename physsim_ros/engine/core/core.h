@@ -31,47 +31,61 @@ typedef struct Motion {
 } Motion;
 
 // What outlives a step of a body, besides pose and velocity, which Chipmunk has. Python hands it on to the next table.
+// A checkpoint has all of it but `released`: what falls by that is in free flight there.
 typedef struct BodyState {
-    uint8_t free;     // in free flight, so that its velocity leads by `lead`
+    uint8_t free;     // in free flight, so that its velocity leads
     uint8_t released; // something that it touched was removed or moved since the last step
     uint8_t thrown;   // its velocity was set since the last step
     uint8_t fresh;    // its lead by fields is to be found as the next step begins
-    Twist lead;       // half a sub-step of gravity and all forces: the lead of its velocity in free flight
-    Twist field;      // the part of fields (`fields.c`) in that lead
+    Twist field;      // its lead by fields (`fields.c`), half of what they change its velocity by in a sub-step
     Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
 } BodyState;
 
-// What stages tell each other of a body; that of a sleeping body stays until it wakes. No checkpoint has it.
+// What its joints make of a body; `core_use_joints` writes it.
+typedef struct BodyTies {
+    uint8_t jointed;   // a joint with rows ends on it
+    uint8_t sprung;    // in an island that a spring holds to something fixed
+    uint8_t motored;   // in one that a motor holds to something fixed
+    uint8_t on_spring; // a spring pulls it, and forces move it
+} BodyTies;
+
+// What stages tell each other of a body within a sub-step, by the file that writes it, in the order of the stages; that
+// of a sleeping body stays until it wakes.
 typedef struct BodyScratch {
-    uint8_t slides;             // on a floor that does not carry it along
-    Pose begin;                 // as the sub-step begins
-    Twist twist;                // as the sub-step begins; from Chipmunk's step on, that with which it began
-    Twist under;                // mean velocity of the floor under it
-    Twist without_contacts;     // velocity after the sub-step without contacts, on a floor
-    double remaining;           // of the sub-step after continuous collision has stopped it [s]
-    Twist carried;              // displacement with what has stopped it, in that time [m, rad]
+    // `applied_forces.c`, also before a step
+    Twist lead; // half a sub-step of gravity and all forces: by it the velocity of a body in free flight leads
+    // `step.c`, as the sub-step begins
+    Pose begin;
+    double idle; // for which it has been at rest; < 0 while it sleeps [s]
+    // `fields.c`, with `media.c`
+    Twist field;     // half of what fields change its velocity by in this sub-step
+    uint8_t afloat;  // the surface of a medium crosses it
+    uint8_t stirred; // fields act on it that change while it rests
+    // `floor.c`
+    Twist under;            // mean velocity of the floor under it
+    Twist without_contacts; // velocity after the sub-step without contacts
+    // `continuous.c`
+    double remaining; // of the sub-step after it has been stopped [s]
+    Twist carried;    // displacement with what has stopped it, in that time [m, rad]
+    // `step.c`, as Chipmunk's step begins
+    Twist twist;
+    uint8_t thrown; // its velocity was set before this sub-step
+    // `rest_of_step.c`
     double since;               // time from its first impact to the end of its motion [s]
+    uint8_t bounces;            // its impact throws it off, so gravity acts on the new velocity
     Twist remaining_move;       // displacement that remains after its impact [m, rad]
     uint8_t has_remaining_move; // that displacement has been found
-    uint8_t bounces;            // its impact throws it off, so gravity acts on the new velocity
-    uint8_t thrown;             // its velocity was set before this sub-step
-    double idle;                // for which it has been at rest as the sub-step begins; < 0 while it sleeps [s]
-    Twist field;                // half of what fields change its velocity by in this sub-step
-    uint8_t afloat;             // the surface of a medium crosses it
-    uint8_t stirred;            // fields act on it that change while it rests
-    uint8_t lost;               // it has left the range of numbers
+    // `step.c`, as the step ends
+    uint8_t lost; // it has left the range of numbers
 } BodyScratch;
 
-// A body as requests define it, with its state; the last one of the table is the background, which has the walls.
+// A body: what requests say of it, which Python writes, and what the core makes of that. The last body of the table is
+// the background, which has the walls.
 typedef struct Body {
     cpBody *engine;
     uint8_t dynamic;       // forces move it
     uint8_t anchored;      // it does not move at all
     uint8_t sensor;        // its contacts have no effect
-    uint8_t jointed;       // a joint with rows ends on it; the core sets it
-    uint8_t sprung;        // in an island that a spring holds to something fixed; the core sets it
-    uint8_t motored;       // in one that a motor holds to something fixed; the core sets it
-    uint8_t on_spring;     // a spring pulls it, and forces move it; the core sets it
     uint8_t towed;         // it rolls on an axle without a motor
     cpVect offset;         // the engine's origin in the body's frame [m]
     double reach;          // greatest distance of a point of it from the centre of mass [m]
@@ -94,6 +108,7 @@ typedef struct Body {
     uint8_t closed_sides;  // others do not pass it across that direction
     cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
     BodyState state;
+    BodyTies ties;
     BodyScratch scratch;
 } Body;
 
@@ -250,7 +265,7 @@ enum {
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
     ROW_ALONG,    // displacement of the first anchor along that axis [m]
-    ROW_ROLL,     // the same, and radius (yaw_a - yaw_b) [m]
+    ROW_ROLL,     // the same, and ratio (yaw_a - yaw_b) [m]
     ROW_PATH      // length of a rope past its guides [m]
 };
 
@@ -279,6 +294,7 @@ typedef struct Row {
     double rate;             // of x where it is driven, of the upper bound elsewhere [m/s, rad/s]
     double least, greatest;  // upper bound that such a rate leads to [m]
     double offset;           // of a path, the length that is added to it [m]
+    double ratio;            // of an angle; of a rack, the radius of its pinion [m]
     double stiffness;        // of a spring [N/m, N m/rad]
     double damping;          // of a spring, with what its stiffness adds to it [N s/m, N m s/rad]
     int32_t first_guide, guide_count;
@@ -334,7 +350,6 @@ typedef struct Joint {
     double anchor_a[2]; // in the frame of the first body, its origin the centre of mass [m]
     double anchor_b[2]; // the same in the frame of the second
     double axis[2];     // unit vector of a slider or a rack in the frame of the second body
-    double ratio;       // of a gear; of a rack, the radius of its pinion [m]
     double most;        // impulse in a step beyond which it breaks [N s, N m s]
     uint8_t has_axis;   // the direction from its first to its second point is an axis of the second body
     uint8_t presses;    // its first part may push the bodies apart

@@ -27,10 +27,10 @@ static double rim_speed(const Robot *robot, Twist velocity) {
 
 // The velocity of the wheels after a step.
 static Twist accelerated(const Robot *robot, Twist aim, double dt) {
-    Twist before = robot->state.wheels, after = aim, change = twist_sum(aim, before, -1.0);
+    Twist before = robot->state.wheels, after = aim, change = twist_plus(aim, before, -1.0);
     double speed = rim_speed(robot, change), most = robot->acceleration * dt;
     if (speed > most) {
-        after = twist_sum(before, change, most / speed);
+        after = twist_plus(before, change, most / speed);
     }
     if (robot->curvature < INFINITY) {
         double sharpest = robot->curvature * fabs(after.v.x);
@@ -58,7 +58,7 @@ void roll_wheels(World *world) {
         if (!is_same(robot->state.wheels, aim) || !is_same(aim, robot->state.aim)) {
             after = accelerated(robot, aim, world->dt);
         }
-        robot->mean = twist_sum(robot->state.wheels, after, 1.0);
+        robot->mean = twist_plus(robot->state.wheels, after, 1.0);
         robot->mean = twist_scaled(robot->mean, 0.5);
         robot->state.aim = aim;
         robot->state.wheels = after;

@@ -33,10 +33,10 @@ static void find_fluid_force(World *world, const Media *media, Body *body, doubl
     Twist now = true_twist(engine), change = {0};
     if (body->state.free) {
         // It goes on with the acceleration that is half in its lead.
-        change = body->state.lead;
+        change = body->scratch.lead;
     }
-    Pose pose = moved(pose_of(engine), twist_sum(now, change, ahead / world->dt), ahead);
-    Flight flight = {body->state.free, ahead, now, twist_sum(now, change, 2.0 * ahead / world->dt),
+    Pose pose = moved(pose_of(engine), twist_plus(now, change, ahead / world->dt), ahead);
+    Flight flight = {body->state.free, ahead, now, twist_plus(now, change, 2.0 * ahead / world->dt),
                      given_force(world, engine)};
     world->own->fluid_forces[body - world->bodies] = fluid_force(world, media, body, pose, &flight, lapse);
 }
@@ -63,8 +63,8 @@ static Twist *attracted(World *world, double ahead) {
 // The mean force of all fields on a body in a time that begins with a twist; `attraction` is the part of attraction.
 static Twist force_of_fields(const World *world, const Body *body, Twist twist, Twist attraction) {
     const FluidForce *fluid = world->own->fluid_forces + (body - world->bodies);
-    Twist others = twist_sum(given_force(world, body->engine), attraction, 1.0);
-    return twist_sum(mean_fluid_force(fluid, body->engine, twist, others), attraction, 1.0);
+    Twist others = twist_plus(given_force(world, body->engine), attraction, 1.0);
+    return twist_plus(mean_fluid_force(fluid, body->engine, twist, others), attraction, 1.0);
 }
 
 static bool has_fresh(const World *world) {
@@ -83,8 +83,8 @@ static void begin_field(World *world, const Media *media, Body *body, Twist attr
     Twist force = force_of_fields(world, body, true_twist(body->engine), attraction);
     Twist field = half_change(world, body->engine, force);
     if (body->state.free) {
-        Twist more = twist_sum(field, body->state.field, -1.0);
-        set_twist(body->engine, twist_sum(twist_of(body->engine), more, 1.0));
+        Twist more = twist_plus(field, body->state.field, -1.0);
+        set_twist(body->engine, twist_plus(twist_of(body->engine), more, 1.0));
     }
     body->state.field = field;
 }

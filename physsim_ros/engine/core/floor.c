@@ -79,9 +79,14 @@ static Twist friction(Twist slip, LimitSurface surface) {
                    -slip.w * surface.most_turning / (remaining + surface.most_turning)};
 }
 
+typedef struct Conveyor {
+    const Body *body;
+    Twist twist; // before the floor acts on it
+} Conveyor;
+
 // The conveyors of a world, in the order of their bodies, and the boxes about them.
 typedef struct Conveyors {
-    const Body **list;
+    Conveyor *list;
     int count;
     Tree tree;
 } Conveyors;
@@ -96,7 +101,7 @@ static Conveyors conveyors_of(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         conveyors.count += is_conveyor(world->bodies + place);
     }
-    conveyors.list = TAKE(arena, const Body *, conveyors.count);
+    conveyors.list = TAKE(arena, Conveyor, conveyors.count);
     Box *boxes = TAKE(arena, Box, conveyors.count);
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
@@ -104,7 +109,7 @@ static Conveyors conveyors_of(World *world) {
         if (is_conveyor(body)) {
             Vec reach = vec(body->reach, body->reach);
             boxes[count] = (Box){sub(body->scratch.begin.p, reach), add(body->scratch.begin.p, reach)};
-            conveyors.list[count++] = body;
+            conveyors.list[count++] = (Conveyor){body, twist_of(body->engine)};
         }
     }
     conveyors.tree = tree_of(boxes, count, arena);
@@ -120,7 +125,7 @@ typedef struct Under {
 
 static bool find_under(int number, void *data) {
     Under *under = data;
-    const Body *conveyor = under->conveyors->list[number];
+    const Body *conveyor = under->conveyors->list[number].body;
     bool may_be = conveyor != under->body && number > under->last;
     if (may_be && body_covers(conveyor->engine, conveyor->scratch.begin, under->body->scratch.begin.p)) {
         under->last = number;
@@ -135,10 +140,11 @@ static Twist conveyed(const Conveyors *conveyors, const Body *body) {
     if (under.last < 0) {
         return (Twist){0};
     }
-    const Body *conveyor = conveyors->list[under.last];
-    Vec surface = rotated(conveyor->surface, rotation(conveyor->scratch.begin.yaw));
-    Vec arm = sub(body->scratch.begin.p, conveyor->scratch.begin.p);
-    return (Twist){add(velocity_at(conveyor->scratch.twist, arm), surface), conveyor->scratch.twist.w};
+    const Conveyor *conveyor = conveyors->list + under.last;
+    Pose begin = conveyor->body->scratch.begin;
+    Vec surface = rotated(conveyor->body->surface, rotation(begin.yaw));
+    Vec arm = sub(body->scratch.begin.p, begin.p);
+    return (Twist){add(velocity_at(conveyor->twist, arm), surface), conveyor->twist.w};
 }
 
 // The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
@@ -159,7 +165,7 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
     Twist before = twist_of(engine);
-    before = body->state.free ? twist_sum(before, body->state.lead, -1.0) : before;
+    before = body->state.free ? twist_plus(before, body->scratch.lead, -1.0) : before;
     // What the step brings without the floor: damping, gravity, forces of commands and hands.
     Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
                    before.w * kept + engine->t * angular};
@@ -168,23 +174,23 @@ static void drag(World *world, Body *body, Twist mean, Twist end) {
     Twist expected = twist_scaled(body->state.push, share);
     double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
-    Twist next = twist_sum(after, expected, 1.0);
+    Twist next = twist_plus(after, expected, 1.0);
     if (body->towed) {
         double yaw = body->scratch.begin.yaw, turn = next.w * dt;
         end = twist_of_axle(body, next, yaw + turn);
-        Twist sum = twist_sum(before, end, 1.0);
+        Twist sum = twist_plus(before, end, 1.0);
         mean = twist_of_axle(body, twist_scaled(sum, 0.5), yaw + turn / 2.0);
     }
-    Twist slip = twist_sum(next, end, -1.0);
-    body->scratch.slides = square(slip, surface) > 1.0;
-    Twist change = body->scratch.slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
+    Twist slip = twist_plus(next, end, -1.0);
+    bool slides = square(slip, surface) > 1.0;
+    Twist change = slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
     Twist as_moved = mean;
-    if (body->scratch.slides) {
-        Twist sum = twist_sum(twist_sum(before, after, 1.0), twist_sum(expected, change, 1.0), 1.0);
+    if (slides) {
+        Twist sum = twist_plus(twist_plus(before, after, 1.0), twist_plus(expected, change, 1.0), 1.0);
         as_moved = twist_scaled(sum, 0.5);
     }
     body->scratch.under = mean;
-    body->scratch.without_contacts = twist_sum(after, change, 1.0);
+    body->scratch.without_contacts = twist_plus(after, change, 1.0);
     if (!sleeps(body)) {
         set_twist(engine, as_moved);
         Vec added = add(scaled(sub(before.v, as_moved.v), kept), change.v);
@@ -227,7 +233,7 @@ void apply_floor(World *world) {
         Driving driving = driving_of(world, place, &robot, &actor);
         if (body->braking > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
-            Twist mean = twist_sum(driving.mean, belt, 1.0), end = twist_sum(driving.end, belt, 1.0);
+            Twist mean = twist_plus(driving.mean, belt, 1.0), end = twist_plus(driving.end, belt, 1.0);
             drag(world, body, mean, end);
         }
     }
@@ -246,7 +252,7 @@ void find_floor_pushes(World *world) {
         // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in
         // turns.
         Twist push =
-            twist_sum(twist_sum(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
+            twist_plus(twist_plus(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
         push = twist_scaled(push, 0.5);
         double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
         body->state.push = sleeps(body) || size < least_push ? (Twist){0} : push;

@@ -33,7 +33,7 @@ static const double rounding_of_velocity = 1e-12;
 
 // Whether springs or motors hold the island of a body.
 static bool is_held(const Body *body) {
-    return body->sprung || body->motored;
+    return body->ties.sprung || body->ties.motored;
 }
 
 // Whether a contact that pressed on a body in the last step parts by less than the step pulls its bodies together.
@@ -42,7 +42,7 @@ static bool keeps_contact(const Body *body) {
         Twist a = true_twist(each->body_a), b = true_twist(each->body_b);
         for (int number = 0; number < each->count && presses(each); number++) {
             double parting = dot(parting_velocity(each->contacts + number, a, b), each->n);
-            if (parting <= length(body->state.lead.v)) {
+            if (parting <= length(body->scratch.lead.v)) {
                 return true;
             }
         }
@@ -72,7 +72,7 @@ static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
 // The velocity of a body that begins or ceases to fly.
 static Twist with_lead(const Body *body, bool flies) {
     double sign = (double)flies - (double)body->state.free;
-    return twist_sum(twist_of(body->engine), body->state.lead, sign);
+    return twist_plus(twist_of(body->engine), body->scratch.lead, sign);
 }
 
 static void forget_impulses(const Body *body) {
@@ -85,7 +85,7 @@ static void forget_impulses(const Body *body) {
 
 // Whether a body that hangs on springs begins its first step.
 static bool begins_on_spring(const Body *body) {
-    return body->state.free && body->dynamic && body->sprung && !body->motored;
+    return body->state.free && body->dynamic && body->ties.sprung && !body->ties.motored;
 }
 
 // Find half of what the coming step changes velocities by, of bodies that begin on springs (body_count; the rest is 0);
@@ -100,7 +100,7 @@ static const Twist *half_changes(World *world) {
             begins = begins == NULL ? TAKE(&world->own->arena, bool, world->body_count) : begins;
             int place = place_of(world, body->engine);
             begins[place] = true;
-            changes[place] = body->state.lead;
+            changes[place] = body->scratch.lead;
         }
     }
     if (changes != NULL) {
@@ -120,7 +120,7 @@ void begin_half_step(World *world) {
         if (free[place] != body->state.free) {
             world->chipmunk.body_activate(body->engine);
             Twist twist = with_lead(body, free[place]);
-            set_twist(body->engine, changes == NULL ? twist : twist_sum(twist, changes[place], 1.0));
+            set_twist(body->engine, changes == NULL ? twist : twist_plus(twist, changes[place], 1.0));
             body->state.free = free[place];
         }
         if (unsupported[place]) {
@@ -147,9 +147,9 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
         if (begins_to_fly(body) && size > 0.0) {
             Vec against = begins_to_fly(other) ? vec(0.0, 0.0) : other->scratch.twist.v;
             // Without the impulse, the true velocity and that of the engine would be these.
-            Vec true_end = add(body->scratch.twist.v, body->state.lead.v),
-                engine_end = add(true_end, body->state.lead.v);
-            double lead = body->scratch.bounces ? 0.0 : fabs(dot(body->state.lead.v, impulse)) / size;
+            Vec true_end = add(body->scratch.twist.v, body->scratch.lead.v),
+                engine_end = add(true_end, body->scratch.lead.v);
+            double lead = body->scratch.bounces ? 0.0 : fabs(dot(body->scratch.lead.v, impulse)) / size;
             load += fabs(dot(sub(lead > 0.0 ? true_end : engine_end, against), impulse));
             all += fabs(dot(sub(engine_end, against), impulse));
             taken_back += body->engine->m * lead;
@@ -170,8 +170,8 @@ void find_free(World *world) {
             !has_stage(world, STAGE_HALF_STEP)) {
             continue;
         }
-        Twist after = twist_of(body->engine), flown = body->state.lead;
-        flown = twist_sum(twist_scaled(body->scratch.twist, world->own->kept), flown, 2.0);
+        Twist after = twist_of(body->engine), flown = body->scratch.lead;
+        flown = twist_plus(twist_scaled(body->scratch.twist, world->own->kept), flown, 2.0);
         body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
                            fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
                            fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));
@@ -207,7 +207,7 @@ void core_observe(World *world, Pose *poses, Twist *twists) {
         poses[place] = pose;
         Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, flies[place]);
         // The same sum as in a space that is built from this state, to the bit.
-        twists[place] = flies[place] ? twist_sum(twist, body->state.lead, -1.0) : twist;
+        twists[place] = flies[place] ? twist_plus(twist, body->scratch.lead, -1.0) : twist;
     }
 }
 

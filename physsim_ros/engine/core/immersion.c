@@ -18,16 +18,17 @@
 // Corners of the polygon that counts for a round region.
 enum { ROUND_CORNERS = 96 };
 
-// A corner of a polygon that is clipped, and whether the edge from it on is of the outline of the body.
+// A corner of a polygon, and whether the edge from it on is of the outline of the body.
 typedef struct Vertex {
     Vec point;
     bool own;
 } Vertex;
 
-typedef struct Outline {
+// A polygon that is clipped.
+typedef struct Polygon {
     Vertex *vertices;
     int count, most;
-} Outline;
+} Polygon;
 
 // An edge of a basin as seen from the centre of mass of a body: a corner, and the normal outwards.
 typedef struct Line {
@@ -42,13 +43,13 @@ typedef struct Clip {
     int line_count;
 } Clip;
 
-static Outline outline_of(int most, Arena *arena) {
-    return (Outline){TAKE(arena, Vertex, most), 0, most};
+static Polygon polygon_with_room(int most, Arena *arena) {
+    return (Polygon){TAKE(arena, Vertex, most), 0, most};
 }
 
-static inline void add_vertex(Outline *outline, Vec point, bool own) {
-    assert(outline->count < outline->most);
-    outline->vertices[outline->count++] = (Vertex){point, own};
+static inline void add_vertex(Polygon *polygon, Vec point, bool own) {
+    assert(polygon->count < polygon->most);
+    polygon->vertices[polygon->count++] = (Vertex){point, own};
 }
 
 // Regions
@@ -112,9 +113,9 @@ Containment containment_of(const Basin *basin, Vec center, double reach) {
 // Polygons
 
 // What of a convex polygon lies behind a line.
-static Outline clipped(Outline from, Line line, Arena *arena) {
+static Polygon clipped(Polygon from, Line line, Arena *arena) {
     // As many again: rounding can put corners that are nearly on one line before and behind it in turn.
-    Outline kept = outline_of(2 * from.count, arena);
+    Polygon kept = polygon_with_room(2 * from.count, arena);
     Vertex a = from.vertices[0];
     double out_a = dot(line.normal, sub(a.point, line.corner));
     for (int number = 1; number <= from.count; number++) {
@@ -140,25 +141,38 @@ static void add_area(Immersion *wet, Vec a, Vec b, Vec c) {
 }
 
 // Clip a polygon at the edges of a basin that its body may cross; no basin leaves it whole.
-static Outline in_basin(Outline outline, const Clip *clip, Arena *arena) {
-    for (int number = 0; clip != NULL && number < clip->line_count && outline.count > 0; number++) {
-        outline = clipped(outline, clip->lines[number], arena);
+static Polygon in_basin(Polygon polygon, const Clip *clip, Arena *arena) {
+    for (int number = 0; clip != NULL && number < clip->line_count && polygon.count > 0; number++) {
+        polygon = clipped(polygon, clip->lines[number], arena);
     }
-    return outline;
+    return polygon;
 }
 
-static void add_bulk(Immersion *wet, Outline outline) {
-    const Vertex *vertices = outline.vertices;
-    for (int number = 2; number < outline.count; number++) {
+static void add_bulk(Immersion *wet, Polygon polygon) {
+    const Vertex *vertices = polygon.vertices;
+    for (int number = 2; number < polygon.count; number++) {
         add_area(wet, vertices[0].point, vertices[number - 1].point, vertices[number].point);
     }
 }
 
-static void add_sides(Immersion *wet, Outline outline) {
-    for (int number = 0; number < outline.count; number++) {
-        if (outline.vertices[number].own) {
-            const Vertex *end = outline.vertices + (number + 1 < outline.count ? number + 1 : 0);
-            wet->sides[wet->side_count++] = (Side){outline.vertices[number].point, end->point};
+static void take_room(Immersion *wet, int sides, int bows, Arena *arena) {
+    wet->sides = TAKE(arena, Side, sides);
+    wet->bows = TAKE(arena, Bow, bows);
+    wet->side_room = sides;
+    wet->bow_room = bows;
+}
+
+static void add_bow(Immersion *wet, Bow bow) {
+    assert(wet->bow_count < wet->bow_room);
+    wet->bows[wet->bow_count++] = bow;
+}
+
+static void add_sides(Immersion *wet, Polygon polygon) {
+    for (int number = 0; number < polygon.count; number++) {
+        if (polygon.vertices[number].own) {
+            const Vertex *end = polygon.vertices + (number + 1 < polygon.count ? number + 1 : 0);
+            assert(wet->side_count < wet->side_room);
+            wet->sides[wet->side_count++] = (Side){polygon.vertices[number].point, end->point};
         }
     }
 }
@@ -173,7 +187,7 @@ static void add_sector(Immersion *wet, Vec center, double radius, Vec a, Vec b) 
     Vec moment = vec(third * (end.s - begin.s), third * (begin.c - end.c));
     wet->area += area;
     wet->first_moment = add(wet->first_moment, add(scaled(center, area), moment));
-    wet->bows[wet->bow_count++] = (Bow){center, radius, from, from + turn};
+    add_bow(wet, (Bow){center, radius, from, from + turn});
 }
 
 // Add the segment of a disc that a line cuts off, behind its normal; `ahead` is how far before it the centre is [m].
@@ -186,11 +200,11 @@ static void add_disc_segment(Immersion *wet, Vec center, double radius, Vec norm
     Vec moment = scaled(normal, -2.0 / 3.0 * chord * chord * chord);
     wet->area += area;
     wet->first_moment = add(wet->first_moment, add(scaled(center, area), moment));
-    wet->bows[wet->bow_count++] = (Bow){center, radius, down - half, down + half};
+    add_bow(wet, (Bow){center, radius, down - half, down + half});
 }
 
 // Add what of a disc lies in a convex polygon, as the sum over the triangles that the centre makes with its edges.
-static void add_disc(Immersion *wet, Vec center, double radius, const Outline *basin) {
+static void add_disc(Immersion *wet, Vec center, double radius, const Polygon *basin) {
     for (int number = 0; number < basin->count; number++) {
         Vec a = sub(basin->vertices[number].point, center);
         Vec b = sub(basin->vertices[(number + 1) % basin->count].point, center), edge = sub(b, a);
@@ -215,8 +229,8 @@ static void add_disc(Immersion *wet, Vec center, double radius, const Outline *b
 }
 
 // All edges of a basin, as seen from the centre of mass of a body.
-static Outline basin_edges(const Clip *clip, Arena *arena) {
-    Outline edges = outline_of(clip->basin->count, arena);
+static Polygon basin_edges(const Clip *clip, Arena *arena) {
+    Polygon edges = polygon_with_room(clip->basin->count, arena);
     for (int number = 0; number < clip->basin->count; number++) {
         add_vertex(&edges, sub(clip->basin->corners[number], clip->origin), false);
     }
@@ -228,13 +242,9 @@ static void add_disc_in_basin(Immersion *wet, Vec center, double radius, const C
         Line line = clip->lines[0];
         add_disc_segment(wet, center, radius, line.normal, dot(line.normal, sub(center, line.corner)));
     } else {
-        Outline edges = basin_edges(clip, arena);
+        Polygon edges = basin_edges(clip, arena);
         add_disc(wet, center, radius, &edges);
     }
-}
-
-static void add_whole_arc(Immersion *wet, Vec center, double radius, double from, double turn) {
-    wet->bows[wet->bow_count++] = (Bow){center, radius, from, from + turn};
 }
 
 // Pieces of a body
@@ -243,27 +253,27 @@ static Vec corner_at(const cpShape *shape, int number, Rotation by) {
     return rotated(corner_on_body(shape, number).point, by);
 }
 
-static Outline polygon_of(const cpShape *shape, Rotation by, Arena *arena) {
+static Polygon polygon_of(const cpShape *shape, Rotation by, Arena *arena) {
     int count = corner_count(shape);
-    Outline outline = outline_of(count, arena);
+    Polygon polygon = polygon_with_room(count, arena);
     for (int number = 0; number < count; number++) {
-        add_vertex(&outline, corner_at(shape, number, by), true);
+        add_vertex(&polygon, corner_at(shape, number, by), true);
     }
-    return outline;
+    return polygon;
 }
 
-static Outline hull_of(const Body *body, Rotation by, Arena *arena) {
-    Outline outline = outline_of(body->hull_count, arena);
+static Polygon hull_of(const Body *body, Rotation by, Arena *arena) {
+    Polygon polygon = polygon_with_room(body->hull_count, arena);
     for (int number = 0; number < body->hull_count; number++) {
-        add_vertex(&outline, rotated(body->hull[number], by), true);
+        add_vertex(&polygon, rotated(body->hull[number], by), true);
     }
-    return outline;
+    return polygon;
 }
 
 // The bar between the ends of a segment; only its long sides are of the outline.
-static Outline bar_of(Vec a, Vec b, double radius, Arena *arena) {
+static Polygon bar_of(Vec a, Vec b, double radius, Arena *arena) {
     Vec along = sub(b, a), side = scaled(perpendicular(along), radius / length(along));
-    Outline bar = outline_of(4, arena);
+    Polygon bar = polygon_with_room(4, arena);
     add_vertex(&bar, sub(a, side), true);
     add_vertex(&bar, sub(b, side), false);
     add_vertex(&bar, add(b, side), true);
@@ -273,16 +283,17 @@ static Outline bar_of(Vec a, Vec b, double radius, Arena *arena) {
 
 // Add a segment: a bar, and at each end half a disc.
 static void add_segment(Immersion *wet, Vec a, Vec b, double radius, const Clip *clip, Arena *arena) {
-    Outline bar = in_basin(bar_of(a, b, radius, arena), clip, arena);
+    Polygon bar = in_basin(bar_of(a, b, radius, arena), clip, arena);
     add_bulk(wet, bar);
     add_sides(wet, bar);
     Vec ends[2] = {b, a};
     for (int end = 0; end < 2; end++) {
         Vec away = sub(ends[end], ends[1 - end]);
         if (clip == NULL) {
-            add_whole_arc(wet, ends[end], radius, atan2(away.y, away.x) - pi / 2.0, pi);
+            double from = atan2(away.y, away.x) - pi / 2.0;
+            add_bow(wet, (Bow){ends[end], radius, from, from + pi});
         } else {
-            Outline beyond = clipped(basin_edges(clip, arena), (Line){ends[end], negated(away)}, arena);
+            Polygon beyond = clipped(basin_edges(clip, arena), (Line){ends[end], negated(away)}, arena);
             add_disc(wet, ends[end], radius, &beyond);
         }
     }
@@ -293,7 +304,7 @@ static void add_piece(Immersion *wet, const cpShape *shape, Rotation by, const C
     switch (kind_of(shape)) {
     case SHAPE_CIRCLE:
         if (clip == NULL) {
-            add_whole_arc(wet, corner_at(shape, 0, by), radius, 0.0, 2.0 * pi);
+            add_bow(wet, (Bow){corner_at(shape, 0, by), radius, 0.0, 2.0 * pi});
         } else {
             add_disc_in_basin(wet, corner_at(shape, 0, by), radius, clip, arena);
         }
@@ -302,9 +313,9 @@ static void add_piece(Immersion *wet, const cpShape *shape, Rotation by, const C
         add_segment(wet, corner_at(shape, 0, by), corner_at(shape, 1, by), radius, clip, arena);
         break;
     default: {
-        Outline outline = in_basin(polygon_of(shape, by, arena), clip, arena);
-        add_bulk(wet, outline);
-        add_sides(wet, outline);
+        Polygon polygon = in_basin(polygon_of(shape, by, arena), clip, arena);
+        add_bulk(wet, polygon);
+        add_sides(wet, polygon);
     }
     }
 }
@@ -334,18 +345,14 @@ Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outline
         // basin is clipped, to twice its edges at most.
         int edge_count = basin == NULL ? 0 : basin->count;
         size_t mark = arena_mark(arena);
-        wet.sides = TAKE(arena, Side, corner_count(shape));
-        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 8 * edge_count + 2);
-        wet.side_count = wet.bow_count = 0;
+        take_room(&wet, corner_count(shape), kind_of(shape) == SHAPE_POLYGON ? 0 : 8 * edge_count + 2, arena);
         if (basin != NULL || body->hull_count == 0) {
             add_piece(&wet, shape, by, edges, arena);
         }
         if (body->hull_count > 0) {
             // Of its pieces only areas and moments count; the outline is that of the hull.
-            arena_release(arena, mark);
-            wet.sides = NULL;
-            wet.bows = NULL;
             wet.side_count = wet.bow_count = 0;
+            arena_release(arena, mark);
         }
     }
     if (basin == NULL) {
@@ -353,7 +360,7 @@ Immersion immersed(const Body *body, Pose pose, const Basin *basin, bool outline
         wet.first_moment = (Vec){0};
     }
     if (body->hull_count > 0 && outlined) {
-        wet.sides = TAKE(arena, Side, body->hull_count);
+        take_room(&wet, body->hull_count, 0, arena);
         add_sides(&wet, in_basin(hull_of(body, by, arena), edges, arena));
     }
     return wet;

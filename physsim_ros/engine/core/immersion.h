@@ -39,7 +39,7 @@ typedef struct Immersion {
     Vec first_moment; // area times centroid [m³]
     Side *sides;
     Bow *bows;
-    int side_count, bow_count;
+    int side_count, bow_count, side_room, bow_room;
 } Immersion;
 
 typedef enum Containment { OUTSIDE, CROSSING, INSIDE } Containment;

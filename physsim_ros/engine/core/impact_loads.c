@@ -29,7 +29,7 @@ typedef struct Load {
     double most; // impulse along the normal [N s]
 } Load;
 
-void bound_loads(World *world) {
+void list_load_bounds(World *world) {
     if (!has_stage(world, STAGE_LOADS)) {
         return;
     }

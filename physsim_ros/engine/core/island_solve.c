@@ -17,18 +17,18 @@ static void turn_bodies(const Island *island, const Pose *poses) {
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians) {
     turn_bodies(island, poses);
     Anchors anchors = {0};
-    for (int row = 0, joint = -1; row < island->joint_row_count; row++) {
+    const Joint *joint = NULL;
+    for (int row = 0; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
-        if (of_joint->kind != ROW_PATH && island->joint_of_row[row] != joint) {
+        if (of_joint->kind != ROW_PATH && island->joint_of_row[row] != joint && island->joint_of_row[row] != NULL) {
             // Rows of a joint have the same anchors.
             joint = island->joint_of_row[row];
             Ends ends = island->ends[row];
-            anchors = anchors_turned(island->joints[joint], poses[ends.a].p, island->turns[ends.a].by, poses[ends.b].p,
+            anchors = anchors_turned(joint, poses[ends.a].p, island->turns[ends.a].by, poses[ends.b].p,
                                      island->turns[ends.b].by);
         }
         Links links = {row, island->further[row], island->ends, poses};
-        double x =
-            row_at(of_joint, island->joints[island->joint_of_row[row]], island->guides, &anchors, links, jacobians);
+        double x = row_at(of_joint, island->guides, &anchors, links, jacobians);
         excess[row] = excess_of(of_joint, x);
     }
 }
@@ -78,8 +78,8 @@ Solve island_solve(World *world, const Island *island, const System *system) {
         solve.jacobians[normal_row(island, number)] = line_jacobian(against, bearing->arm_a, bearing->arm_b);
         solve.jacobians[tangent_row(island, number)] =
             line_jacobian(perpendicular(against), bearing->arm_a, bearing->arm_b);
-        if (bearing->roll != NULL) {
-            bearing->roll->most = bearing->rolling * greatest(bearing->point->jnAcc, 0.0);
+        if (bearing->rolling_row != NULL) {
+            bearing->rolling_row->row.most = bearing->rolling * greatest(bearing->point->jnAcc, 0.0);
         }
     }
     return solve;

@@ -205,7 +205,7 @@ static Islands split(World *world, Bearings bearings) {
     for (int number = 0; number < found.count; number++) {
         Island *island = found.islands + number;
         island->row_count = island->joint_row_count + 2 * island->bearing_count;
-        island->joints = TAKE(arena, const Joint *, island->joint_count + island->bearing_count);
+        island->joints = TAKE(arena, const Joint *, island->joint_count);
         island->bearings = TAKE(arena, Bearing, island->bearing_count);
         island->joint_count = island->bearing_count = 0;
     }
@@ -240,7 +240,7 @@ static int number_in(Numbering *numbering, int place) {
         numbering->places[number] = place;
         numbering->numbers[place] = number + 1;
         island->engine[number] = body->engine;
-        island->jointed[number] = body->jointed;
+        island->jointed[number] = body->ties.jointed;
         island->inverses[number] = (Inverse){body->engine->m_inv, body->engine->i_inv};
         island->turns[number] = (Turn){0.0, {1.0, 0.0}};
     }
@@ -294,18 +294,16 @@ static void take_impulse(const World *world, Island *island, int row) {
     island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
 }
 
-// Add the row of the rolling resistance of a contact, as that of a bearing with friction: `rolling.c` has its law.
-static void add_roll(World *world, Island *island, int row, int joint, Bearing *bearing) {
-    Arena *arena = &world->own->arena;
-    Joint *of_row = TAKE(arena, Joint, 1);
-    of_row->ratio = 1.0;
-    bearing->roll = TAKE(arena, Row, 1);
-    *bearing->roll = (Row){.kind = ROW_ANGLE, .law = LAW_FRICTION, .below = 1.0, .above = 1.0};
-    island->joints[joint] = of_row;
-    island->rows[row] = bearing->roll;
-    island->joint_of_row[row] = joint;
-    island->impulses[row] = TAKE(arena, double, 1);
-    island->closing[row] = TAKE(arena, double, 1);
+static void add_rolling_row(Numbering *numbering, Bearing *bearing) {
+    Island *island = numbering->island;
+    RollingRow *rolling = TAKE(&numbering->world->own->arena, RollingRow, 1);
+    rolling->row = (Row){.kind = ROW_ANGLE, .law = LAW_FRICTION, .below = 1.0, .above = 1.0, .ratio = 1.0};
+    bearing->rolling_row = rolling;
+    island->rows[numbering->row] = &rolling->row;
+    island->impulses[numbering->row] = &rolling->impulse;
+    island->closing[numbering->row] = &rolling->closing;
+    add_row(numbering, bearing->a, bearing->b);
+    numbering->group++;
 }
 
 static void add_joint_rows(Numbering *numbering) {
@@ -315,7 +313,7 @@ static void add_joint_rows(Numbering *numbering) {
         for (int each = 0; each < joint->row_count; each++) {
             Row *row = numbering->world->rows + joint->first_row + each;
             island->rows[numbering->row] = row;
-            island->joint_of_row[numbering->row] = number;
+            island->joint_of_row[numbering->row] = joint;
             take_impulse(numbering->world, island, numbering->row);
             // Rows with guides have bodies of their own.
             numbering->group += each > 0 && row->guide_count > 0;
@@ -326,12 +324,9 @@ static void add_joint_rows(Numbering *numbering) {
 
 static void add_bearing_rows(Numbering *numbering) {
     Island *island = numbering->island;
-    for (int number = 0, joint = island->joint_count; number < island->bearing_count; number++) {
-        Bearing *bearing = island->bearings + number;
-        if (bearing->rolling > 0.0) {
-            add_roll(numbering->world, island, numbering->row, joint++, bearing);
-            add_row(numbering, bearing->a, bearing->b);
-            numbering->group++;
+    for (int number = 0; number < island->bearing_count; number++) {
+        if (island->bearings[number].rolling > 0.0) {
+            add_rolling_row(numbering, island->bearings + number);
         }
     }
     for (int side = 0; side < 2; side++) {
@@ -354,7 +349,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
     island->inverses = TAKE(arena, Inverse, most);
     island->turns = TAKE(arena, Turn, most);
     island->rows = TAKE(arena, Row *, island->joint_row_count);
-    island->joint_of_row = TAKE(arena, int, island->joint_row_count);
+    island->joint_of_row = TAKE(arena, const Joint *, island->joint_row_count);
     island->impulses = TAKE(arena, double *, island->joint_row_count);
     island->last = TAKE(arena, double, island->row_count);
     island->closing = TAKE(arena, double *, island->joint_row_count);

@@ -7,6 +7,12 @@
 #include "joint_rows.h"
 #include "world.h"
 
+// The row of the rolling resistance of a contact, as that of a bearing with friction: `rolling.c` has its law.
+typedef struct RollingRow {
+    Row row;
+    double impulse, closing; // [N m s]
+} RollingRow;
+
 // A point in which a jointed body touches another one.
 typedef struct Bearing {
     cpContact *point;
@@ -14,12 +20,12 @@ typedef struct Bearing {
     uintptr_t shapes[2];
     Vec arm_a, arm_b, normal; // world axes [m]; the normal leads from the first to the second body
     double friction;
-    double slop;      // overlap that stays [m]
-    double slide;     // velocity across the normal of the surfaces against their bodies [m/s]
-    double closing;   // impulse along the normal by which an overlap was closed [N s]
-    double remaining; // of the step after the impact; 0 for a contact that does not begin [s]
-    double rolling;   // arm of the load ahead of a disc that rolls; 0 is none [m]
-    Row *roll;        // of its rolling resistance; NULL is none
+    double slop;             // overlap that stays [m]
+    double slide;            // velocity across the normal of the surfaces against their bodies [m/s]
+    double closing;          // impulse along the normal by which an overlap was closed [N s]
+    double remaining;        // of the step after the impact; 0 for a contact that does not begin [s]
+    double rolling;          // arm of the load ahead of a disc that rolls; 0 is none [m]
+    RollingRow *rolling_row; // NULL is none
 } Bearing;
 
 // The rotation of a body by a yaw, kept for the next poses with that.
@@ -31,12 +37,12 @@ typedef struct Turn {
 // The rows of an island: those of joints and of rolling resistance, then normals of contacts, then tangents.
 typedef struct Island {
     int joint_count, joint_row_count, bearing_count, body_count, row_count;
-    const Joint **joints; // then one for each row of rolling resistance
-    Row **rows;           // (joint_row_count)
-    int *joint_of_row;
-    double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
-    double *last;      // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]
-    double **closing;  // (joint_row_count): where those of the positions are stored [N s, N m s]
+    const Joint **joints;       // (joint_count)
+    Row **rows;                 // (joint_row_count)
+    const Joint **joint_of_row; // (joint_row_count): NULL of rolling resistance
+    double **impulses;          // (joint_row_count): where Chipmunk stores them [N s, N m s]
+    double *last;               // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]
+    double **closing;           // (joint_row_count): where those of the positions are stored [N s, N m s]
     Bearing *bearings;
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
     bool *jointed;   // (body_count)

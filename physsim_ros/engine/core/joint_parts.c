@@ -62,7 +62,7 @@ void prepare_parts(World *world) {
         Pose a = pose_after(world->bodies[joint->a].engine, world->dt);
         Pose b = pose_after(world->bodies[joint->b].engine, world->dt);
         Anchors anchors = anchors_at(joint, a, b);
-        Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
+        Vec across = perpendicular(anchors.axis);
         Vec beside = sub(add(anchors.arm_b, anchors.offset), scaled(across, across_arm));
         pin->anchorA = rotated_back(beside, anchors.of_b);
         const Part *limit = world->parts + joint->first_part + LIMIT_PART;

@@ -255,7 +255,8 @@ static void turn_momenta(Solve *solve, const Displacement *move, const double *i
     }
     read_rows(island, ahead, excess, later);
     for (int row = 0; row < island->joint_row_count; row++) {
-        bool drawn = island->joints[island->joint_of_row[row]]->excess > 0.0;
+        const Joint *joint = island->joint_of_row[row];
+        bool drawn = joint != NULL && joint->excess > 0.0;
         double impulse = drawn ? impulses[row] / solve->dt : 0.0;
         add_row_momenta(&solve->system, move->jacobians, row, impulse, changes);
         add_row_momenta(&solve->system, later, row, -impulse, changes);

@@ -116,7 +116,7 @@ static bool is_drawn(const World *world, const Joint *joint) {
            joint->excess - excess > least_drawn * fastest_correction * (double)SUB_STEPS * world->dt;
 }
 
-void find_broken(World *world) {
+void find_broken_joints(World *world) {
     world->has_broken = false;
     for (int number = 0; number < world->joint_count; number++) {
         Joint *joint = world->joints + number;

@@ -16,6 +16,7 @@ Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation
     anchors.arm_a = rotated(vec(joint->anchor_a[0], joint->anchor_a[1]), of_a);
     anchors.arm_b = rotated(vec(joint->anchor_b[0], joint->anchor_b[1]), of_b);
     anchors.offset = sub(add(a, anchors.arm_a), add(b, anchors.arm_b));
+    anchors.axis = rotated(vec(joint->axis[0], joint->axis[1]), of_b);
     return anchors;
 }
 
@@ -35,9 +36,7 @@ static double position_on_line(Vec direction, const Anchors *anchors, Jacobian *
 }
 
 // x of the first link of a row that is no path, and its Jacobian.
-static double first_link_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a, Pose b,
-                            Jacobian *jacobian) {
-    Vec axis = vec(joint->axis[0], joint->axis[1]);
+static double first_link_at(const Row *row, const Anchors *anchors, Pose a, Pose b, Jacobian *jacobian) {
     switch (row->kind) {
     case ROW_X:
         *jacobian = line_jacobian(vec(1.0, 0.0), anchors->arm_a, anchors->arm_b);
@@ -46,8 +45,8 @@ static double first_link_at(const Row *row, const Joint *joint, const Anchors *a
         *jacobian = line_jacobian(vec(0.0, 1.0), anchors->arm_a, anchors->arm_b);
         return anchors->offset.y;
     case ROW_ANGLE:
-        *jacobian = (Jacobian){{{0.0, 0.0}, -1.0}, {{0.0, 0.0}, joint->ratio}};
-        return joint->ratio * b.yaw - a.yaw;
+        *jacobian = (Jacobian){{{0.0, 0.0}, -1.0}, {{0.0, 0.0}, row->ratio}};
+        return row->ratio * b.yaw - a.yaw;
     case ROW_DISTANCE: {
         // Anchors on each other have no direction; any one parts them.
         Vec direction = unit_or(anchors->offset, vec(1.0, 0.0));
@@ -55,24 +54,24 @@ static double first_link_at(const Row *row, const Joint *joint, const Anchors *a
         return length(anchors->offset);
     }
     case ROW_ACROSS:
-        return position_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
+        return position_on_line(perpendicular(anchors->axis), anchors, jacobian);
     case ROW_ROLL: {
-        double x = position_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
-        jacobian->a.w += joint->ratio;
-        jacobian->b.w -= joint->ratio;
-        return x + joint->ratio * (a.yaw - b.yaw);
+        double x = position_on_line(anchors->axis, anchors, jacobian);
+        jacobian->a.w += row->ratio;
+        jacobian->b.w -= row->ratio;
+        return x + row->ratio * (a.yaw - b.yaw);
     }
     default:
         assert(row->kind == ROW_ALONG);
-        return position_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
+        return position_on_line(anchors->axis, anchors, jacobian);
     }
 }
 
 // What a carrier adds to x of a gear that turns about it, and its Jacobian.
-static double carrier_at(const Joint *joint, Pose carrier, Jacobian *jacobian) {
+static double carrier_at(const Row *row, Pose carrier, Jacobian *jacobian) {
     // ratio (yaw_b - yaw_c) - (yaw_a - yaw_c), of which the first link has the rest.
-    *jacobian = (Jacobian){.a = {.w = 1.0 - joint->ratio}};
-    return (1.0 - joint->ratio) * carrier.yaw;
+    *jacobian = (Jacobian){.a = {.w = 1.0 - row->ratio}};
+    return (1.0 - row->ratio) * carrier.yaw;
 }
 
 // The direction of a rope from one guide to the next, along their common tangent, and its length.
@@ -107,8 +106,7 @@ static double span_at(const Row *row, const Guide *guides, int number, Pose a, P
     return x;
 }
 
-double row_at(const Row *row, const Joint *joint, const Guide *guides, const Anchors *anchors, Links links,
-              Jacobian *jacobians) {
+double row_at(const Row *row, const Guide *guides, const Anchors *anchors, Links links, Jacobian *jacobians) {
     bool is_path = row->kind == ROW_PATH;
     double x = row->offset;
     for (int number = 0; number <= further_count(row); number++) {
@@ -117,8 +115,8 @@ double row_at(const Row *row, const Joint *joint, const Guide *guides, const Anc
         if (is_path) {
             x += span_at(row, guides, number, a, b, jacobians + link);
         } else {
-            x += number == 0 ? first_link_at(row, joint, anchors, a, b, jacobians + link)
-                             : carrier_at(joint, a, jacobians + link);
+            x += number == 0 ? first_link_at(row, anchors, a, b, jacobians + link)
+                             : carrier_at(row, a, jacobians + link);
         }
     }
     return x;
@@ -142,7 +140,7 @@ double row_after(const World *world, const Joint *joint, const Row *row, double 
         ends[link] = row->kind == ROW_PATH ? (Ends){link, link + 1} : (Ends){2 * link, link == 0 ? 1 : 2};
     }
     Anchors anchors = row->kind == ROW_PATH ? (Anchors){0} : anchors_at(joint, poses[0], poses[1]);
-    double x = row_at(row, joint, world->guides, &anchors, (Links){0, 1, ends, poses}, jacobians);
+    double x = row_at(row, world->guides, &anchors, (Links){0, 1, ends, poses}, jacobians);
     *last = jacobians[link_count - 1];
     arena_release(arena, mark);
     return x;

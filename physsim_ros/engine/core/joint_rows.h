@@ -11,6 +11,7 @@
 typedef struct Anchors {
     Vec arm_a, arm_b; // from the centres of mass
     Vec offset;       // from the second anchor to the first
+    Vec axis;         // of a slider or a rack, of length 1
     Rotation of_b;
 } Anchors;
 
@@ -57,9 +58,8 @@ typedef struct Links {
     const Pose *poses; // of bodies
 } Links;
 
-// Return x of a row, and the Jacobians of its links. `anchors` are those of its joint; a path needs none.
-double row_at(const Row *row, const Joint *joint, const Guide *guides, const Anchors *anchors, Links links,
-              Jacobian *jacobians);
+// Return x of a row, and the Jacobians of its links. `anchors` are those of its joint; an angle and a path need none.
+double row_at(const Row *row, const Guide *guides, const Anchors *anchors, Links links, Jacobian *jacobians);
 
 // Return x of a row after a time at the velocities of now [s], and the Jacobian of its last link.
 double row_after(const World *world, const Joint *joint, const Row *row, double lapse, Jacobian *last);

@@ -8,6 +8,9 @@
 // where joints and contacts contradict each other.
 // Method: all rows of an island are solved together (`mixed_lcp`), in velocities (`joint_velocities`) and then in
 // positions (`joint_positions`). Chipmunk's impulses are the first guess.
+// Chipmunk solves the constraints of joints all the same, and what they gave is taken back: by them its iterations know
+// what bears the contacts that stay its own. Without them a stack on a platform that hangs by rods has nothing below it
+// (law 18): ten boxes sink by 7 cm.
 // Scope: impulses of springs without dampers, and contacts between bodies without joints, stay Chipmunk's.
 // Cost: 5 µs a step for a pendulum, 150 µs for a chain of fifty axles.
 // Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail.

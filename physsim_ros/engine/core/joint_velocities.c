@@ -94,7 +94,7 @@ static Edges edges_of(double friction, double normal, double tangent) {
 }
 
 static Jacobian edge_jacobian(Jacobian normal, Jacobian tangent, double share) {
-    return (Jacobian){twist_sum(normal.a, tangent.a, share), twist_sum(normal.b, tangent.b, share)};
+    return (Jacobian){twist_plus(normal.a, tangent.a, share), twist_plus(normal.b, tangent.b, share)};
 }
 
 // Velocities without the impulses that Chipmunk gave to the rows.
@@ -426,7 +426,7 @@ static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *ve
     Twist *begun = TAKE(arena, Twist, island->body_count), *straight = TAKE(arena, Twist, island->body_count);
     Pose *halfway = TAKE(arena, Pose, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
-        straight[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
+        straight[body] = twist_plus(velocities[body], solution->changes[body], 1.0);
         halfway[body] = moved(solve->poses[body], straight[body], solve->dt / 2.0);
         begun[body] = body_of(island->engine[body])->scratch.twist;
     }
@@ -450,7 +450,7 @@ static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *ve
     }
     refine(&solve->system, &rows->problem, solution, arena);
     for (int body = 0; body < island->body_count; body++) {
-        velocities[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
+        velocities[body] = twist_plus(velocities[body], solution->changes[body], 1.0);
     }
 }
 

@@ -80,34 +80,30 @@ Media media_of(World *world, double ahead) {
 // Drag
 
 // Add to D a weight of B'B, where B has the columns x, y and `turn`: how a point moves with the body.
-static void add_moving_point(Symmetric *sum, double weight, Vec turn, double square) {
-    sum->xx += weight;
-    sum->yy += weight;
-    sum->xw += weight * turn.x;
-    sum->yw += weight * turn.y;
-    sum->ww += weight * square;
+static void add_moving_point(Drag *sum, double weight, Vec turn, double square) {
+    sum->linear += weight;
+    sum->turning = add(sum->turning, scaled(turn, weight));
+    sum->angular += weight * square;
 }
 
-static void add_linear_side(Symmetric *sum, double weight, Side side) {
+static void add_linear_side(Drag *sum, double weight, Side side) {
     Vec edge = sub(side.end, side.begin), middle = scaled(add(side.begin, side.end), 0.5);
     double square = dot(middle, middle) + dot(edge, edge) / 12.0;
     add_moving_point(sum, weight * length(edge), perpendicular(middle), square);
 }
 
-static void add_linear_bow(Symmetric *sum, double weight, Bow bow) {
+static void add_linear_bow(Drag *sum, double weight, Bow bow) {
     double turn = bow.to - bow.from, r = bow.radius;
     Vec rim = {sin(bow.to) - sin(bow.from), cos(bow.from) - cos(bow.to)}; // integral of the unit vector
     double square = (dot(bow.center, bow.center) + r * r) * turn + 2.0 * r * dot(bow.center, rim);
-    sum->xx += weight * r * turn;
-    sum->yy += weight * r * turn;
-    sum->xw -= weight * r * (bow.center.y * turn + r * rim.y);
-    sum->yw += weight * r * (bow.center.x * turn + r * rim.x);
-    sum->ww += weight * r * square;
+    sum->linear += weight * r * turn;
+    sum->turning = add(sum->turning, scaled(perpendicular(add(scaled(bow.center, turn), scaled(rim, r))), weight * r));
+    sum->angular += weight * r * square;
 }
 
 // The part of a side that faces the flow: its normal velocity f and that by turning q are linear along it, so that the
 // integrals of f, f q and f q² are exact by Gauss's rule of two points.
-static void add_quadratic_side(Symmetric *sum, double weight, Side side, Twist flow) {
+static void add_quadratic_side(Drag *sum, double weight, Side side, Twist flow) {
     Vec edge = sub(side.end, side.begin);
     double size = length(edge);
     if (size <= 0.0) {
@@ -135,7 +131,7 @@ static double facing_up_to(double angle) {
     return 2.0 * turns + (rest < pi ? 1.0 - cos(rest) : 2.0);
 }
 
-static void add_quadratic_bow(Symmetric *sum, double weight, Bow bow, Twist flow) {
+static void add_quadratic_bow(Drag *sum, double weight, Bow bow, Twist flow) {
     Vec velocity = velocity_at(flow, bow.center);
     double speed = length(velocity), along = atan2(velocity.y, velocity.x);
     double width = bow.radius * (facing_up_to(bow.to - along) - facing_up_to(bow.from - along));
@@ -143,8 +139,8 @@ static void add_quadratic_bow(Symmetric *sum, double weight, Bow bow, Twist flow
 }
 
 // The matrix D of a part of a body that moves through a medium with a twist.
-static Symmetric resistance_of(const Immersion *wet, const Region *medium, Twist flow) {
-    Symmetric sum = {0};
+static Drag drag_of(const Immersion *wet, const Region *medium, Twist flow) {
+    Drag sum = {0};
     double linear = 3.0 * medium->viscosity, quadratic = 0.5 * medium->drag * medium->density;
     for (int number = 0; number < wet->side_count && linear > 0.0; number++) {
         add_linear_side(&sum, linear, wet->sides[number]);
@@ -161,27 +157,34 @@ static Symmetric resistance_of(const Immersion *wet, const Region *medium, Twist
     return sum;
 }
 
-static Symmetric symmetric_sum(Symmetric a, Symmetric b) {
-    return (Symmetric){a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.xw + b.xw, a.yw + b.yw, a.ww + b.ww};
+static Drag drag_sum(Drag a, Drag b, double share) {
+    return (Drag){a.linear + b.linear * share, add(a.turning, scaled(b.turning, share)), a.angular + b.angular * share};
 }
 
-static Symmetric symmetric_scaled(Symmetric d, double share) {
-    return (Symmetric){d.xx * share, d.xy * share, d.yy * share, d.xw * share, d.yw * share, d.ww * share};
+static Twist drag_at(Drag d, Twist twist) {
+    return (Twist){add(scaled(twist.v, d.linear), scaled(d.turning, twist.w)),
+                   dot(d.turning, twist.v) + d.angular * twist.w};
 }
 
-static Twist symmetric_product(Symmetric d, Twist twist) {
+static Twist symmetric_product(Symmetric s, Twist twist) {
     return (Twist){
-        {d.xx * twist.v.x + d.xy * twist.v.y + d.xw * twist.w, d.xy * twist.v.x + d.yy * twist.v.y + d.yw * twist.w},
-        d.xw * twist.v.x + d.yw * twist.v.y + d.ww * twist.w};
+        {s.xx * twist.v.x + s.xy * twist.v.y + s.xw * twist.w, s.xy * twist.v.x + s.yy * twist.v.y + s.yw * twist.w},
+        s.xw * twist.v.x + s.yw * twist.v.y + s.ww * twist.w};
 }
 
-// The inverse of M + D, which is positive definite.
-static Symmetric inverse_with(Symmetric d, double mass, double moment) {
-    double a = mass + d.xx, b = mass + d.yy, c = moment + d.ww;
-    Symmetric cofactor = {b * c - d.yw * d.yw,    d.yw * d.xw - d.xy * c, a * c - d.xw * d.xw,
-                          d.xy * d.yw - b * d.xw, d.xy * d.xw - a * d.yw, a * b - d.xy * d.xy};
-    double determinant = a * cofactor.xx + d.xy * cofactor.xy + d.xw * cofactor.xw;
-    return symmetric_scaled(cofactor, 1.0 / determinant);
+// The inverse of M + D t, which is positive definite: cofactors by determinant.
+static Symmetric inverse_with(Drag drag, double time, const cpBody *engine) {
+    double m = engine->m + drag.linear * time, i = engine->i + drag.angular * time;
+    Vec turning = scaled(drag.turning, time);
+    Symmetric cofactor = {.xx = m * i - turning.y * turning.y,
+                          .xy = turning.y * turning.x,
+                          .yy = m * i - turning.x * turning.x,
+                          .xw = -m * turning.x,
+                          .yw = -m * turning.y,
+                          .ww = m * m};
+    double share = 1.0 / (m * cofactor.xx + turning.x * cofactor.xw);
+    return (Symmetric){cofactor.xx * share, cofactor.xy * share, cofactor.yy * share,
+                       cofactor.xw * share, cofactor.yw * share, cofactor.ww * share};
 }
 
 // Where in a time the velocity is taken that drag is of, 1/2 .. 1, by the share that drag would take of a velocity.
@@ -211,28 +214,26 @@ static void add_drag(FluidForce *fluid, const Share *shares, int count, Twist tw
     for (int number = 0; number < count; number++) {
         const Share *share = shares + number;
         if (resists(share->medium)) {
-            Symmetric d = resistance_of(&share->wet, share->medium, twist_sum(twist, share->current, -1.0));
-            fluid->steady = twist_sum(fluid->steady, symmetric_product(d, share->current), share->sign);
-            fluid->resistance = symmetric_sum(fluid->resistance, symmetric_scaled(d, share->sign));
+            Drag drag = drag_of(&share->wet, share->medium, twist_plus(twist, share->current, -1.0));
+            fluid->steady = twist_plus(fluid->steady, drag_at(drag, share->current), share->sign);
+            fluid->drag = drag_sum(fluid->drag, drag, share->sign);
             fluid->has_drag = true;
         }
     }
 }
 
 static void fit_drag(FluidForce *fluid, const cpBody *engine, double lapse) {
-    const Symmetric *d = &fluid->resistance;
-    double most = greatest(greatest(d->xx, d->yy) * engine->m_inv, d->ww * engine->i_inv);
+    double most = greatest(fluid->drag.linear * engine->m_inv, fluid->drag.angular * engine->i_inv);
     double time = lapse * fitted(lapse * greatest(most, 0.0));
-    fluid->inverse = inverse_with(symmetric_scaled(*d, time), engine->m, engine->i);
+    fluid->inverse = inverse_with(fluid->drag, time, engine);
 }
 
 // The twist that a body in free flight has after a time, by implicit Euler with the drag of a guess of that twist.
 static Twist twist_after(FluidForce fluid, const Share *shares, int count, const Flight *flight, const cpBody *engine) {
     add_drag(&fluid, shares, count, flight->guess);
-    Symmetric inverse = inverse_with(symmetric_scaled(fluid.resistance, flight->ahead), engine->m, engine->i);
-    Twist all =
-        twist_sum(twist_sum(fluid.steady, flight->others, 1.0), symmetric_product(fluid.resistance, flight->now), -1.0);
-    return twist_sum(flight->now, symmetric_product(inverse, all), flight->ahead);
+    Symmetric inverse = inverse_with(fluid.drag, flight->ahead, engine);
+    Twist all = twist_plus(twist_plus(fluid.steady, flight->others, 1.0), drag_at(fluid.drag, flight->now), -1.0);
+    return twist_plus(flight->now, symmetric_product(inverse, all), flight->ahead);
 }
 
 // A disc around a body, and how many basins are found that it reaches.
@@ -290,12 +291,12 @@ FluidForce fluid_force(World *world, const Media *media, Body *body, Pose pose, 
     }
     FluidForce fluid = {.found = true};
     for (int number = 0; number < count; number++) {
-        fluid.steady = twist_sum(fluid.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
+        fluid.steady = twist_plus(fluid.steady, buoyancy_on(shares + number, world->space->gravity), 1.0);
     }
     Twist guess = flight->guess;
     if (flight->free && count > 0) {
         Twist after = twist_after(fluid, shares, count, flight, body->engine);
-        guess = twist_sum(guess, twist_sum(after, guess, -1.0), 0.5);
+        guess = twist_plus(guess, twist_plus(after, guess, -1.0), 0.5);
     }
     add_drag(&fluid, shares, count, guess);
     if (fluid.has_drag) {
@@ -320,8 +321,8 @@ Twist mean_fluid_force(const FluidForce *fluid, const cpBody *engine, Twist twis
         return fluid->steady;
     }
     // M a = others + steady - D (q + a t), solved for the acceleration a.
-    Twist all = twist_sum(twist_sum(fluid->steady, others, 1.0), symmetric_product(fluid->resistance, twist), -1.0);
+    Twist all = twist_plus(twist_plus(fluid->steady, others, 1.0), drag_at(fluid->drag, twist), -1.0);
     Twist acceleration = symmetric_product(fluid->inverse, all);
     Twist force = {scaled(acceleration.v, engine->m), acceleration.w * engine->i};
-    return twist_sum(force, others, -1.0);
+    return twist_plus(force, others, -1.0);
 }

@@ -26,15 +26,23 @@ typedef struct Media {
     Twist wind;
 } Media;
 
+// The matrix D of velocity x, velocity y and spin by which drag slows a body: drag has no direction of its own, so that
+// D is linear * v + turning * w, and turning . v + angular * w.
+typedef struct Drag {
+    double linear;  // [N s/m]
+    Vec turning;    // [N s]
+    double angular; // [N m s]
+} Drag;
+
 // A symmetric matrix of velocity x, velocity y and spin.
 typedef struct Symmetric {
-    double xx, xy, yy, xw, yw, ww; // [N s/m, N s, N m s]
+    double xx, xy, yy, xw, yw, ww;
 } Symmetric;
 
 // The force of the media on a body: steady - D q, of its twist q.
 typedef struct FluidForce {
-    Twist steady;         // buoyancy, and the drag of what flows [N, N m]
-    Symmetric resistance; // D
+    Twist steady; // buoyancy, and the drag of what flows [N, N m]
+    Drag drag;    // D
     bool has_drag;
     Symmetric inverse; // of M + D t, with the time t after which the velocity counts
     bool found;        // in this step

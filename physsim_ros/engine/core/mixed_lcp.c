@@ -8,6 +8,7 @@
 // Method: block principal pivoting (J. J. Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale
 // strictly monotone linear complementarity problems", Computers & Operations Research 1994): all rows on the wrong side
 // change it at once, as long as their count falls; else the one that is furthest on it does.
+// Scope: many rows, sparse; `lcp.c` solves the few of an impact.
 
 #include "mixed_lcp.h"
 
@@ -172,7 +173,7 @@ void refine(System *system, const Problem *problem, Solution *solution, Arena *a
             solution->impulses[row] += impulses[row];
         }
         for (int body = 0; body < system->body_count; body++) {
-            solution->changes[body] = twist_sum(solution->changes[body], changes[body], 1.0);
+            solution->changes[body] = twist_plus(solution->changes[body], changes[body], 1.0);
         }
     } else {
         solve_drawn(system, problem, solution, arena);

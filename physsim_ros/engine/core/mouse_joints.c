@@ -63,7 +63,7 @@ static void pull_body(World *world, Body *body, const Grip *grips, int count) {
     // Chipmunk moves bodies first, and accelerates them then.
     Twist twist = twist_of(body->engine);
     Pose pose = moved(pose_of(body->engine), twist, world->dt);
-    twist = twist_sum(twist_scaled(twist, world->own->kept), body->state.lead, 2.0);
+    twist = twist_plus(twist_scaled(twist, world->own->kept), body->scratch.lead, 2.0);
     Rotation by = rotation(pose.yaw);
     Softness soft = softness(world->dt);
     for (int number = 0; number < count; number++) {

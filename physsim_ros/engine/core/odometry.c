@@ -51,7 +51,7 @@ void reckon_odometry(World *world) {
             measured = scaled(travel, share);
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
-        robot->state.travel = twist_sum(robot->state.travel, robot->mean, world->dt);
+        robot->state.travel = twist_plus(robot->state.travel, robot->mean, world->dt);
         Pose before = robot->state.odometry;
         robot->state.odometry = reckoned(before, measured, turn + drift);
         if (robot->noise != NULL) {

@@ -22,14 +22,6 @@
 // The cosine of the angle from the direction that others pass in, up to which a contact is on top of a body: 78°.
 static const double least_rise = 0.2;
 
-bool is_one_way(const Body *body) {
-    return body->one_way.x != 0.0 || body->one_way.y != 0.0;
-}
-
-bool is_of_one_way(const cpArbiter *arbiter) {
-    return is_one_way(body_of(arbiter->body_a)) || is_one_way(body_of(arbiter->body_b));
-}
-
 static bool has_load(const cpArbiter *arbiter) {
     bool loaded = false;
     for (int number = 0; number < arbiter->count; number++) {

@@ -10,8 +10,13 @@
 void find_passing(World *world);
 bool passes(const World *world, const cpArbiter *arbiter);
 
-bool is_one_way(const Body *body);
-bool is_of_one_way(const cpArbiter *arbiter);
+static inline bool is_one_way(const Body *body) {
+    return body->one_way.x != 0.0 || body->one_way.y != 0.0;
+}
+
+static inline bool is_of_one_way(const cpArbiter *arbiter) {
+    return is_one_way(body_of(arbiter->body_a)) || is_one_way(body_of(arbiter->body_b));
+}
 
 // Whether a contact of two shapes, one of them of a one-way body, carried a load in the sub-step before.
 bool was_loaded(const World *world, const cpShape *a, const cpShape *b);

@@ -24,7 +24,7 @@
 #include "touch.h"
 
 static Vec acceleration(const World *world, const Body *body) {
-    return scaled(body->state.lead.v, 2.0 / world->dt);
+    return scaled(body->scratch.lead.v, 2.0 / world->dt);
 }
 
 // The velocity at which two bodies part in a point, as the step begins, and the acceleration of that.
@@ -119,14 +119,14 @@ double remaining_time(const Body *a, const Body *b) {
 
 Twist displacement_gained(const Body *body, Twist after, double remaining, double dt) {
     double ahead = body->scratch.bounces ? remaining / dt + 1.0 : 0.0;
-    Twist mean = twist_sum(after, body->state.lead, -ahead);
-    return twist_sum((Twist){0}, twist_sum(mean, body->scratch.twist, -1.0), remaining);
+    Twist mean = twist_plus(after, body->scratch.lead, -ahead);
+    return twist_plus((Twist){0}, twist_plus(mean, body->scratch.twist, -1.0), remaining);
 }
 
 void set_remaining_move(Body *body, Twist gained) {
     // Continuous collision has had it move with what it met.
-    Twist kept = twist_sum(body->scratch.carried, body->scratch.twist, -body->scratch.remaining);
-    body->scratch.remaining_move = twist_sum(gained, kept, -1.0);
+    Twist kept = twist_plus(body->scratch.carried, body->scratch.twist, -body->scratch.remaining);
+    body->scratch.remaining_move = twist_plus(gained, kept, -1.0);
     body->scratch.has_remaining_move = true;
 }
 

@@ -34,7 +34,7 @@ static bool moves_on(const Body *body) {
     if (most_of(body->scratch.under) > 0.0 || body->scratch.stirred) {
         return true;
     }
-    double slowest = body->on_spring || body->scratch.afloat ? rest_speed : INFINITY;
+    double slowest = body->ties.on_spring || body->scratch.afloat ? rest_speed : INFINITY;
     return (body->state.free && most_of(now) > 0.0) || most_of(now) > slowest;
 }
 

@@ -23,7 +23,7 @@ static void mark_sprung(World *world) {
     bool *swings = TAKE(&world->own->arena, bool, world->body_count);
     bool *turns = TAKE(&world->own->arena, bool, world->body_count);
     for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].on_spring = false;
+        world->bodies[place].ties.on_spring = false;
     }
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
@@ -41,7 +41,7 @@ static void mark_sprung(World *world) {
                 int root = root_of(parents, ends[end]);
                 hangs[root] = hangs[root] || !world->bodies[ends[1 - end]].dynamic;
                 swings[root] = swings[root] || elastic;
-                body->on_spring = body->on_spring || elastic;
+                body->ties.on_spring = body->ties.on_spring || elastic;
             }
         }
     }
@@ -51,8 +51,8 @@ static void mark_sprung(World *world) {
     }
     for (int place = 0; place < world->body_count; place++) {
         int root = root_of(parents, place);
-        world->bodies[place].sprung = hangs[root] && swings[root];
-        world->bodies[place].motored = hangs[root] && turns[root];
+        world->bodies[place].ties.sprung = hangs[root] && swings[root];
+        world->bodies[place].ties.motored = hangs[root] && turns[root];
     }
 }
 
@@ -104,7 +104,7 @@ static void push_ends(const Spring *spring, double impulse, const bool *pulled, 
     int ends[2] = {spring->joint->a, spring->joint->b};
     for (int end = 0; end < 2; end++) {
         if (pulled[ends[end]]) {
-            changes[ends[end]] = twist_sum(changes[ends[end]], spring->units[end], impulse);
+            changes[ends[end]] = twist_plus(changes[ends[end]], spring->units[end], impulse);
         }
     }
 }
@@ -124,7 +124,7 @@ void pull_springs(World *world, const bool *pulled, Twist *changes, double lapse
         int ends[2] = {spring->joint->a, spring->joint->b};
         Twist twists[2];
         for (int end = 0; end < 2; end++) {
-            twists[end] = twist_sum(true_twist(world->bodies[ends[end]].engine), changes[ends[end]], 1.0);
+            twists[end] = twist_plus(true_twist(world->bodies[ends[end]].engine), changes[ends[end]], 1.0);
         }
         double speed = link_rate(spring->jacobian, (Ends){0, 1}, twists);
         double unit = link_rate(spring->jacobian, (Ends){0, 1}, spring->units);

@@ -72,7 +72,7 @@ void correct_first_touches(World *world);
 void set_overlap_biases(World *world);
 void move_belts(World *world);
 void order_points(World *world);
-void bound_loads(World *world);
+void list_load_bounds(World *world);
 void time_impacts(World *world);
 void defer_contacts(World *world);
 void damp_steep_friction(World *world);
@@ -97,7 +97,7 @@ void measure_drawn_joints(World *world);
 // Add to what joints report: their impulses, and those by which gaps were closed.
 void report_joint_impulses(World *world);
 void report_joint_closings(World *world);
-void find_broken(World *world);
+void find_broken_joints(World *world);
 
 // Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).
 void find_free(World *world);

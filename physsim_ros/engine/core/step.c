@@ -9,7 +9,6 @@
 static void begin_body(Body *body) {
     assert(body_of(body->engine) == body);
     body->scratch.begin = pose_of(body->engine);
-    body->scratch.twist = twist_of(body->engine);
     body->scratch.carried = body->scratch.remaining_move = (Twist){0};
     body->scratch.remaining = body->scratch.since = 0.0;
     body->scratch.bounces = body->scratch.has_remaining_move = false;
@@ -27,12 +26,13 @@ static void begin_sleepers(Body *const *bodies, int count) {
     for (int number = 0; number < count; number++) {
         if (sleeps(bodies[number])) {
             begin_body(bodies[number]);
+            bodies[number]->scratch.twist = twist_of(bodies[number]->engine);
             bodies[number]->state.free = false;
         }
     }
 }
 
-// Note the velocities that the sub-step begins with, and what requests did to bodies before it.
+// Note the velocities that Chipmunk's step begins with, and what requests did to bodies before it.
 static void save_start(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
@@ -67,7 +67,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     set_overlap_biases(world);
     move_belts(world);
     order_points(world);
-    bound_loads(world);
+    list_load_bounds(world);
     time_impacts(world);
     defer_contacts(world);
     damp_steep_friction(world);
@@ -177,7 +177,7 @@ static bool begin_step(World *world, CallTime *time) {
 }
 
 static void end_step(World *world) {
-    find_broken(world);
+    find_broken_joints(world);
     find_lost(world);
     world->step++;
     world->age++;

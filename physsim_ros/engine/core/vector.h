@@ -73,7 +73,8 @@ static inline Vec velocity_at(Twist twist, Vec arm) {
     return (Vec){twist.v.x - twist.w * arm.y, twist.v.y + twist.w * arm.x};
 }
 
-static inline Twist twist_sum(Twist a, Twist b, double share) {
+// a + share * b.
+static inline Twist twist_plus(Twist a, Twist b, double share) {
     return (Twist){add(a.v, scaled(b.v, share)), a.w + b.w * share};
 }
 

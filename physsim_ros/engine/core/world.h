@@ -118,7 +118,7 @@ static inline Twist twist_of(const cpBody *body) {
 
 // The velocity of a body without its half-step lead, before the engine has solved.
 static inline Twist true_twist(const cpBody *body) {
-    Twist lead = body_of(body)->state.lead, twist = twist_of(body);
+    Twist lead = body_of(body)->scratch.lead, twist = twist_of(body);
     bool flies = body_of(body)->state.free;
     return flies ? (Twist){{twist.v.x - lead.v.x, twist.v.y - lead.v.y}, twist.w - lead.w} : twist;
 }

@@ -242,7 +242,6 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         each.ends.at_a,
         each.ends.at_b,
         (seat.ux, seat.uy),
-        seat.length if joint.kind.schema.rolls else joint.number('ratio'),
         math.inf if most is None else most * dt * lib.SUB_STEPS,
         joint.kind.schema.has_axis,
         joint.kind in _PRESSING,
@@ -276,7 +275,8 @@ def _rows_of(each: EngineJoint, damping: float, dt: float) -> _Rows:
             most = math.inf if greatest is None else greatest * dt * abs(row.above)
             spring = (each.joint.stiffness, damping) if row.law == lib.LAW_SPRING else (0.0, 0.0)
             bounds = row.lower, row.upper, row.below, row.above, most, row.rate, *row.reach
-            fields = (row.kind, row.law, number, component, *bounds, row.offset, *spring)
+            geometry = row.offset, row.ratio
+            fields = (row.kind, row.law, number, component, *bounds, *geometry, *spring)
             rows.append((fields, row.guides))
     return rows
 

@@ -64,6 +64,7 @@ class Row(NamedTuple):
     :ivar most: its greatest force [N, N m]; None is that of the joint
     :ivar reach: least and greatest upper bound that such a rate leads to [m]
     :ivar offset: of a path, the length that is added to it [m]
+    :ivar ratio: of an angle; of a rack, the radius of its pinion [m]
     :ivar guides: what it passes, its ends among them, or the carrier of a gear
     """
 
@@ -77,6 +78,7 @@ class Row(NamedTuple):
     most: float | None = None
     reach: tuple[float, float] = (0.0, math.inf)
     offset: float = 0.0
+    ratio: float = 1.0
     guides: tuple[EngineGuide, ...] = ()
 
 
@@ -149,8 +151,8 @@ def _turn(joint: Joint, ends: Ends) -> Part:
 
 def _angle_row(joint: Joint) -> Row:
     """Return the row of ratio yaw_b - yaw_a = phase."""
-    phase, share = joint.seat.phase, 1.0 / joint.number('ratio')
-    return Row(lib.ROW_ANGLE, phase, phase, share, share)
+    phase, ratio = joint.seat.phase, joint.number('ratio')
+    return Row(lib.ROW_ANGLE, phase, phase, 1.0 / ratio, 1.0 / ratio, ratio=ratio)
 
 
 def _weld(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -358,7 +360,7 @@ def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 def _rack(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """Return a displacement along a rack, and the same along the rim of its pinion."""
     met = -joint.seat.length * joint.seat.phase
-    return (_own(lib.PART_DRIVE, ends, Row(lib.ROW_ROLL, met, met)),)
+    return (_own(lib.PART_DRIVE, ends, Row(lib.ROW_ROLL, met, met, ratio=joint.seat.length)),)
 
 
 KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
