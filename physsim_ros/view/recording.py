@@ -20,11 +20,12 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.view import arrows, bodies, events, robots, time_track
 from physsim_ros.view.frame_batch import Change, FrameBatch, RECORDED, RecordedClock, Track
+from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.joints import Joints
 from physsim_ros.view.plots import plot_views, Plots
 from physsim_ros.view.preview import PreviewLines
 from physsim_ros.view.scenery import CAMERA, HEIGHT, PAPER, Scenery, WIDTH
-from physsim_ros.view.stream import FrameContext, send_blueprint
+from physsim_ros.view.stream import send_blueprint
 import rerun as rr
 import rerun.blueprint as rrb
 
