@@ -8,7 +8,7 @@
 // Method: the island has the greatest share of its bounces with which its impulses do no work. After an impact motors
 // press on for the rest of the step, as weights do (`rest_of_step.c`).
 // Cost: none without bounces; with them two solutions, and two more where motors drive.
-// Without it laws 33 and 34 (random machines and crowds) fail.
+// Without it law 17 (balls on rods between elastic walls) fails.
 
 #include "joint_bounces.h"
 
