@@ -1,13 +1,13 @@
-# `make` alone lists the targets. ARGS='...' is handed on to the program that a target runs.
+# `make` alone lists the targets. A target hands ARGS='...' on to the program that it runs.
 #
-# What it needs: Linux, make, and a Python of 3.11 or later with venv. It builds .venv beside this file and changes
-# nothing else. Where ROS 2 Jazzy is sourced, that is used; everywhere else Jazzy comes as wheels.
+# It needs Linux, make, and Python 3.11 or later with venv. It builds .venv beside this file and changes nothing else.
+# If ROS 2 Jazzy is sourced, it uses that; otherwise it installs Jazzy as wheels.
 
 SHELL := /bin/bash
 VENV := .venv
 BIN := $(VENV)/bin
 
-# ROS counts as sourced where its own Python imports it; a ROS_DISTRO left behind alone does not.
+# ROS counts as sourced if the machine's Python imports it. ROS_DISTRO alone may be left over from another shell.
 SOURCED := $(shell [ "$$ROS_DISTRO" = jazzy ] && python3 -c 'import rclpy' 2>/dev/null && echo yes)
 
 ifeq ($(SOURCED),yes)
@@ -32,19 +32,19 @@ endif
 # The core of the engine.
 CORE := $(wildcard physsim_ros/engine/core/*.[ch])
 BUILT := $(VENV)/.core-is-built
-# Python writes into it when the core is first loaded: the folder of the core would then look changed.
+# Python makes this folder when the core is first loaded, which changes the time of the folder of the core.
 CACHE := physsim_ros/engine/core/__pycache__
-# What the tests and tools need beside it.
+# The stamp of the packages that tests and tools need.
 TOOLS := $(VENV)/.with-tools
-# Of the C library, which clang-tidy wants and a machine without a compiler has not.
+# clang-tidy needs the headers of the C library, which a machine without a compiler may lack.
 HEADER := /usr/include/stdlib.h
 CHECKED := $(CORE) $(wildcard tools/sanitize/*.c test/engine/core/*.[ch])
-# When clang-tidy found nothing in a file.
+# A stamp for each file in which clang-tidy has found nothing.
 TIDY := $(patsubst %,$(VENV)/.tidy/%,$(filter %.c,$(CHECKED)))
-# How it is compiled where only mistakes are looked for.
+# The options of compilers that only check the core.
 STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core -DCORE_SOURCES='""'
 
-# TypeScript's checker, for the types in the comments of the page.
+# TypeScript checks the types that stand in comments of the page's scripts.
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
@@ -64,23 +64,23 @@ run: $(BUILT)  ## start the demo world and print the address of its page
 	@echo '  ros2      topics and services under /physsim'
 	@exec $(BIN)/physsim --ros-args -p world_file:=demo -p sketchpad:=serve $(ARGS)
 
-# Pupils of a class, and the address at which they reach it.
+# The number of pupils of a class, and the address at which they reach it.
 PUPILS ?= 20
 ADDRESS ?= 0.0.0.0
 
 class: $(BUILT)  ## start a world for each of PUPILS=20 pupils, open to the network
 	@exec $(BIN)/physsim_class --pupils $(PUPILS) --address $(ADDRESS) --ros-args -p world_file:=free_fall -p speed:=0.0 $(ARGS)
 
-# A worker that a test takes down is replaced, but not without end.
+# pytest replaces a worker that a test has ended, at most four times.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4
 
-test: $(TOOLS)  ## run all tests but the slow ones: four minutes
+test: $(TOOLS)  ## run all tests but the slow ones
 	$(PYTEST) -m 'not slow' $(ARGS)
 
 test-all: $(TOOLS)  ## run every test: a quarter of an hour
 	$(PYTEST) $(ARGS)
 
-# Side by side; ament's checks take a minute the first time, then look only at files that have changed.
+# The checks run side by side. Those of ament take a minute the first time, and then check only changed files.
 LINTS := lint-ruff lint-mypy lint-imports lint-style lint-core lint-page
 .PHONY: $(LINTS)
 lint: $(TOOLS)  ## check style, types, imports, links of documents and the core in C
@@ -102,7 +102,7 @@ lint-core:
 	else $(MAKE) --no-print-directory --keep-going $(TIDY); fi
 	@if command -v gcc >/dev/null; then gcc -fsyntax-only -O2 $(STRICT) $(filter %.c,$(CHECKED)); \
 	else echo 'gcc is not installed: the core is not checked for what it warns of.'; fi
-# clang-tidy takes seconds a file: it looks at those that have changed, and at all where a header has.
+# clang-tidy takes seconds for a file, so it checks only changed files, and all if a header has changed.
 $(TIDY): $(VENV)/.tidy/%: % $(filter %.h,$(CHECKED)) .clang-tidy
 	$(BIN)/clang-tidy --quiet $< -- $(STRICT)
 	@mkdir -p $(@D) && touch $@
@@ -113,16 +113,17 @@ lint-page:
 tables: $(BUILT)  ## write anew what docs/ and config/ repeat from the code
 	$(BIN)/python -m tools.tables
 
-# With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
+# The core is compiled with AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES is 200 by default; ARGS chooses
+# other tests.
 sanitize: $(TOOLS)  ## run laws and random histories with memory checks in the core
 	$(BIN)/python -m tools.sanitize $(ARGS)
 
-# Of the tests of `make test`, unless ARGS names others.
+# The tests are those of `make test`, unless ARGS names others.
 coverage: $(TOOLS)  ## count the lines of Python and C that the tests run
 	$(BIN)/python -m tools.coverage $(ARGS)
 
-# With SEED=0 and COUNT=40 unless they are given; ONLY=10:20 tries a part of them, ARGS='engine/core/floor' files whose
-# path begins so.
+# SEED is 0 and COUNT is 40 by default. ONLY=10:20 tries a part of the mutations, and ARGS='engine/core/floor' those of
+# files whose path begins so.
 mutate: $(TOOLS)  ## change forty constants and operators at random; tell which of them no test notices
 	$(BIN)/python -m tools.mutate $(ARGS)
 
@@ -135,24 +136,24 @@ ablate: $(TOOLS)  ## show what goes wrong without each stage of a step, and its 
 evaluate: $(TOOLS)  ## count how many drawn strokes are read correctly
 	$(BIN)/python -m tools.evaluation $(ARGS)
 
-# Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
+# The gallery needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
 gallery: $(TOOLS)  ## draw the pictures of README and docs anew
 	$(BIN)/python -m tools.gallery $(ARGS)
 
-# The site, from docs/ and the docstrings; any warning, as a link that leads nowhere, fails.
+# Sphinx makes the site from docs/ and the docstrings. Any warning, such as a broken link, fails.
 docs: $(VENV)/.with-docs  ## build the site of the documents, docs/_build/html
 	@rm -rf docs/api  # pages of modules that are no more
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going -j auto docs docs/_build/html $(ARGS)
 	@echo 'Open docs/_build/html/index.html'
 
-# Sphinx's linkcheck; where this machine reaches no other site, nothing is asked.
+# Sphinx's linkcheck runs only if this machine reaches other sites.
 links: $(VENV)/.with-docs  ## ask whether the addresses in the documents still answer
 	@if $(BIN)/python -c 'import socket; socket.create_connection(("www.ros.org", 443), 10)' 2>/dev/null; \
 	then $(BIN)/python -m sphinx --quiet --builder linkcheck docs docs/_build/links $(ARGS); \
 	else echo 'www.ros.org does not answer: links to other sites are not checked.'; fi
 
-# With BUMP=patch, minor or major, of a new version: of package.xml, setup.py and the changelog, committed and tagged, not
-# pushed. Without it nothing but dist/ changes, and the workflow tries that.
+# BUMP=patch, minor or major raises the version in package.xml, setup.py and the changelog, commits and tags it, and
+# pushes nothing. Without BUMP only dist/ changes; the workflow tries that for each change.
 release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/; BUMP=minor first raises the version
 	@if [ -n '$(BUMP)' ] && grep -q '\.invalid"' package.xml; then \
 	  echo 'package.xml has a placeholder in place of the address of the maintainers.' >&2; exit 1; fi
@@ -165,7 +166,7 @@ release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/;
 	$(BIN)/python -m twine check --strict dist/*.whl
 	tar --create --gzip --file dist/site.tar.gz --directory docs/_build html
 
-# MINUTES=30 and SEED=0 unless they are given.
+# MINUTES is 30 and SEED is 0 by default.
 soak: $(TOOLS)  ## disturb a world at random for MINUTES=30, SEED=0, and fail if it suffers
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary
 
@@ -173,12 +174,12 @@ clean:  ## remove .venv and all that was built
 	rm -rf $(VENV) physsim_ros/engine/core/*.so physsim_ros/engine/core/_declarations.py build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
-# The lines of pip that say what it does now; what was there already, and from where, is left out.
+# A filter of pip's output: it keeps the lines about progress and errors.
 PROGRESS := sed -u -n -E '/^ *(Collecting|Downloading|Building|Installing|Successfully|ERROR)/ s/^ *(.{1,120}).*/  \1/p'
 
-# Modules are compiled when they are first imported: most never are.
+# pip does not compile modules, because most are never imported.
 PIP = set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --no-compile --use-pep517
-# The step is compiled by the machine's compiler; where there is none, by that of a wheel of 101 MB.
+# The core is compiled by the machine's compiler, or else by that of a wheel (ziglang, 101 MB).
 COMPILER := $(shell command -v cc gcc clang)
 
 # The stamp is written last, so an interrupted installation starts over; a new setup.py is installed on top.
@@ -191,8 +192,8 @@ $(STAMP): setup.py
 	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@mkdir -p $(CACHE) && touch $@ $(BUILT)
 
-# What the package needs to run: the environment, and the core as its sources are now. The folder is newer where one was
-# renamed or is no more. pip has just compiled the core where it has made the environment: make does not look again.
+# The package runs in the environment with a core that is compiled from the present sources. The time of the folder tells
+# of sources that were renamed or deleted. If pip has just made the environment, it has compiled the core, too.
 $(BUILT): $(CORE) physsim_ros/engine/core | $(STAMP)
 	@if [ ! -e $@ ] || [ -n "$$(find $^ -maxdepth 0 -newer $@)" ]; then \
 	  $(BIN)/python setup.py --quiet build_ext --inplace && touch $@; fi

@@ -30,7 +30,7 @@ DISTANCE = 0.35
 def to_the_right(robot):
     """Return the distance of the nearest wall on the right, from the robot's middle [m]."""
     scan = np.clip(robot.scan(), 0.0, 3.5)
-    # Beam k of 36 looks 10 degrees times k to the left of ahead: right of it are 18 to 35.
+    # Beam k of 36 looks 10 degrees times k to the left of ahead: these look 220 to 320 degrees.
     return float(scan[22:33].min())
 
 

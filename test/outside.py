@@ -25,6 +25,9 @@ import pytest
 # For what a test waits for, many times what it takes, on a machine that is busy with other tests
 # [s]. It costs nothing where nothing is wrong; `LONGEST` of `conftest.py` is longer.
 PATIENCE = 100.0
+# A program of util-linux, by which another one ends with the process that has started it: a test
+# run that is killed leaves no world behind.
+ENDS_WITH_US = ('setpriv', '--pdeathsig', 'KILL')
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -85,7 +88,7 @@ class Program:
     def __init__(self, *command: object, env: dict[str, str], cwd: Path) -> None:
         self.started = time.monotonic()
         self.process = subprocess.Popen(
-            [str(word) for word in command],
+            [*ENDS_WITH_US, *(str(word) for word in command)],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

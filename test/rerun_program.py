@@ -11,14 +11,17 @@ from pathlib import Path
 import socket
 import subprocess
 
+from .outside import ENDS_WITH_US
+
 
 def rerun(*arguments: object) -> subprocess.Popen[bytes]:
     """Start the program of the wheel, which says nothing and is open to this machine alone."""
     spec = importlib.util.find_spec('rerun_cli')
     assert spec is not None
     assert spec.origin is not None
+    program = Path(spec.origin).with_name('rerun')
     return subprocess.Popen(
-        [Path(spec.origin).with_name('rerun'), '--bind=127.0.0.1', *map(str, arguments)],
+        [*ENDS_WITH_US, program, '--bind=127.0.0.1', *map(str, arguments)],
         env={**os.environ, 'CI': '1'},
         stdin=subprocess.DEVNULL,
         stdout=subprocess.DEVNULL,

@@ -17,9 +17,11 @@ from physsim_ros.simulation.past import amendment
 from physsim_ros.sketchpad import autosave, inbox, message
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.server import (
+    class_server,
     guarded,
     open_pages,
     page_socket,
+    server,
     website,
     world_handlers,
 )
@@ -66,6 +68,8 @@ PROMISES = {
     'drawing.md': [('and {:,} strokes', drawing_file.MOST_STROKES)],
     'security.md': [('at most {:,} printable characters', texts.LONGEST_WORD)],
     'page_protocol.md': [
+        ('| a message | {:g} MiB;', server.MOST_BYTES / MIB),
+        ('a request of the page of a class | {:g} KiB;', class_server.MOST_BYTES / 2**10),
         ('an uploaded world; a picture | {:g} MiB;', world_handlers.MOST_UPLOADED / MIB),
         ('Up to {:g} MiB are read', guarded.MOST_READ / MIB),
         ('levels of a message | {:,} ', message.DEEPEST),

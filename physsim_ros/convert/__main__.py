@@ -9,33 +9,25 @@ import argparse
 from collections.abc import Callable, Mapping
 from pathlib import Path
 import sys
-from typing import Any
-import zlib
 
 from physsim_ros.convert import flatland, irsim, rube, tiled
+from physsim_ros.convert.content import Content, parsed
 from physsim_ros.convert.conversion import Conversion
 from physsim_ros.files import (
     advice_on_xml,
     CONVERTED,
-    kind_of,
     load_world,
     MOST_BYTES,
     read_bytes,
 )
 from physsim_ros.model.errors import BadWorldFile, Refusal, WorldFull
-import yaml
 
-_CONVERTERS: Mapping[str, Callable[[Mapping[str, Any], Path], Conversion]] = {
+_CONVERTERS: Mapping[str, Callable[[Content, Path], Conversion]] = {
     'flatland': flatland.convert,
     'ir-sim': irsim.convert,
     'Tiled': tiled.convert,
     'R.U.B.E.': rube.convert,
 }
-# Errors of PyYAML and the converters over a file with a mistake.
-_MISTAKES = (
-    *(ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError),
-    zlib.error,
-)
 
 
 def convert(source: Path) -> Conversion:
@@ -46,19 +38,22 @@ def convert(source: Path) -> Conversion:
     :raises Refusal: it is of no kind that is converted, or has a mistake
     :raises OSError: it cannot be read
     """
-    text = read_bytes(source, MOST_BYTES).decode()
-    if advice := advice_on_xml(text):
+    text = read_bytes(source, MOST_BYTES)
+    if advice := advice_on_xml(text.decode()):
         raise Refusal(advice)
-    kind = 'any program'
+    value = parsed(text, source.name)
+    content = Content(value if isinstance(value, Mapping) else {})
+    kind = content.kind
+    if kind not in _CONVERTERS:
+        raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
     try:
-        # These programs take what a world file does not, as a key that is there twice.
-        content = yaml.safe_load(text)
-        kind = kind_of(content) if isinstance(content, Mapping) else ''
-        if kind not in _CONVERTERS:
-            raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
         return _CONVERTERS[kind](content, source.parent)
-    except _MISTAKES as error:
-        raise Refusal(f'{source.name} is no valid world of {kind}: {error!r}') from error
+    except Refusal as refusal:
+        raise Refusal(f'{source.name} is no valid world of {kind}: {refusal}') from refusal
+    except RecursionError:
+        raise Refusal(
+            f'{source.name} is no valid world of {kind}: it is nested too deep'
+        ) from None
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -77,7 +72,7 @@ def main(arguments: list[str] | None = None) -> int:
         with target.open('x', encoding='utf-8') as file:
             file.write(conversion.text())
         load_world(target)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, Refusal) as error:
+    except (OSError, UnicodeDecodeError, Refusal) as error:
         is_written = isinstance(error, BadWorldFile | WorldFull)
         written = f'{target} is written, but ' if is_written else ''
         print(f'{written}{error}', file=sys.stderr)

@@ -6,19 +6,24 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 import itertools
 import math
 import re
-from typing import Any
+from typing import NamedTuple
 
+from physsim_ros.convert.content import BadContent
 from physsim_ros.files import yaml_line
+from physsim_ros.model.checks import Within
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.shapes import Circle, Convex
+from physsim_ros.model.transform import local_to_world, Point, Pose
 
 # Greatest number of bodies: that of a world where nothing else is asked for.
 MOST_BODIES = WorldSettings().max_bodies
+# Settings of worlds that are seen from above: bodies lie on a floor that they rub on.
+SEEN_FROM_ABOVE: Mapping[str, object] = {'gravity': [0.0, 0.0], 'floor_friction': 0.6}
 # Thickness of outlines that are lines [m], and corners of a disc that becomes a polygon.
 THICKNESS = 0.05
 _CORNERS = 24
@@ -47,10 +52,10 @@ class Conversion:
         """
         Add a body; return its name, which is `<name>/<id>`.
 
-        :raises ValueError: there are too many
+        :raises BadContent: there are too many
         """
         if len(self.bodies) >= MOST_BODIES:
-            raise ValueError(f'more than {MOST_BODIES:,} bodies')
+            raise BadContent(f'there are more than {MOST_BODIES:,} bodies')
         full = _next_name(name or 'body', self._bodies_of)
         self.bodies.append({'name': full, **shape, 'at': [*at], **properties})
         return full
@@ -67,8 +72,8 @@ class Conversion:
         """Note something that is left out, or becomes something else."""
         self.left_out[sentence] += 1
 
-    def leave_out_keys(self, content: Mapping[str, object], known: Sequence[str], of: str) -> None:
-        """Note the keys of a mapping that are not known."""
+    def leave_out_keys(self, content: Iterable[str], known: Sequence[str], of: str) -> None:
+        """Note those keys of a mapping that are not known."""
         for key in content:
             if key not in known:
                 self.leave_out(f'left out: {key} of {of}')
@@ -88,53 +93,35 @@ class Conversion:
         return ''.join(lines)
 
 
-@dataclass(frozen=True, slots=True)
-class Circle:
-    """A disc of a body, in the body's frame [m]."""
-
-    radius: float
-    center: Point = (0.0, 0.0)
-
-
-@dataclass(frozen=True, slots=True)
-class Outline:
-    """A convex outline of a body, in the body's frame [m]."""
-
-    points: tuple[Point, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(NamedTuple):
     """An open line of a body, in the body's frame [m]."""
 
     points: tuple[Point, ...]
 
 
-Piece = Circle | Outline | Line
+Piece = Circle | Convex | Line
 
 
 def shape_of(pieces: Sequence[Piece], conversion: Conversion) -> tuple[dict[str, object], Point]:
     """
     Return the shape that pieces make together, and its origin in the frame of the body.
 
-    :raises ValueError: there is no piece
+    :raises BadContent: there is no piece
     """
     match pieces:
         case []:
-            raise ValueError('a body without a shape')
-        case [Circle(radius, center)]:
+            raise BadContent('there is a body without a shape')
+        case [Circle(center, radius)]:
             return {'circle': {'radius': radius}}, center
-        case [Outline(points)]:
+        case [Convex(points)]:
             return {'polygon': [list(point) for point in points]}, (0.0, 0.0)
         case [Line(points)]:
             return line_shape(points), (0.0, 0.0)
     discs = [piece for piece in pieces if isinstance(piece, Circle)]
     if len(discs) == len(pieces) and len({disc.radius for disc in discs}) == 1:
         centers = [list(disc.center) for disc in discs]
-        return {'compound': {'circle': {'radius': discs[0].radius}, 'centers': centers}}, (
-            0.0,
-            0.0,
-        )
+        compound = {'circle': {'radius': discs[0].radius}, 'centers': centers}
+        return {'compound': compound}, (0.0, 0.0)
     triangles: list[list[float]] = []
     for piece in pieces:
         if isinstance(piece, Line):
@@ -142,8 +129,8 @@ def shape_of(pieces: Sequence[Piece], conversion: Conversion) -> tuple[dict[str,
             continue
         if isinstance(piece, Circle):
             conversion.leave_out(f'a disc of a larger body has {_CORNERS} corners')
-            piece = disc_outline(piece)  # noqa: PLW2901 - the same, as corners
-        first, *rest = piece.points
+            piece = disc_outline((piece.radius, piece.radius), piece.center)  # noqa: PLW2901
+        first, *rest = piece.vertices
         for second, third in itertools.pairwise(rest):
             triangles += [list(first), list(second), list(third)]
     return {'triangles': triangles}, (0.0, 0.0)
@@ -154,37 +141,35 @@ def line_shape(points: Sequence[Point]) -> dict[str, object]:
     return {'chain': {'points': [list(point) for point in points], 'thickness': THICKNESS}}
 
 
-def disc_outline(circle: Circle, flat: float = 1.0) -> Outline:
-    """Return the outline of a disc, or of an ellipse whose height is `flat` times its width."""
-    (x, y), r = circle.center, circle.radius
+def disc_outline(radii: Point, center: Point = (0.0, 0.0)) -> Convex:
+    """Return the outline of an ellipse, by half its width and half its height [m]."""
+    (x, y), (a, b) = center, radii
     angles = [math.tau * i / _CORNERS for i in range(_CORNERS)]
-    return Outline(tuple((x + r * math.cos(a), y + flat * r * math.sin(a)) for a in angles))
+    return Convex(tuple((x + a * math.cos(each), y + b * math.sin(each)) for each in angles))
 
 
 def area_of(piece: Piece) -> float:
     """Return the area of a piece [m²]; 0 for a line."""
     match piece:
-        case Circle(radius):
+        case Circle(radius=radius):
             return math.pi * radius**2
         case Line():
             return 0.0
-        case Outline(points):
+        case Convex(points):
             following = (*points[1:], points[0])
             pairs = zip(points, following, strict=True)
             return abs(sum(x * v - u * y for (x, y), (u, v) in pairs)) / 2
 
 
-def moved(pose: Pose, point: Point) -> Point:
-    """Return a point of a body's frame in the world."""
-    x, y, yaw = pose
-    c, s = math.cos(yaw), math.sin(yaw)
-    return x + c * point[0] - s * point[1], y + s * point[0] + c * point[1]
-
-
-def composed(pose: Pose, other: Sequence[float]) -> Pose:
+def composed(pose: Pose, other: Pose) -> Pose:
     """Return a pose in the frame of another one in the world."""
-    x, y = moved(pose, (other[0], other[1]))
-    return x, y, pose[2] + (other[2] if len(other) > 2 else 0.0)
+    x, y = local_to_world(other[:2], pose)
+    return x, y, pose[2] + other[2]
+
+
+def clamped(value: float, check: Within) -> float:
+    """Return the number nearest to a value that passes a check."""
+    return min(max(value, check.low), check.high)
 
 
 def _next_name(name: str, counts: Counter[str]) -> str:
@@ -192,9 +177,3 @@ def _next_name(name: str, counts: Counter[str]) -> str:
     plain = re.sub(r'[^\w.-]+', '_', name) or 'body'
     counts[plain] += 1
     return f'{plain}/{counts[plain] - 1}'
-
-
-def pose_of(values: Any) -> Pose:
-    """Return a pose of two or three numbers."""
-    x, y, *yaw = (float(value) for value in values)
-    return x, y, yaw[0] if yaw else 0.0

@@ -12,44 +12,46 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 import math
 from pathlib import Path
-from typing import Any
 
+from physsim_ros.convert.content import BadContent, Content, load, numbers
 from physsim_ros.convert.conversion import (
-    Circle,
+    clamped,
     composed,
     Conversion,
     Line,
     line_shape,
-    moved,
-    Outline,
     Piece,
-    pose_of,
+    SEEN_FROM_ABOVE,
     shape_of,
 )
-from physsim_ros.files import MOST_BYTES, read_bytes
-from physsim_ros.model.transform import Pose
-import yaml
+from physsim_ros.model.checks import DENSITY, ELASTICITY, FRICTION
+from physsim_ros.model.shapes import Circle, Convex
+from physsim_ros.model.transform import local_to_world, Pose
 
-Content = Mapping[str, Any]
-
-# Properties of a footprint by their names here.
-_MATERIAL = {'density': 'density', 'friction': 'friction', 'elasticity': 'restitution'}
-_MOST = {'density': 1e12, 'friction': 10.0, 'elasticity': 1.0}
+# Names and ranges here of properties of a footprint.
+_MATERIAL = {
+    'density': ('density', DENSITY),
+    'friction': ('friction', FRICTION),
+    'restitution': ('elasticity', ELASTICITY),
+}
 # Kinds of joints here.
 _JOINTS = {'revolute': 'axle', 'weld': 'pin'}
 _WORLD_KEYS = ('properties', 'layers', 'models')
 _MODEL_KEYS = ('bodies', 'footprints', 'joints', 'plugins')
 # Kinds of drives here; flatland moves models by velocities, without wheels.
 _DRIVES = {'DiffDrive': 'differential', 'TricycleDrive': 'car', 'Bicycle': 'car'}
+# Rate of a laser that has none [Hz].
+_RATE = 10.0
+_ORIGIN = (0.0, 0.0, 0.0)
 
 
 def convert(content: Content, folder: Path) -> Conversion:
     """Return the world of a file of flatland, whose other files lie in its folder."""
-    conversion = Conversion(settings={'gravity': [0.0, 0.0], 'floor_friction': 0.6})
+    conversion = Conversion(settings={**SEEN_FROM_ABOVE})
     conversion.leave_out_keys(content, _WORLD_KEYS, 'the world')
-    for layer in content['layers'] or ():
+    for layer in content.entries('layers'):
         _add_layer(conversion, layer, folder)
-    for model in content['models'] or ():
+    for model in content.entries('models'):
         _add_model(conversion, model, folder)
     return conversion
 
@@ -59,12 +61,15 @@ def _add_layer(conversion: Conversion, layer: Content, folder: Path) -> None:
     if not isinstance(name, str):
         conversion.leave_out('left out: a layer without a map')
         return
-    image = _load(folder / name)
+    image = load(folder / name)
     if image.get('type') == 'line_segments':
-        scale, (x, y, *_) = float(image.get('scale', 1.0)), image.get('origin', (0.0, 0.0))
-        text = ((folder / name).parent / image['data']).read_text('utf-8')
-        for line in filter(str.strip, text.splitlines()):
-            a, b, c, d = (scale * float(word) for word in line.split()[:4])
+        scale, (x, y) = image.number('scale', 1.0), image.point('origin', (0.0, 0.0))
+        path = (folder / name).parent / image.text('data')
+        for line in filter(str.strip, path.read_text('utf-8').splitlines()):
+            found = numbers(line.split()[:4], path.name)
+            if len(found) < 4:
+                raise BadContent(f'{path.name} must have four numbers a line')
+            a, b, c, d = (scale * each for each in found)
             shape = line_shape([(x + a, y + b), (x + c, y + d)])
             conversion.add_body('wall', shape, (0.0, 0.0, 0.0), anchored=True)
     elif 'map' in conversion.settings:
@@ -74,28 +79,32 @@ def _add_layer(conversion: Conversion, layer: Content, folder: Path) -> None:
 
 
 def _add_model(conversion: Conversion, model: Content, folder: Path) -> None:
-    content = _load(folder / model['model'])
+    content = load(folder / model.text('model'))
     conversion.leave_out_keys(content, _MODEL_KEYS, 'a model')
-    pose = pose_of(model.get('pose', (0.0, 0.0, 0.0)))
-    plugins: Sequence[Content] = content.get('plugins') or ()
-    bodies: Sequence[Content] = content['bodies']
+    pose = model.pose('pose', _ORIGIN)
+    plugins, bodies = content.entries('plugins'), content.entries('bodies')
     robot = _robot_of(conversion, plugins, model) if len(bodies) == 1 else None
     if robot is None:
         for plugin in plugins:
-            conversion.leave_out(f'left out: plugin {plugin["type"]} of a model that is no robot')
+            kind = plugin.text('type')
+            conversion.leave_out(f'left out: plugin {kind} of a model that is no robot')
     names: dict[str, tuple[str, Pose]] = {}
     for body in bodies:
-        place = composed(pose, body.get('pose', (0.0, 0.0, 0.0)))
-        full = _add_body(conversion, body, place, str(model.get('name', 'model')), robot)
-        names[body['name']] = full, place
-    for joint in content.get('joints') or ():
+        place = composed(pose, body.pose('pose', _ORIGIN))
+        full = _add_body(conversion, body, place, model.text('name', 'model'), robot)
+        names[body.text('name')] = full, place
+    for joint in content.entries('joints'):
         _add_joint(conversion, joint, names)
 
 
 def _add_body(
-    conversion: Conversion, body: Content, place: Pose, model: str, robot: Content | None
+    conversion: Conversion,
+    body: Content,
+    place: Pose,
+    model: str,
+    robot: Mapping[str, object] | None,
 ) -> str:
-    prints: Sequence[Content] = body.get('footprints') or ()
+    prints = body.entries('footprints')
     solid = [each for each in prints if not _is_sensor(each)]
     if solid and len(solid) < len(prints):
         conversion.leave_out('left out: a footprint that is a sensor of a solid body')
@@ -103,54 +112,55 @@ def _add_body(
     shape, origin = shape_of([_piece_of(each) for each in prints], conversion)
     properties: dict[str, object] = {}
     first = prints[0]
-    for ours, theirs in _MATERIAL.items():
-        if theirs in first:
+    for key, (name, check) in _MATERIAL.items():
+        if key in first:
             # Box2D has no greatest friction.
-            properties[ours] = min(float(first[theirs]), _MOST[ours])
-    if properties.get('density') == 0.0:
+            properties[name] = clamped(first.number(key), check)
+    if first.get('density') == 0:
         del properties['density']
     if not solid and robot is None:
         properties['sensor'] = True
     if robot is not None:
         properties = {**properties, 'robot': robot}
-    elif body.get('type', 'dynamic') != 'dynamic':
-        properties['anchored' if body['type'] == 'static' else 'kinematic'] = True
+    elif (kind := body.text('type', 'dynamic')) != 'dynamic':
+        properties['anchored' if kind == 'static' else 'kinematic'] = True
     if 'color' in body:
-        properties['color'] = [float(value) for value in body['color']]
-    name = model if robot is not None else f'{model}_{body["name"]}'
-    return conversion.add_body(name, shape, composed(place, origin), **properties)
+        properties['color'] = body.numbers('color')
+    name = model if robot is not None else f'{model}_{body.text("name")}'
+    return conversion.add_body(name, shape, composed(place, (*origin, 0.0)), **properties)
 
 
 def _is_sensor(footprint: Content) -> bool:
-    return bool(footprint.get('sensor', footprint.get('is_sensor')))
+    return footprint.is_set('sensor' if 'sensor' in footprint else 'is_sensor')
 
 
 def _piece_of(footprint: Content) -> Piece:
-    if footprint['type'] == 'circle':
-        x, y = footprint.get('center', (0.0, 0.0))
-        return Circle(float(footprint['radius']), (float(x), float(y)))
-    points = tuple((float(x), float(y)) for x, y in footprint['points'])
-    return Outline(points) if len(points) > 2 else Line(points)
+    if footprint.text('type') == 'circle':
+        return Circle(footprint.point('center', (0.0, 0.0)), footprint.number('radius'))
+    points = tuple(footprint.points('points'))
+    return Convex(points) if len(points) > 2 else Line(points)
 
 
 def _add_joint(
     conversion: Conversion, joint: Content, names: Mapping[str, tuple[str, Pose]]
 ) -> None:
-    kind = _JOINTS.get(joint['type'])
+    kind = _JOINTS.get(joint.text('type'))
     if kind is None:
-        conversion.leave_out(f'left out: a joint {joint["type"]}')
+        conversion.leave_out(f'left out: a joint {joint.text("type")}')
         return
-    a, b = joint['bodies']
-    (name_a, pose_a), (name_b, _) = names[a['name']], names[b['name']]
-    x, y = a.get('anchor', (0.0, 0.0))
-    point = moved(pose_a, (float(x), float(y)))
+    bodies = joint.entries('bodies')
+    unknown = [each.place('name') for each in bodies if each.text('name') not in names]
+    if unknown or len(bodies) != 2:
+        raise BadContent(f'{joint.place("bodies")} must be two bodies of the model')
+    a, b = bodies
+    (name_a, pose_a), (name_b, _) = names[a.text('name')], names[b.text('name')]
     conversion.add_joint(
-        str(joint.get('name', '')),
+        joint.text('name', ''),
         kind,
-        [point],
+        [local_to_world(a.point('anchor', (0.0, 0.0)), pose_a)],
         a=name_a,
         b=name_b,
-        collide=bool(joint.get('collide_connected', False)),
+        collide=joint.is_set('collide_connected'),
     )
 
 
@@ -158,12 +168,13 @@ def _robot_of(
     conversion: Conversion, plugins: Sequence[Content], model: Content
 ) -> dict[str, object] | None:
     """Return the robot that plugins of a model make it; None without a drive."""
-    drive = next((_DRIVES[each['type']] for each in plugins if each['type'] in _DRIVES), None)
+    kinds = [each.text('type') for each in plugins]
+    drive = next((_DRIVES[kind] for kind in kinds if kind in _DRIVES), None)
     if drive is None:
         return None
     sensors: list[dict[str, object]] = []
-    for plugin in plugins:
-        kind, name = plugin['type'], str(plugin.get('topic', plugin.get('name', ''))).strip('/')
+    for kind, plugin in zip(kinds, plugins, strict=True):
+        name = plugin.text('topic', plugin.text('name', '')).strip('/')
         if kind == 'Laser':
             sensors.append(_laser_of(plugin, name or 'scan'))
         elif kind == 'Bumper':
@@ -174,26 +185,22 @@ def _robot_of(
             conversion.leave_out(f'left out: plugin {kind}')
     robot: dict[str, object] = {'drive': {'kind': drive}, 'sensors': sensors}
     if 'namespace' in model:
-        robot['namespace'] = str(model['namespace'])
+        robot['namespace'] = model.text('namespace')
     return robot
 
 
 def _laser_of(plugin: Content, name: str) -> dict[str, object]:
-    angle = plugin['angle']
-    low, high, step = (float(angle[key]) for key in ('min', 'max', 'increment'))
-    rate = float(plugin.get('update_rate', 10.0))
+    angle = plugin.entry('angle')
+    low, high = angle.number('min'), angle.number('max')
+    # Flatland's default is infinite: a scan in each of its steps.
+    is_limited = plugin.get('update_rate') != math.inf
     return {
         'kind': 'laser',
         'name': name,
-        'at': [float(value) for value in plugin.get('origin', (0.0, 0.0, 0.0))],
-        'beams': round((high - low) / step) + 1,
+        'at': [*plugin.pose('origin', _ORIGIN)],
+        'beams': round((high - low) / angle.divisor('increment')) + 1,
         'angle': [low, min(high, low + 2 * math.pi)],
-        'range': [0.0, float(plugin['range'])],
-        'rate': rate if math.isfinite(rate) else 10.0,
-        'noise': float(plugin.get('noise_std_dev', 0.0)),
+        'range': [0.0, plugin.number('range')],
+        'rate': plugin.number('update_rate', _RATE) if is_limited else _RATE,
+        'noise': plugin.number('noise_std_dev', 0.0),
     }
-
-
-def _load(path: Path) -> Content:
-    content: Content = yaml.safe_load(read_bytes(path, MOST_BYTES))
-    return content

@@ -11,27 +11,18 @@ of properties of bodies are those.
 from __future__ import annotations
 
 import base64
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 import math
 from pathlib import Path
-from typing import Any
 import zlib
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.convert.conversion import (
-    Circle,
-    Conversion,
-    disc_outline,
-    line_shape,
-    MOST_BODIES,
-    moved,
-)
+from physsim_ros.convert.content import BadContent, Content
+from physsim_ros.convert.conversion import Conversion, disc_outline, line_shape, MOST_BODIES
 from physsim_ros.files import PROPERTIES
 from physsim_ros.maps import MOST_CELLS, rectangles_of
-from physsim_ros.model.transform import Point
-
-Content = Mapping[str, Any]
+from physsim_ros.model.transform import local_to_world, Point
 
 # Window bits of zlib for data with the header of gzip or of zlib (zlib.h, `inflateInit2`).
 _ANY_HEADER = zlib.MAX_WBITS | 32
@@ -39,10 +30,10 @@ _ANY_HEADER = zlib.MAX_WBITS | 32
 
 def convert(content: Content, _folder: Path) -> Conversion:
     """Return the world of a map of Tiled."""
-    if content.get('orientation', 'orthogonal') != 'orthogonal':
-        raise ValueError(f'orientation {content["orientation"]}')
+    if (orientation := content.text('orientation', 'orthogonal')) != 'orthogonal':
+        raise BadContent(f'orientation {orientation} has no like here')
     conversion = Conversion()
-    _add_layers(conversion, content, content['layers'], (0.0, 0.0))
+    _add_layers(conversion, content, content.entries('layers'), (0.0, 0.0))
     return conversion
 
 
@@ -50,60 +41,73 @@ def _add_layers(
     conversion: Conversion, tiled: Content, layers: Sequence[Content], offset: Point
 ) -> None:
     for layer in layers:
-        place = offset[0] + layer.get('offsetx', 0.0), offset[1] + layer.get('offsety', 0.0)
-        if not layer.get('visible', True):
+        x, y = layer.number('offsetx', 0.0), layer.number('offsety', 0.0)
+        place = offset[0] + x, offset[1] + y
+        if 'visible' in layer and not layer.is_set('visible'):
             conversion.leave_out('left out: a hidden layer')
-        elif layer['type'] == 'group':
-            _add_layers(conversion, tiled, layer['layers'], place)
-        elif layer['type'] == 'objectgroup':
-            for each in layer['objects']:
-                _add_object(conversion, tiled, each, place)
-        elif layer['type'] == 'tilelayer':
-            _add_tiles(conversion, tiled, layer, place)
-        else:
-            conversion.leave_out(f'left out: a layer of type {layer["type"]}')
+            continue
+        match layer.text('type'):
+            case 'group':
+                _add_layers(conversion, tiled, layer.entries('layers'), place)
+            case 'objectgroup':
+                for each in layer.entries('objects'):
+                    _add_object(conversion, tiled, each, place)
+            case 'tilelayer':
+                _add_tiles(conversion, tiled, layer, place)
+            case other:
+                conversion.leave_out(f'left out: a layer of type {other}')
 
 
 def _add_object(conversion: Conversion, tiled: Content, each: Content, offset: Point) -> None:
-    scale = 1.0 / tiled['tilewidth']
-    if each.get('point') or 'text' in each:
+    scale = 1.0 / tiled.divisor('tilewidth')
+    if each.is_set('point') or 'text' in each:
         conversion.leave_out(f'left out: a {"text" if "text" in each else "point"}')
         return
-    width, height = (float(each.get(key, 0.0)) * scale for key in ('width', 'height'))
     # Tiled has y down, the origin of an object at its upper left corner, of a tile at its lower.
-    corner = (each['x'] + offset[0]) * scale, _up(tiled, each['y'] + offset[1])
-    pose = *corner, -math.radians(each.get('rotation', 0.0))
-    shape: dict[str, object]
-    center = 0.0, 0.0
-    if points := each.get('polygon') or each.get('polyline'):
-        places = [(point['x'] * scale, -point['y'] * scale) for point in points]
-        shape = line_shape(places) if 'polyline' in each else {'polygon': [*map(list, places)]}
-    else:
-        center = width / 2, height / 2 if 'gid' in each else -height / 2
-        if not each.get('ellipse'):
-            shape = {'box': {'width': width, 'height': height}}
-        elif math.isclose(width, height, rel_tol=0.01):
-            shape = {'circle': {'radius': width / 2}}
-        else:
-            outline = disc_outline(Circle(width / 2), flat=height / width)
-            shape = {'polygon': [list(point) for point in outline.points]}
+    corner = (each.number('x') + offset[0]) * scale, _up(tiled, each.number('y') + offset[1])
+    pose = *corner, -math.radians(each.number('rotation', 0.0))
+    shape, center = _shape_of(each, scale)
     properties: dict[str, object] = {}
-    for own in each.get('properties') or ():
-        if own['name'] in PROPERTIES:
-            properties[own['name']] = own['value']
+    for own in each.entries('properties'):
+        if (key := own.text('name')) in PROPERTIES:
+            properties[key] = own.get('value')
         else:
-            conversion.leave_out(f'left out: property {own["name"]}')
+            conversion.leave_out(f'left out: property {key}')
     if not properties.keys() & {'anchored', 'kinematic', 'mass', 'density', 'velocity', 'spin'}:
         properties['anchored'] = True
-    name = each.get('name') or each.get('class') or each.get('type') or 'object'
-    conversion.add_body(str(name), shape, (*moved(pose, center), pose[2]), **properties)
+    name = next((key for key in ('name', 'class', 'type') if each.is_set(key)), '')
+    at = *local_to_world(center, pose), pose[2]
+    conversion.add_body(each.text(name, 'object'), shape, at, **properties)
+
+
+def _shape_of(each: Content, scale: float) -> tuple[dict[str, object], Point]:
+    """
+    Return the shape of an object, and its origin from that of the object [m].
+
+    :param scale: metres a pixel
+    """
+    if key := next((key for key in ('polygon', 'polyline') if each.is_set(key)), ''):
+        points = [
+            (point.number('x') * scale, -point.number('y') * scale) for point in each.entries(key)
+        ]
+        if key == 'polyline':
+            return line_shape(points), (0.0, 0.0)
+        return {'polygon': [[x, y] for x, y in points]}, (0.0, 0.0)
+    width, height = (each.number(key, 0.0) * scale for key in ('width', 'height'))
+    center = width / 2, height / 2 if 'gid' in each else -height / 2
+    if not each.is_set('ellipse'):
+        return {'box': {'width': width, 'height': height}}, center
+    if math.isclose(width, height, rel_tol=0.01):
+        return {'circle': {'radius': width / 2}}, center
+    outline = disc_outline((width / 2, height / 2))
+    return {'polygon': [list(point) for point in outline.vertices]}, center
 
 
 def _add_tiles(conversion: Conversion, tiled: Content, layer: Content, offset: Point) -> None:
-    for chunk in layer.get('chunks') or [layer]:
-        tiles = _tiles_of(chunk, layer)
-        across, down = tiled['tilewidth'], tiled['tileheight']
-        x, y = (chunk.get(key, 0) for key in ('x', 'y'))
+    across, down = tiled.divisor('tilewidth'), tiled.divisor('tileheight')
+    for chunk in layer.entries('chunks') or [layer]:
+        tiles = _tiles_of(chunk, layer.text('compression', ''))
+        x, y = (chunk.number(key, 0.0) for key in ('x', 'y'))
         for top, left, bottom, right in rectangles_of(tiles != 0, MOST_BODIES).tolist():
             size = float(right - left), (bottom - top) * down / across
             middle = (
@@ -111,29 +115,41 @@ def _add_tiles(conversion: Conversion, tiled: Content, layer: Content, offset: P
                 _up(tiled, ((top + bottom) / 2 + y) * down + offset[1]),
             )
             box = {'box': {'width': size[0], 'height': size[1]}}
-            conversion.add_body(str(layer['name']), box, (*middle, 0.0), anchored=True)
+            conversion.add_body(layer.text('name'), box, (*middle, 0.0), anchored=True)
 
 
-def _tiles_of(chunk: Content, layer: Content) -> NDArray[np.uint32]:
+def _tiles_of(chunk: Content, compression: str) -> NDArray[np.uint32]:
     """Return the numbers of the tiles of a chunk, (rows, columns) uint32; 0 is none."""
-    data, size = chunk['data'], (chunk['height'], chunk['width'])
-    if math.prod(size) > MOST_CELLS:
-        raise ValueError(f'a layer of more than {MOST_CELLS:,} tiles')
-    if not isinstance(data, str):
-        return np.array(data, np.uint32).reshape(size)
-    packed = base64.b64decode(data)
-    match layer.get('compression', ''):
-        case '':
-            tiles = packed
-        case 'zlib' | 'gzip':
-            # A small file may unfold to gigabytes; a byte too many is an error of numpy's.
-            most = 4 * math.prod(size) + 1
-            tiles = zlib.decompressobj(_ANY_HEADER).decompress(packed, most)
-        case other:
-            raise ValueError(f'compression {other}')
-    return np.frombuffer(tiles, '<u4').reshape(size)
+    rows, columns = (max(chunk.whole(key), 0) for key in ('height', 'width'))
+    if rows * columns > MOST_CELLS:
+        raise BadContent(f'a layer has more than {MOST_CELLS:,} tiles')
+    if isinstance(data := chunk.get('data'), str):
+        packed = _unpacked(data, compression, 4 * rows * columns)
+    else:
+        numbers = np.array(chunk.numbers('data'))
+        if not ((numbers >= 0.0) & (numbers < 2.0**32)).all():
+            raise BadContent(f'{chunk.place("data")} has a number that no tile has')
+        packed = numbers.astype('<u4').tobytes()
+    if len(packed) != 4 * rows * columns:
+        raise BadContent(f'{chunk.place("data")} has no {rows} x {columns} tiles')
+    return np.frombuffer(packed, '<u4').reshape(rows, columns)
+
+
+def _unpacked(data: str, compression: str, size: int) -> bytes:
+    """Return what a text in base64 has packed: bytes, of which more than a size are cut off."""
+    try:
+        packed = base64.b64decode(data)
+        if not compression:
+            return packed
+        if compression not in {'zlib', 'gzip'}:
+            raise BadContent(f'compression {compression} has no like here')
+        # A small file may unfold to gigabytes.
+        return zlib.decompressobj(_ANY_HEADER).decompress(packed, size + 1)
+    except (ValueError, zlib.error) as error:
+        raise BadContent(f'the data of a layer cannot be read: {error}') from error
 
 
 def _up(tiled: Content, y: float) -> float:
     """Return the height above the lower edge of the map [m] of a y downward [pixels]."""
-    return float(tiled['height'] * tiled['tileheight'] - y) / float(tiled['tilewidth'])
+    height = tiled.number('height') * tiled.divisor('tileheight')
+    return (height - y) / tiled.divisor('tilewidth')

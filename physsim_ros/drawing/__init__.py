@@ -11,9 +11,10 @@ Other folders import the names below.
 
 from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.drawing.session import Check, DrawingSession, submit_reading
+from physsim_ros.drawing.session import Check, DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.stages import Reading
+from physsim_ros.drawing.submission import submit_reading
 
 __all__ = [
     'Check',

@@ -24,7 +24,8 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.geometry import connected
-from physsim_ros.model.arrays import Flags, Floats, Ints
+from physsim_ros.drawing.separating_axes import touching
+from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadSize, WorldFull
 from physsim_ros.model.shapes import (
     as_tuples,
@@ -47,16 +48,11 @@ _CORNERS = 32
 _ON_LINE = 1e-6
 # Share of the area of a body below which a piece is the rounding of a touch.
 _ROUNDING = 1e-9
-# The greatest gap between parts that touch, in shares of the smaller one's size: discs that touch
-# do so as polygons.
-_TOUCHING = 0.02
 # Greatest number of pieces of a cut, each of which is read and made in a millisecond or two.
 MOST_PIECES = 200
 # Greatest number of corners of the parts of a solid that is cut, which are compared in pairs: 500
 # boxes, or twice the triangles that a shape can have.
 MOST_CORNERS = 2000
-# Pairs of parts that are compared at once.
-_AT_ONCE = 1000
 # The greatest share of a piece in triangles that are too thin to be simulated, which are omitted.
 _SLIVERS = 1e-3
 
@@ -212,7 +208,7 @@ def _kept_together(
     """
     areas = [abs(signed_area(each)) for each in pieces]
     together = connected(_joined(pieces, start, end))
-    before = connected(_touching(parts))
+    before = connected(touching(parts))
     apart: list[list[int]] = []
     untouched: list[int] = []
     for component in before:
@@ -229,7 +225,7 @@ def _kept_together(
 
 def _joined(pieces: list[Floats], start: Floats, end: Floats) -> Flags:
     """Return which convex pieces touch elsewhere than along a cut, (n, n) bool."""
-    joined = _touching(pieces)
+    joined = touching(pieces)
     across = [_across(each, start, end) for each in pieces]
     left = np.array([each.min() >= 0.0 for each in across])
     right = np.array([each.max() <= 0.0 for each in across])
@@ -245,46 +241,6 @@ def _joined(pieces: list[Floats], start: Floats, end: Floats) -> Flags:
     apart = left[:, None] & right & ~beside
     joined[apart | apart.T] = False
     return joined
-
-
-def _touching(polygons: list[Floats]) -> Flags:
-    """Return which convex polygons overlap or touch, by separating axes, (n, n) bool."""
-    low, high = (np.array([f(each, axis=0) for each in polygons]) for f in (np.min, np.max))
-    size = norms(high - low)
-    slack = _TOUCHING * np.minimum(size[:, None], size)
-    gap = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
-    touching: Flags = gap <= slack
-    outward = [_outward(each) for each in polygons]
-    most = max(map(len, polygons))
-    # Of those with fewer, the last corner is repeated.
-    corners, normals = (
-        np.array([np.pad(each, ((0, most - len(each)), (0, 0)), 'edge') for each in found])
-        for found in (polygons, outward)
-    )
-    one, other = np.nonzero(np.triu(touching, 1))
-    for at in range(0, len(one), _AT_ONCE):
-        part = slice(at, at + _AT_ONCE)
-        a, b = one[part], other[part]
-        apart = np.maximum(_gaps(corners, normals, a, b), _gaps(corners, normals, b, a))
-        touching[a, b] = touching[b, a] = apart <= slack[a, b]
-    return touching
-
-
-def _outward(polygon: Floats) -> Floats:
-    """Return the normals of the sides of a convex polygon, (n, 2) float64."""
-    edges = next_vertices(polygon) - polygon
-    outward = np.column_stack((edges[:, 1], -edges[:, 0])) * np.sign(signed_area(polygon))
-    normals: Floats = outward / np.maximum(norms(edges), 1e-300)[:, None]
-    return normals
-
-
-def _gaps(corners: Floats, normals: Floats, a: Ints, b: Ints) -> Floats:
-    """Return the greatest distance of each polygon b from a side of its a, (p,) float64 [m]."""
-    (nx, ny), (x, y) = (np.moveaxis(each[a], 2, 0) for each in (normals, corners))
-    of_b = np.moveaxis(corners[b], 2, 0)[:, :, None, :]
-    away = (nx[:, :, None] * of_b[0] + ny[:, :, None] * of_b[1]).min(axis=2)
-    gaps: Floats = (away - (nx * x + ny * y)).max(axis=1)
-    return gaps
 
 
 def _polygon(outline: Floats) -> Polygon:

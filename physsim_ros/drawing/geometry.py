@@ -12,18 +12,15 @@ array, and leaves its arguments as they are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Iterator
 import math
-from typing import Literal, TypeVar
+from typing import Literal
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.transform import cross, dots, next_vertices, norms, Point
 
-# Rows of an array: points, or flags of points.
-_Rows = TypeVar('_Rows', Floats, Flags)
 _atan2 = np.frompyfunc(math.atan2, 2, 1)
 # The point at which two polylines cross [m], and how far along each it lies [points].
 Crossing = tuple[Floats, float, float]
@@ -111,14 +108,6 @@ def intersections(
     return [(one[i] + a * (one[i + 1] - one[i]), i + a, j + b) for i, j, a, b in places]
 
 
-def loop_roundness(points: Floats, crossing: Crossing) -> float:
-    """Return the area within the loop from a self-crossing to itself, by its length squared."""
-    at, first, last = crossing
-    loop = np.vstack((at, points[slice(int(first) + 1, int(last) + 1)], at))
-    area = abs(float(cross(loop[:-1] - at, loop[1:] - at).sum())) / 2
-    return area / path_length(loop) ** 2
-
-
 def convex_hull(points: Floats) -> Floats:
     """
     Return the corners of the convex hull of points, counter-clockwise.
@@ -161,19 +150,6 @@ def least_squares(columns: Floats, target: Floats) -> tuple[float, float]:
     return (at * bb - bt * ab) / determinant, (bt * aa - at * ab) / determinant
 
 
-# Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
-COUNT = 128
-# Number of points that give the direction of a stroke at a place, and the arms of a turn there.
-ARM = 5
-# Stride of the points between which strokes are compared: 1.6 % of the length.
-_FEW = 2
-# Standard deviation of the Gaussian that smooths a resampled stroke [points]: the steps of a mouse
-# that draws a figure of 25 pixels are two points long.
-_SMOOTHING = 1.5
-# The least width of an outline after stretching, in shares of its length.
-_WIDE = 0.3
-
-
 def spaced(path: Floats, count: int) -> Floats:
     """Return points along a polyline at equal distances."""
     x, y = path.T
@@ -183,16 +159,6 @@ def spaced(path: Floats, count: int) -> Floats:
     points = np.empty((count, 2))
     points[:, 0], points[:, 1] = np.interp(at, length, x), np.interp(at, length, y)
     return points
-
-
-def few_points(stroke: Floats) -> Floats:
-    """Return the points of a resampled stroke between which distances are taken."""
-    return stroke[::_FEW]
-
-
-def middle_half(points: _Rows) -> _Rows:
-    """Return the rows from the first to the last quarter."""
-    return points[slice(len(points) // 4, len(points) - len(points) // 4)]
 
 
 def size_of(points: Floats) -> float:
@@ -210,78 +176,6 @@ def circle_outline(center: Point, radius: float, sides: int = 48) -> Floats:
 def path_length(path: Floats) -> float:
     """Return the length of a polyline [m]."""
     return float(norms(np.diff(path, axis=0)).sum())
-
-
-def smoothed(points: Floats, *, closed: bool) -> Floats:
-    """Return the points of a resampled stroke smoothed by a Gaussian."""
-    reach = len(_GAUSSIAN) - 1
-    if closed:
-        first, last = points[-reach:], points[:reach]
-    else:
-        # Reflected at the ends, so that these do not move.
-        first = 2 * points[0] - points[reach:0:-1]
-        last = 2 * points[-1] - points[::-1][slice(1, reach + 1)]
-    x, y = np.vstack((first, points, last)).T.copy()
-    result = np.empty_like(points)
-    result[:, 0], result[:, 1] = _convolved(x, _GAUSSIAN), _convolved(y, _GAUSSIAN)
-    return result
-
-
-def straightness(points: Floats) -> float:
-    """Return the distance of the ends of a resampled stroke by its length without tremor."""
-    return math.dist(points[0], points[-1]) / path_length(smoothed(points, closed=False))
-
-
-def _gaussian(width: float) -> tuple[float, ...]:
-    """Return the right half of a Gaussian from its middle on; the sum of both halves is 1."""
-    half = [math.exp(-0.5 * (at / width) ** 2) for at in range(math.ceil(3 * width) + 1)]
-    total = 2.0 * sum(half) - half[0]
-    return tuple(each / total for each in half)
-
-
-_GAUSSIAN = _gaussian(_SMOOTHING)
-
-
-def _convolved(values: Floats, kernel: tuple[float, ...]) -> Floats:
-    """Return the convolution of values with a symmetric kernel, where that lies within them."""
-    reach = len(kernel) - 1
-    count = len(values) - 2 * reach
-    result = kernel[0] * values[slice(reach, reach + count)]
-    for at in range(1, reach + 1):
-        before, after = (
-            slice(reach - at, reach - at + count),
-            slice(reach + at, reach + at + count),
-        )
-        result += kernel[at] * (values[before] + values[after])
-    return result
-
-
-def widened(outline: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
-    """
-    Return a closed polyline stretched across, so that corners at its narrow ends are distinct.
-
-    :return: the polyline, evenly spaced; and the function that undoes the stretching
-    """
-    angle, along, across = principal_axis(outline - outline.mean(axis=0))
-    factor = max(_WIDE / max(math.sqrt(across / along), 1e-6), 1.0)
-    side = unit_vector(angle + math.pi / 2)
-    path = stretched(outline, side, factor)
-    narrowed = partial(stretched, along=side, factor=1.0 / factor)
-    return spaced(np.vstack((path, path[:1])), COUNT + 1)[:-1], narrowed
-
-
-def turns(points: Floats, arm: int, *, closed: bool) -> Floats:
-    """
-    Return the turning angle of a polyline at each point [rad], over arms of `arm` points.
-
-    Near the ends of an open polyline the arms are shorter; at the ends the angle is 0.
-    """
-    count = len(points)
-    at = np.arange(count)
-    reach = np.full(count, arm) if closed else np.minimum(arm, np.minimum(at, count - 1 - at))
-    a = points - points[at - reach]
-    b = points[(at + reach) % count] - points
-    return angles(a, b)
 
 
 def point_of(row: Floats) -> Point:

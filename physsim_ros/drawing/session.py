@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A drawing session: the chosen tool, an unfinished gesture, its preview, and the next free names.
+A drawing session: a person's tool, unfinished gesture, last strokes, preview, and next free names.
 
 Law: a session changes only itself; it returns ordinary requests, to be submitted.
 """
@@ -10,35 +10,29 @@ Law: a session changes only itself; it returns ordinary requests, to be submitte
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 import math
 
 import numpy as np
 from physsim_ros.drawing import copies
 from physsim_ros.drawing.click import ClickResult, Tool
+from physsim_ros.drawing.gesture import Gesture
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.choice import not_recognised, reading_of
+from physsim_ros.drawing.strokes.choice import not_recognised
 from physsim_ros.drawing.strokes.figure import Figure
-from physsim_ros.drawing.strokes.grouping import likeliest_group, MOST_STROKES
-from physsim_ros.drawing.strokes.marks import mark_reading, marked_solid
-from physsim_ros.drawing.strokes.reading import stroke_in_scene
+from physsim_ros.drawing.strokes.forms import classification_of
+from physsim_ros.drawing.strokes.marks import mark_reading
+from physsim_ros.drawing.strokes.sketch import Sketch
 from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
-from physsim_ros.drawing.strokes.waiting import readings_over
-from physsim_ros.drawing.tools import Gesture
-from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
-from physsim_ros.model.answer import Answer, request_count
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised, Refusal, values_of
+from physsim_ros.model.errors import NotRecognised, Refusal
 from physsim_ros.model.names import split_name
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import Cut, Join, Request, Spawn
 from physsim_ros.model.shapes import as_tuples
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, rotated_each
-from physsim_ros.simulation.entries import Amend, Origin
-from physsim_ros.simulation.simulation import Simulation
 
 # Raises a Refusal of a reading that may not be.
 Check = Callable[[Reading], object]
@@ -73,10 +67,7 @@ class DrawingSession:
         self._clock = clock
         self.preview: Preview = NO_PREVIEW
         self._gesture = Gesture(tool)
-        # The last figures, the earliest first.
-        self._figures: tuple[Figure, ...] = ()
-        # The mark on the last figure.
-        self._marks: tuple[Figure, ...] = ()
+        self._sketch = Sketch()
         # The lowest numbers that this session has not yet given to a body or joint.
         self._next_body = self._next_joint = 0
 
@@ -137,35 +128,29 @@ class DrawingSession:
         scene = self._query(snapshot)
         self.preview = NO_PREVIEW
         drawn = resample_stroke(_in_world(samples, frame, scene))
-        last = Figure.read(
-            stroke_in_scene(drawn, scene, self.settings),
+        stroke = Figure.read(
+            classification_of(drawn),
+            scene,
+            self.settings,
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
         )
-        if not self._marks and marked_solid(self._figures, last, self.settings):
-            # The solid stays the last figure: another reading of it may follow.
-            return self._keep(self._figures, (last,), mark_reading(last), check)
-        # A second line may make an x of a mark.
-        marks = (replace(each, context=each.over(scene, self.settings)) for each in self._marks)
-        earlier = [*self._figures, *marks]
-        figure = likeliest_group(earlier, last, self.settings, self._clock)
-        if figure is None:
-            figure = last
-        else:
-            while earlier and earlier[-1].began >= figure.began:
-                earlier.pop()
+        if self._sketch.is_marked_by(stroke, self.settings):
+            return self._keep(self._sketch.with_mark(stroke), mark_reading(stroke), check)
+        sketch = self._sketch.with_stroke(stroke, self.settings, self._clock)
+        figure = sketch.figures[-1]
         if figure.chosen is None:
-            self._figures, self._marks = (*earlier, figure), ()
+            self._sketch = sketch
             self.preview = _unrecognised_preview(drawn.points)
             raise not_recognised(figure.guesses)
         try:
-            built, marked, reading = self._built(figure, figure.chosen, earlier)
+            built, reading = sketch.built(figure.chosen, self.settings)
         except Refusal:
             # A sign over nothing waits for what it is to change.
-            self._figures, self._marks = (*earlier, figure), ()
+            self._sketch = sketch
             raise
-        return self._keep((*earlier, built), marked, reading, check)
+        return self._keep(built, reading, check)
 
     def instead(self, meaning: str = '', *, check: Check = _all_may_be) -> Reading:
         """
@@ -177,60 +162,24 @@ class DrawingSession:
         :raises Refusal: the world cannot have its outcome
         """
         refusals: list[Refusal] = []
-        for figure in self._figures[-1:]:
-            for number in figure.other_guesses:
-                if meaning not in {'', figure.guesses[number].meaning}:
-                    continue
-                earlier = self._figures[:-1]
-                try:
-                    built, marked, reading = self._built(figure, number, earlier)
-                except Refusal as refusal:
-                    refusals.append(refusal)
-                    continue
-                return self._keep((*earlier, built), marked or self._marks, reading, check)
+        for number in self._sketch.other_guesses(meaning):
+            try:
+                built, reading = self._sketch.built(number, self.settings)
+            except Refusal as refusal:
+                refusals.append(refusal)
+            else:
+                return self._keep(built, reading, check)
         nothing = NotRecognised('there is no other reading of what was drawn last', field='poses')
         raise next(iter(refusals), nothing)
 
     def note_gesture(self, gesture: int) -> None:
         """Note the number of the gesture with which the last reading was submitted."""
-        *earlier, last = self._figures
-        self._figures = (*earlier, replace(last, gestures=(gesture,)))
+        self._sketch = self._sketch.submitted(gesture)
 
-    def _built(
-        self, figure: Figure, number: int, earlier: Sequence[Figure]
-    ) -> tuple[Figure, tuple[Figure, ...], Reading]:
-        """
-        Return a figure by one of its guesses, the marks that earlier ones are on it, its reading.
-
-        :raises Refusal: the world cannot have its outcome
-        """
-        reading = reading_of(figure.guesses, number, amends=figure.gestures)
-        requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
-        figure = replace(figure, chosen=number, requests=requests)
-        message, also = reading.message, []
-        marks: tuple[Figure, ...] = ()
-        for (stroke, *_), over in readings_over(figure, earlier, self.settings):
-            requests += over.requests
-            message += f'; {over.message}'
-            also.append(over.meaning)
-            if over.meaning == 'mark':
-                marks = (replace(stroke, requests=(), gestures=()),)
-            elif over.meaning == 'velocity':
-                figure = figure.with_gravity()
-                reading = replace(reading, guesses=figure.guesses)
-        reading = replace(reading, requests=requests, message=message, also=tuple(also))
-        return replace(figure, requests=requests), marks, reading
-
-    def _keep(
-        self,
-        figures: Iterable[Figure],
-        marks: tuple[Figure, ...],
-        reading: Reading,
-        check: Check,
-    ) -> Reading:
-        """Return a reading that may be, after its figures, preview and names are kept."""
+    def _keep(self, sketch: Sketch, reading: Reading, check: Check) -> Reading:
+        """Return a reading that may be, after its sketch, preview and names are kept."""
         check(reading)
-        self._figures, self._marks = tuple(figures)[-MOST_STROKES:], marks
+        self._sketch = sketch
         self.preview = _reading_preview(reading)
         self._reserve_names(reading.requests)
         return reading
@@ -264,42 +213,6 @@ class DrawingSession:
                     self._reserve_names(pieces)
                 case Join(name=name) if split_name(name)[0] == DRAWN:
                     self._next_joint = max(self._next_joint, 1 + split_name(name)[1])
-
-
-def submit_reading(
-    simulation: Simulation,
-    session: DrawingSession,
-    reading: Reading,
-    origin: Origin | None = None,
-    *,
-    topic: str = '',
-) -> None:
-    """
-    Answer a stroke by its reading, and submit its requests as one gesture.
-
-    The requests of a reading that amends earlier gestures replace those.
-
-    :param session: whose last reading it is
-    :param origin: the message of the stroke; None is one of `topic`
-    :param topic: its source, where nothing else is known of the message
-    """
-    queue, origin = simulation.requests, origin or Origin(topic)
-    queue.tell(replace(reading_answer(reading, topic=origin.topic), asker=origin.asker))
-    if reading.amends:
-        amend = Amend(reading.amends, reading.requests)
-        queue.submit(amend, origin, joined=True)
-        session.note_gesture(reading.amends[0])
-        return
-    for number, request in enumerate(reading.requests):
-        queue.submit(request, origin, joined=number > 0)
-    if reading.requests:
-        session.note_gesture(queue.gesture)
-
-
-def reading_answer(reading: Reading, *, topic: str) -> Answer:
-    """Return the answer that reports a reading; the answers to its requests follow."""
-    values = (*values_of(reading.confidences), request_count(len(reading.requests)))
-    return Answer(topic=topic, subject=reading.subject, message=reading.message, values=values)
 
 
 def _in_world(samples: Floats, frame: str, scene: SceneQuery) -> Floats:

@@ -26,9 +26,7 @@ from physsim_ros.engine.core import dtype_of
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.applied_forces import wrench_of
-from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
-from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
 from physsim_ros.model.states import ACTOR_STATE, ROBOT_STATE, SPAWNED, WAITING
 from physsim_ros.model.transform import (
@@ -237,15 +235,6 @@ def lead_of(body: Body, wrench: Wrench, yaw: float, gravity: Point, dt: float) -
         (gravity[1] + fy / mass) * half,
         torque / (mass * body.shape.form.gyration) * half,
     )
-
-
-def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motion:
-    """Return the engine's numbers of a body by its pose and twist; it is in free flight."""
-    body, pose = state.body, state.pose
-    ahead = lead_of(body, state.wrench, pose[2], settings.gravity, dt)
-    vx, vy, spin = map(operator.add, state.twist, ahead)
-    x, y = local_to_world(offset_of(body), pose)
-    return Motion(x, y, pose[2], vx, vy, spin, free=True)
 
 
 def set_surface(shape: pymunk.Shape, friction: float, elasticity: float) -> None:

@@ -21,23 +21,21 @@ from physsim_ros.engine.bodies import BODY_STATE, RigidBody
 from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.core_world import copy_of, Table
 from physsim_ros.engine.layout import address_of
+from physsim_ros.engine.odometry_noise import OdometryNoise
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.attraction import attracts
 from physsim_ros.model.checkpoint import NO_FIELDS
 from physsim_ros.model.media import gust_waves
-from physsim_ros.model.noise import normals
 from physsim_ros.model.robots import Battery, MOST_DOCKS
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import STANDARD_GRAVITY, WorldSettings
 from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
 from physsim_ros.model.states import ACTOR_STATE, NO_ACTORS, NO_ROBOTS, Records, ROBOT_STATE
-from physsim_ros.model.transform import NO_WRENCH, Point
+from physsim_ros.model.transform import NO_WRENCH, Point, Wrench
 import pymunk
 
-# Steps whose noise is made at once: a call of `normals` takes as long as 300 of its numbers.
-_BLOCK = 64
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
 _FORCE, _REGION = dtype_of('AppliedForce'), dtype_of('Region')
 _ATTRACTOR = dtype_of('Attractor')
@@ -56,6 +54,7 @@ class BodyTable:
     :ivar records: (n + 1,) `Body`; the last one is the background
     :ivar robots: (r,) `Robot`, in the order of their bodies
     :ivar actors: (a,) `Actor`, the same
+    :ivar noise: of the odometry of these robots
     """
 
     def __init__(
@@ -67,13 +66,7 @@ class BodyTable:
         self.records = copy_of(self.columns.bodies)
         self.robots = copy_of(self.columns.robots)
         self.actors = copy_of(self.columns.actors)
-        # Numbers of the robots whose odometry is noisy.
-        self._noisy = np.flatnonzero(self.robots['slip'].any(axis=1))
-        # Numbers of the blocks of noise that are made, as the core reads them, and the addresses
-        # of their first numbers.
-        self._blocks = range(0)
-        self._noise = np.empty((0, 0, 2 * _BLOCK))
-        self._noise_rows = np.empty(0, np.int64)
+        self.noise = OdometryNoise(self.robots, scene)
         self.records['engine'] = [*(rigid.address for rigid in bodies), address_of(background)]
         for row, rigid in enumerate(bodies):
             if rigid.wrench != NO_WRENCH:
@@ -94,6 +87,10 @@ class BodyTable:
             for row, record in zip(table['body'].tolist(), table, strict=True):
                 record['state'] = getattr(self.bodies[row], kind)
                 setattr(self.bodies[row], kind, record['state'])
+
+    def set_wrench(self, row: int, wrench: Wrench) -> None:
+        """Set the wrench on the body of a row."""
+        self.records['wrench'][row] = wrench
 
     @property
     def thrown(self) -> Flags:
@@ -158,32 +155,6 @@ class BodyTable:
     def actor_states(self) -> Records:
         """Return (a,) `ACTOR_STATE`: the states of the actors."""
         return self.actors['state'].astype(ACTOR_STATE) if len(self.actors) else NO_ACTORS
-
-    def make_noise(self, step: int, count: int) -> None:
-        """Make the noise of odometry for some steps: it depends on seed, name and step alone."""
-        if not len(self._noisy):
-            return
-        blocks = range(step // _BLOCK, (step + count - 1) // _BLOCK + 1)
-        if blocks != self._blocks:
-            self._make_blocks(blocks)
-        begin = step - self._blocks[0] * _BLOCK
-        self.robots['noise'][self._noisy] = self._noise_rows + 2 * self._noise.itemsize * begin
-
-    def _make_blocks(self, blocks: range) -> None:
-        """Make blocks of noise, two numbers a step, in a row of each robot that has noise."""
-        kept = {block: place for place, block in enumerate(self._blocks)}
-        noise = np.empty((len(self._noisy), len(blocks), 2 * _BLOCK))
-        names = [self.scene.names[row] for row in self.robots['body'][self._noisy].tolist()]
-        for place, block in enumerate(blocks):
-            if block in kept:
-                noise[:, place] = self._noise[:, kept[block]]
-                continue
-            for row, name in zip(noise, names, strict=True):
-                row[place] = normals(
-                    self.scene.settings.seed, f'odometry of {name}', block, 2 * _BLOCK
-                )
-        self._blocks, self._noise = blocks, noise
-        self._noise_rows = noise.ctypes.data + noise.strides[0] * np.arange(len(noise))
 
 
 class SceneColumns(NamedTuple):

@@ -15,11 +15,6 @@ import pymunk
 THICKNESS = 10.0
 
 
-def wall_count(settings: WorldSettings) -> int:
-    """Return how many shapes of the engine `bounds` consists of."""
-    return 0 if settings.bounds is None else 4
-
-
 class Boundary:
     """
     Walls around a space.

@@ -14,15 +14,13 @@ from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, ffi, lib, pointer
 from physsim_ros.engine.layout import address_of, check_layout
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.checks import LOST
 from physsim_ros.model.settings import WorldSettings
 import pymunk
 from pymunk._chipmunk_cffi import ffi as pymunk_ffi
 from pymunk._chipmunk_cffi import lib as pymunk_lib
 
 Table = NDArray[np.void]
-# A body at or beyond this position, angle or velocity is lost and removed
-# [m, rad, m/s, rad/s]; a double resolves 0.1 mm there.
-LOST = 1e12
 # Functions of Chipmunk by the fields of `Chipmunk`.
 _FUNCTIONS = {
     'space_step': 'cpSpaceStep',

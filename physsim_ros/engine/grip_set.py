@@ -17,15 +17,12 @@ _GRIP = dtype_of('Grip')
 
 
 class GripSet:
-    """
-    The grips of hands, one a hand, in the order in which they were made.
-
-    :ivar is_told: whether the core has them as they are, for the bodies of now
-    """
+    """The grips of hands, one a hand, in the order in which they were made."""
 
     def __init__(self) -> None:
-        self.is_told = False
         self._by_hand: dict[str, Grip] = {}
+        # Whether the core has them as they are, for the bodies of now.
+        self._is_told = False
 
     def __iter__(self) -> Iterator[Grip]:
         return iter(self._by_hand.values())
@@ -39,25 +36,34 @@ class GripSet:
 
     def put(self, grip: Grip) -> None:
         """Add a grip; it replaces that of the same hand in its place."""
-        self.is_told = False
+        self._is_told = False
         self._by_hand[grip.hand] = grip
 
     def remove(self, hand: str) -> None:
         """Remove the grip of a hand."""
-        self.is_told = False
+        self._is_told = False
         del self._by_hand[hand]
 
     def remove_from(self, body: str) -> None:
         """Remove all grips on a body."""
-        self.is_told = False
+        self._is_told = False
         self._by_hand = {hand: grip for hand, grip in self._by_hand.items() if grip.body != body}
 
-    def records(self, rigids: Mapping[str, RigidBody]) -> Table:
+    def note_rows(self) -> None:
+        """Note that bodies have other rows."""
+        self._is_told = False
+
+    def changed_records(self, rigids: Mapping[str, RigidBody]) -> Table | None:
         """
-        Return the grips as the core has them, (n,) `Grip`, in the order of their bodies.
+        Return the grips as the core is to have them; None if it has them since the last call.
 
         :param rigids: bodies by name
+        :return: (n,) `Grip`, in the order of their bodies
         """
+        was_told, self._is_told = self._is_told, True
+        return None if was_told else self._records(rigids)
+
+    def _records(self, rigids: Mapping[str, RigidBody]) -> Table:
         records = np.zeros(len(self), _GRIP)
         in_order = sorted(self, key=lambda grip: rigids[grip.body].row)
         for record, grip in zip(records, in_order, strict=True):

@@ -1,18 +1,22 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Saved states: what a world file keeps of a space, and the checkpoint at which a world begins."""
+"""
+Saved states: what a world file keeps of a space, and the checkpoint at which a world begins.
+
+`engine_pose` and `engine_motion` tell a reader of files whether a pose or a velocity was edited.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 import math
+import operator
 from typing import Any
 
 import numpy as np
-from physsim_ros.engine.bodies import engine_motion
+from physsim_ros.engine.bodies import lead_of, offset_of
 from physsim_ros.engine.body_table import columns_of
-from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.checkpoint import put_commands, restore_checkpoint, take_checkpoint
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import (
@@ -33,7 +37,7 @@ from physsim_ros.model.states import (
     states_in,
     WAITING,
 )
-from physsim_ros.model.transform import NO_WRENCH, Twist
+from physsim_ros.model.transform import local_to_world, NO_WRENCH, Point, Pose, Twist
 
 
 def saved_state(checkpoint: Checkpoint, dt: float) -> WorldState:
@@ -90,7 +94,9 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
     :param step: steps that the world has made
     :param dt: of a sub-step [s]
     """
-    motions = [saved.motion or engine_motion(saved, state.settings, dt) for saved in state.bodies]
+    motions = [
+        saved.motion or engine_motion(saved, state.settings.gravity, dt) for saved in state.bodies
+    ]
     free = np.array([motion.free for motion in motions], np.bool_)
     return Checkpoint(
         **_timed(state, step),
@@ -109,6 +115,33 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
         memory=state.memory or _no_impulses(state),
         unstepped=frozenset(joint.name for joint in state.joints),
     )
+
+
+def engine_pose(state: BodyState) -> Pose:
+    """Return the pose of the engine's body, whose origin is the centre of mass."""
+    return *local_to_world(offset_of(state.body), state.pose), state.pose[2]
+
+
+def engine_motion(state: BodyState, gravity: Point, dt: float) -> Motion:
+    """
+    Return the engine's numbers of a body by its pose and twist.
+
+    It is in free flight unless it has a motion that says otherwise.
+
+    :param gravity: of the world [m/s²]
+    :param dt: of a sub-step [s]
+    """
+    twist = state.twist
+    free = state.motion is None or state.motion.free
+    if free:
+        twist = _sum(twist, lead_of(state.body, state.wrench, state.pose[2], gravity, dt))
+        twist = twist if state.field_lead is None else _sum(twist, state.field_lead)
+    return Motion(*engine_pose(state), *twist, free=free)
+
+
+def _sum(one: Twist, other: Twist) -> Twist:
+    x, y, turn = map(operator.add, one, other)
+    return x, y, turn
 
 
 def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int) -> Checkpoint:
@@ -193,7 +226,7 @@ def _leads_of(checkpoint: Checkpoint) -> list[Twist | None]:
 def _no_impulses(state: WorldState) -> ImpulseCache:
     """Return the impulse cache of a space that has not stepped."""
     counts = [len(saved.body.shape.form.pieces) for saved in state.bodies]
-    ends = np.cumsum([wall_count(state.settings), *counts], dtype=np.int64)
+    ends = np.cumsum([state.settings.wall_count, *counts], dtype=np.int64)
     return ImpulseCache(
         ids=ends[:-1],
         walls=0,

@@ -58,10 +58,6 @@ class Space:
     :ivar joints: between them
     :ivar commands: of their motors, and of the drives of robots
     :ivar grips: of hands on them
-    :ivar broken: joints that have broken, with the force at which each did [N]; its reader empties
-        it
-    :ivar joined: bodies whose joints were added, replaced or removed, by name; its reader empties
-        it
     """
 
     def __init__(
@@ -82,8 +78,10 @@ class Space:
         self._core = CoreWorld(self.pm_space, dt)
         self.joints = JointSet(self.pm_space, self.bodies.by_name, self._core, dt)
         self.commands = CommandSet(self.bodies, self.joints, dt)
-        self.broken: list[tuple[str, float]] = []
-        self.joined: set[str] = set()
+        # Until they are taken: joints that have broken, with the force at which each did [N], and
+        # the bodies whose joints were added, replaced or removed.
+        self._broken: list[tuple[str, float]] = []
+        self._joined: set[str] = set()
         self._changes = self._age = 0
         # The bodies that are still to be removed at the end of the step.
         self._leaving: list[str] = []
@@ -149,7 +147,7 @@ class Space:
         )
         self._core.use_settings(self._settings, has_fields=table.has_fields)
         self._background = len(rigids)
-        self.grips.is_told = False
+        self.grips.note_rows()
         for row, rigid in enumerate(rigids):
             rigid.row = row
         self.lay_out_joints()
@@ -294,7 +292,7 @@ class Space:
         if wrench != NO_WRENCH:
             rigid.pm_body.activate()
         if self._table is not None:
-            self._table.records['wrench'][rigid.row] = wrench
+            self._table.set_wrench(rigid.row, wrench)
         if free:
             self.set_twist(rigid, twist)
         self._changes += 1
@@ -339,7 +337,7 @@ class Space:
     def copy_reports(self, old: Space) -> None:
         """Copy what an older space of the same bodies has to report of the unfinished frame."""
         self._core.copy_contacts(old._core)
-        self.broken = old.broken
+        self._broken = old.take_broken()
 
     # Joints
 
@@ -348,8 +346,8 @@ class Space:
         self._drop_table()
         self._changes += 1
         if (old := self.joints.by_name.get(joint.name)) is not None:
-            self.joined.update(old.joint.bodies)
-        self.joined.update(joint.bodies)
+            self._joined.update(old.joint.bodies)
+        self._joined.update(joint.bodies)
         self.joints.add(joint)
         self.joints.check([joint.name])
 
@@ -358,9 +356,19 @@ class Space:
         self._drop_table()
         self._changes += 1
         joint, bodies = self.joints.by_name[name].joint, self.bodies.by_name
-        self.joined.update(joint.bodies)
+        self._joined.update(joint.bodies)
         self.joints.remove(name)
         self._release(bodies[end] for end in joint.bodies if end in bodies)
+
+    def take_joined(self) -> frozenset[str]:
+        """Return the bodies whose joints were added, replaced or removed since the last call."""
+        joined, self._joined = frozenset(self._joined), set()
+        return joined
+
+    def take_broken(self) -> list[tuple[str, float]]:
+        """Return the joints that broke since the last call, and the force of each then [N]."""
+        broken, self._broken = self._broken, []
+        return broken
 
     # Steps
 
@@ -384,10 +392,9 @@ class Space:
             self.commands.begin(step)
         table, core, made = self.table, self.core, self._steps_until_event(step, count)
         if table.columns.moving:
-            if not self.grips.is_told:
-                core.use(grips=self.grips.records(self.bodies.by_name))
-                self.grips.is_told = True
-            table.make_noise(step, made)
+            if (grips := self.grips.changed_records(self.bodies.by_name)) is not None:
+                core.use(grips=grips)
+            table.noise.make(step, made)
             made = core.step(made, step=step, age=self._age, reports_contacts=reports_contacts)
         self._age += made
         self.bodies.note_moved()
@@ -396,7 +403,7 @@ class Space:
         if core.has_broken:
             for name, force in self.joints.broken():
                 self.unjoin(name)
-                self.broken.append((name, force))
+                self._broken.append((name, force))
         lost = table.lost() if core.has_lost else []
         # In a fixed order: the engine solves its constraints in an order that removals change.
         expired = table.columns.expiries.get(step + made, ())

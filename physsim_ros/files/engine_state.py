@@ -12,17 +12,15 @@ have written is refused.
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 import itertools
-import operator
 from typing import Annotated, Any, TypeVar
 
 import numpy as np
-from physsim_ros.engine.bodies import lead_of, offset_of
 from physsim_ros.engine.core import sub_step_of
-from physsim_ros.engine.core_world import LOST
+from physsim_ros.engine.saved_state import engine_motion, engine_pose
 from physsim_ros.files.world_schema import MOST_COMING, ROUNDING
 from physsim_ros.model.body_description import check_command
 from physsim_ros.model.checkpoint import BodyState, Motion
-from physsim_ros.model.checks import ListOf, LONGEST, number, pair, Row, Whole, Within
+from physsim_ros.model.checks import ListOf, LONGEST, LOST, number, pair, Row, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Command
@@ -36,7 +34,7 @@ from physsim_ros.model.states import (
     SPAWNED,
     WAITING,
 )
-from physsim_ros.model.transform import local_to_world, NO_WRENCH, ORIGIN, Point, Pose, REST
+from physsim_ros.model.transform import NO_WRENCH, ORIGIN, Point, Pose
 from physsim_ros.simulation.world import steps_covering
 
 # The state of a robot lies in the range of a motion; squares and products of such numbers.
@@ -248,14 +246,9 @@ def with_saved_motion(
     twist = (*velocity, number(entry.get('spin', 0.0), 'spin'))
     if state.body.anchored and any(twist):
         return None
-    # In free flight the engine's velocity is half a sub-step ahead of the reported one.
-    sub_step = sub_step_of(physics_rate)
-    lead = lead_of(state.body, state.wrench, pose[2], gravity, sub_step)
     field_lead = _POSE(entry['field_lead'], 'field_lead') if 'field_lead' in entry else None
-    lead = tuple(map(operator.add, lead, field_lead or REST))
-    engine_twist = map(operator.add, twist, lead if motion.free else REST)
     state = replace(state, pose=pose, twist=twist, motion=motion, field_lead=field_lead)
-    if not _is_motion(motion, (*_engine_pose(state), *engine_twist)):
+    if not _is_motion(motion, engine_motion(state, gravity, sub_step_of(physics_rate))[:6]):
         return None
     if max(map(abs, motion[:6])) > LOST:
         raise BadProperty('motion is out of range', field='motion')
@@ -264,7 +257,7 @@ def with_saved_motion(
 
 def is_where_saved(state: BodyState, entry: Mapping[Any, Any]) -> bool:
     """Return whether a body is at the pose of the motion of its entry."""
-    return _is_motion(_motion(entry['motion']), _engine_pose(state))
+    return _is_motion(_motion(entry['motion']), engine_pose(state))
 
 
 def _motion(values: object) -> Motion:
@@ -280,8 +273,3 @@ def _is_motion(motion: Motion, written: tuple[float, ...]) -> bool:
         abs(one - other) <= ROUNDING + ROUNDING * abs(other)
         for one, other in zip(motion, written, strict=False)
     )
-
-
-def _engine_pose(state: BodyState) -> Pose:
-    """Return the pose of the engine's body, whose origin is the centre of mass."""
-    return *local_to_world(offset_of(state.body), state.pose), state.pose[2]

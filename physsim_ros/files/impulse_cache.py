@@ -18,7 +18,6 @@ import zlib
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
-from physsim_ros.engine.boundary import wall_count
 from physsim_ros.model.checkpoint import ImpulseCache, WorldState
 from physsim_ros.model.checks import Whole
 from physsim_ros.model.declarations import known_mapping
@@ -80,7 +79,7 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
     counts = [len(each.body.shape.form.pieces) for each in state.bodies]
     runs = [*zip(cache.ids.tolist(), counts, strict=True), (following, 0)]
     if state.settings.bounds is not None:
-        runs.append((walls, wall_count(state.settings)))
+        runs.append((walls, state.settings.wall_count))
     end = 0
     for first, count in sorted(runs):
         if first < end:

@@ -14,7 +14,6 @@ import itertools
 import math
 from typing import Annotated, Any
 
-from physsim_ros.engine.core_world import LOST
 from physsim_ros.files.world_schema import (
     is_same,
     MOST_COMING,
@@ -23,7 +22,7 @@ from physsim_ros.files.world_schema import (
     ROUNDING,
 )
 from physsim_ros.model.checkpoint import TimedCommands, WorldState
-from physsim_ros.model.checks import ListOf, LONGEST, point_list, text, Within
+from physsim_ros.model.checks import ListOf, LONGEST, LOST, point_list, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import joined_from, MOST_RATIO

@@ -26,8 +26,8 @@ from physsim_ros.simulation.simulation import SavedMoment, Simulation
 
 # Seeds of episodes are below it; a world takes as many.
 _SEEDS = 2**31
-# Frames a second of a video, and the width of its pictures [pixels].
-_FRAMES, _WIDTH = 10, 480
+# Width of the pictures of a video [pixels].
+_WIDTH = 480
 _RENDER_MODE = OneOf(('rgb_array',))
 
 
@@ -89,8 +89,8 @@ class RobotEnv(Env[Observation, Action]):
     :ivar robot: the robot that the agent drives; `robot.simulation` is its world
     """
 
-    # Gymnasium's own name and type.
-    metadata = {'render_modes': [*_RENDER_MODE.words], 'render_fps': _FRAMES}  # noqa: RUF012
+    # Gymnasium's own name and type; an environment adds its frames a second.
+    metadata = {'render_modes': [*_RENDER_MODE.words]}  # noqa: RUF012
 
     def __init__(self, task: Task, *, render_mode: str | None = None) -> None:
         self.task = task

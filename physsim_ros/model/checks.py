@@ -28,6 +28,9 @@ from physsim_ros.model.transform import Point, Pose
 FASTEST = 1e5
 # Greatest coordinate [m]: beyond 10 000 km float64 positions are coarser than a nanometre.
 FARTHEST = 1e7
+# Position, angle or velocity at which a body is lost, and removed [m, rad, m/s, rad/s]; a double
+# resolves 0.1 mm there.
+LOST = 1e12
 # Greatest lifetime [s]: 300 years, more than a message's Duration holds, and exact as a number of
 # steps.
 LONGEST = 1e10

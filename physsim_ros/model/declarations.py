@@ -70,6 +70,7 @@ class Checked:
     None is not checked where it is the default.
 
     :cvar KIND: word for the class among others of its base; '' for a class that is alone
+    :cvar KIND_WORDS: everyday words for it
     :cvar FIELDS: declarations of the fields, by name
     :cvar WORDS: everyday words for each of them
     :raises Refusal: a check raised it
@@ -77,6 +78,7 @@ class Checked:
 
     __slots__ = ()
     KIND: ClassVar[str] = ''
+    KIND_WORDS: ClassVar[Words] = Words()
     FIELDS: ClassVar[Mapping[str, Declaration]] = {}
     WORDS: ClassVar[Mapping[str, Words]] = {}
     # Name, check, and whether None is not checked, of each field that has a check.
@@ -244,12 +246,15 @@ class OfKind(Generic[_Value]):
 
     :param noun: for such a value, for messages
     :param kinds: classes by the words for them
-    :param everyday: further words that people use for a kind, by the word for it
     """
 
     noun: str
     kinds: Mapping[str, type[_Value]]
-    everyday: Mapping[str, tuple[str, ...]]
+
+    @property
+    def everyday(self) -> Mapping[str, Words]:
+        """Return the everyday words for each kind, by the word for it."""
+        return {kind: each.KIND_WORDS for kind, each in self.kinds.items()}
 
     def __call__(self, value: object, name: str) -> _Value:
         """

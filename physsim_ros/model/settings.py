@@ -210,6 +210,11 @@ class WorldSettings(Checked):
         return math.hypot(*self.gravity) or STANDARD_GRAVITY
 
     @property
+    def wall_count(self) -> int:
+        """Return the number of walls around the world."""
+        return 0 if self.bounds is None else 4
+
+    @property
     def air(self) -> Medium:
         """Return the air, as a medium that fills the world."""
         return Medium(

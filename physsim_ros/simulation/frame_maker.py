@@ -96,8 +96,12 @@ class FrameMaker:
             self.requests.hands.clear()
             self.stop_driving()
 
+    def keep_driving(self, command: DriveRobot) -> None:
+        """Have a robot drive on by a command, until it gets another one or is gone."""
+        self.driving[command.name] = command
+
     def stop_driving(self) -> None:
-        """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
+        """End what `keep_driving` has robots do; their last commands end with their timeouts."""
         self.driving.clear()
 
     @property
@@ -133,7 +137,7 @@ class FrameMaker:
         :param before: snapshot of another time that was shown before it; None if there is none
         """
         self._view = View(frame, before)
-        self.playback.changed = self.playback.stepped = False
+        self.playback.note_frame()
 
     def at_shown_moment(self) -> Past:
         """
@@ -259,8 +263,7 @@ class FrameMaker:
         if self.requests.is_in_gesture or (playback.frames_due and self.requests.is_busy):
             playback.clock.restart()
             return ()
-        if playback.frames_due:
-            playback.frames_due -= 1
+        if playback.take_frame():
             return (self.advance_frame(),)
         self.requests.hands.note_time(now_ns, paused=playback.speed == 0)
         if playback.speed > 0:
@@ -312,8 +315,8 @@ class FrameMaker:
     def _is_frame_due(self) -> bool:
         """Whether a frame of now is to be made, after steps."""
         view = self._view
-        told = self.playback.changed or self.requests.answers or self.past.reports
-        if self.is_read or told or view is None:
+        is_told = self.playback.changed or self.requests.has_answers
+        if self.is_read or is_told or view is None:
             return True
         most = UNREAD_PERIODS * self.frame_steps * max(1.0, abs(self.speed))
         passed = abs(self.step - view.snapshot.step)
@@ -346,7 +349,7 @@ class FrameMaker:
         if not self._carry_out(self.playback.rewind(steps), is_overdue):
             return None
         _finished(self.playback.replay_ahead(steps), is_overdue)
-        if self.playback.step <= self.past.tree.oldest:
+        if self.playback.step <= self.past.line.oldest:
             self.playback.speed = 0.0
             self.requests.report_oldest('; paused')
         return self._observe_frame()
@@ -361,19 +364,16 @@ class FrameMaker:
         snapshot, contacts = playback.observe_frame()
         requests.note_arrival()
         past.fit_memory(playback.moment)
-        if past.reports:
-            requests.answers += past.reports
-            past.reports.clear()
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if past.reports_contacts else None,
-            answers=requests.take_answers() if requests.answers else (),
+            answers=requests.take_answers(),
             speed=playback.speed,
             stepped=playback.stepped,
             past=self.is_past,
             course=past.tree.course,
         )
-        playback.changed = playback.stepped = False
+        playback.note_frame()
         before, last = self._passed, self._view
         if last is not None and (before is None or before.step == snapshot.step):
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before

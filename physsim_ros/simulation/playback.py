@@ -58,7 +58,7 @@ class Playback:
         before, self.clock.speed = self.clock.speed, speed
         self.changed |= self.clock.speed != before
         if self.clock.speed:
-            self.frames_due = 0
+            self.drop_frames()
         self._complete_frame()
 
     def note_reporting(self, reports_contacts: bool) -> None:  # noqa: FBT001 - a state
@@ -70,6 +70,14 @@ class Playback:
         """Make the frame that a paused world shows again, with contacts, if it lacks them."""
         if self._lacks_contacts and self.speed == 0 and not self.frames_due:
             self._seek_step(self.step)
+
+    def note_change(self) -> None:
+        """Note that the next frame differs from the last one."""
+        self.changed = True
+
+    def note_frame(self) -> None:
+        """Note that the frame of this moment was made, from which the next one may differ."""
+        self.changed = self.stepped = False
 
     # The moment that is shown
 
@@ -100,12 +108,12 @@ class Playback:
         """Return step and serial that are shown."""
         if self._shown is None:
             return self._past.cursor.moment
-        return Moment(self.step, self._past.tree.serial_shown_at(self.step))
+        return Moment(self.step, self._past.line.serial_shown_at(self.step))
 
     @property
     def is_newest(self) -> bool:
         """Whether nothing lies ahead of the moment that is shown."""
-        return self.moment == self._past.tree.end
+        return self.moment == self._past.line.end
 
     @property
     def time(self) -> str:
@@ -122,19 +130,19 @@ class Playback:
     @property
     def status(self) -> TimelineStatus:
         """Return the status of the timeline at the moment that is shown."""
-        tree, rate, shown = self._past.tree, self._past.physics_rate, self.moment
+        past, rate, shown = self._past, self._past.physics_rate, self.moment
         is_past = self.speed >= 0.0 and not self.is_newest
-        undo, redo = self._past.words(shown)
-        courses = sorted(tree.courses_left(), key=lambda each: each[0].course)
+        undo, redo = past.words(shown)
+        courses = sorted(past.tree.courses_left(), key=lambda each: each[0].course)
         return TimelineStatus(
             state=RunState.PAST if is_past else RunState.of(self.speed),
             speed=self.speed,
-            oldest=tree.oldest / rate,
+            oldest=past.line.oldest / rate,
             now=shown.step / rate,
-            newest=tree.head / rate,
-            course=tree.course,
-            line=self._past.frames.line,
-            parts=self._past.frames.parts / rate,
+            newest=past.line.head / rate,
+            course=past.tree.course,
+            line=past.frames.line_number,
+            parts=past.frames.parts / rate,
             undo=undo and f'undo {undo}',
             redo=redo and f'redo {redo}',
             courses=tuple(
@@ -173,7 +181,7 @@ class Playback:
         frame = CachedFrame(snapshot, contacts)
         # The first frame of this step has the contacts.
         cache.add_frame(frame if self.stepped else cache.with_first_contacts(frame))
-        self._past.tree.note_shown(*cursor.moment)
+        self._past.line.note_shown(*cursor.moment)
         return frame
 
     # To another moment
@@ -185,7 +193,7 @@ class Playback:
         :raises OutOfHistory: the time is no longer kept, or in the future
         """
         self._seek_step(self._past.steps_in(stamp * 1e-9))
-        self.frames_due = 0
+        self.drop_frames()
 
     def _seek_step(self, step: int) -> None:
         self._past.cursor.finish_amendment()
@@ -199,7 +207,7 @@ class Playback:
     def _show_requests(self) -> None:
         """Note requests since the last frame as shown at this step."""
         step, serial = self._past.cursor.moment
-        if serial > self._past.tree.serial_shown_at(step):
+        if serial > self._past.line.serial_shown_at(step):
             self._observe_world()
 
     def seek_shown(self) -> None:
@@ -240,6 +248,16 @@ class Playback:
         self.frames_due += 1
         return stamp_of(step, self._past.physics_rate)
 
+    def take_frame(self) -> bool:
+        """Take one of the single frames that are due, and return whether there was one."""
+        is_due = self.frames_due > 0
+        self.frames_due -= is_due
+        return is_due
+
+    def drop_frames(self) -> None:
+        """Have no single frame be due."""
+        self.frames_due = 0
+
     def run(self, steps: int) -> None:
         """Advance the world, which is at the moment that is shown, by steps."""
         self._lacks_contacts, self.stepped = False, True
@@ -274,7 +292,7 @@ class Playback:
 
         Yield after each slice of its replay, before which another frame is shown.
         """
-        step = max(self._past.tree.oldest, self.step - steps)
+        step = max(self._past.line.oldest, self.step - steps)
         if step < self.step:
             while (shown := self._past.frames.replay_to_frame(step)) is None:
                 yield

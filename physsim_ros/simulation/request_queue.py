@@ -9,16 +9,15 @@ hands and drives only if refused. A seek, or a call that sends the world elsewhe
 when the moment is reached, or when the world is sent elsewhere before. Requests that read or
 change the world wait for the end of a seek; all but answers wait for the end of an amendment, and
 all for that of a call in slices, unless that has read the world and only writes: then other calls
-wait. `waiting_entries` has what replaces a waiting entry, and how many may wait.
+wait. `waiting_entries` has what replaces a waiting entry, and how many may wait; `calls_under_way`
+the calls.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, wait
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import Any, NamedTuple
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
@@ -30,7 +29,8 @@ from physsim_ros.model.requests import (
     MoveHand,
     Request,
 )
-from physsim_ros.runtime.slices import in_slices, Sliced, Slices
+from physsim_ros.runtime.slices import Sliced
+from physsim_ros.simulation.calls_under_way import CallsUnderWay
 from physsim_ros.simulation.entries import (
     Amend,
     Call,
@@ -48,20 +48,6 @@ from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.waiting_entries import WaitingEntries
 
 
-class _UnderWay(NamedTuple):
-    """
-    A call in slices that is under way.
-
-    :ivar call: the entry
-    :ivar slices: of it
-    :ivar awaited: for which its next slice waits
-    """
-
-    call: Call
-    slices: Slices[Sequence[Answer]]
-    awaited: Future[Any]
-
-
 class RequestQueue:
     """
     The entries that wait, and what applies them at the moment that is shown.
@@ -71,13 +57,13 @@ class RequestQueue:
 
     :ivar gesture: number of the last gesture
     :ivar hands: that drag bodies
-    :ivar answers: that wait for the next frame
     """
 
     def __init__(self, past: Past, playback: Playback) -> None:
         self.gesture = 0
         self.hands = Hands(past, playback)
-        self.answers: list[Answer] = []
+        # Those that wait for the next frame.
+        self._answers: list[Answer] = []
         self._past = past
         self._playback = playback
         self._waiting = WaitingEntries()
@@ -87,9 +73,9 @@ class RequestQueue:
         # Answers the seek under way, or the call that began it; its argument tells by what it is
         # superseded, '' by nothing.
         self._answer_arrival: Callable[[str], object] | None = None
-        # Whether the last call has sent the world elsewhere; the calls that are under way.
+        # Whether the last call has sent the world elsewhere.
         self._has_jumped = False
-        self._under_way: list[_UnderWay] = []
+        self._calls = CallsUnderWay(self._end_call)
 
     # Submitting
 
@@ -153,7 +139,7 @@ class RequestQueue:
         :raises Busy: too many requests wait
         """
         if wait is Wait.NONE:
-            self._carry_out(Call(call, wait, on_told), in_slices(call))
+            self._calls.begin(Call(call, wait, on_told))
             return
         if busy := self._waiting.busy():
             raise busy
@@ -200,18 +186,14 @@ class RequestQueue:
     @property
     def is_busy(self) -> bool:
         """Return whether requests or calls wait, or a call is under way for which they wait."""
-        return self._holds_requests or not all(each.is_answer for each in self._waiting)
-
-    @property
-    def _holds_requests(self) -> bool:
-        return any(each.call.wait.holds_requests for each in self._under_way)
+        return self._calls.hold_requests or not all(each.is_answer for each in self._waiting)
 
     def apply_waiting(self) -> None:
         """Apply all entries, and finish the seeks, calls and amendments that others wait for."""
         if self._waiting:
             self.apply_up_to_seek()
-        while (self._waiting or self._holds_requests) and not self._is_applying:
-            self._await_slice()
+        while (self._waiting or self._calls.hold_requests) and not self._is_applying:
+            self._calls.wait()
             self._playback.seek_shown()
             self._past.cursor.finish_work()
             self.apply_up_to_seek()
@@ -220,19 +202,15 @@ class RequestQueue:
 
     def continue_calls(self) -> None:
         """Go on with the calls for which no request waits, also during a seek."""
-        self._continue_calls(each for each in self._under_way if not each.call.wait.holds_requests)
+        self._calls.go_on_beside_requests()
 
     def finish_calls(self) -> None:
         """Apply all entries, and finish the calls that have read the world, too."""
         self.apply_waiting()
-        while self._is_reading:
-            self._await_slice()
+        while self._calls.are_reading:
+            self._calls.wait()
             self.continue_calls()
             self.apply_waiting()
-
-    def _await_slice(self) -> None:
-        """Wait until a call that is under way can go on."""
-        wait([each.awaited for each in self._under_way], return_when=FIRST_COMPLETED)
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
@@ -246,13 +224,13 @@ class RequestQueue:
             try:
                 match entry.request:
                     case Answer() as answer:
-                        self.answers.append(answer)
+                        self._answers.append(answer)
                     case Refusal() as refusal:
-                        self._playback.changed = True
+                        self._playback.note_change()
                         self._answer(refusal, entry)
                     case Call() as call:
                         self._has_jumped = False
-                        self._carry_out(call, in_slices(call.call))
+                        self._calls.begin(call)
                     case Amend() | TakeBack() as change:
                         entry.origin.check()
                         self._playback.seek_shown()
@@ -261,7 +239,7 @@ class RequestQueue:
                         message = self.seek(stamp)
                         self._answer_arrival = partial(self._answer_seek, entry.origin, message)
                     case request:
-                        self._playback.changed = True
+                        self._playback.note_change()
                         entry.origin.check()
                         if isinstance(request, Unread):
                             request = request.convert()
@@ -283,7 +261,7 @@ class RequestQueue:
             return
         self._is_applying = True
         try:
-            while self._continue_calls(self._under_way):
+            while self._calls.go_on():
                 if is_spent():
                     return
             while (first := self._waiting.first) and self._is_ready(first):
@@ -299,51 +277,35 @@ class RequestQueue:
 
     def _is_ready(self, entry: Entry) -> bool:
         """Return whether an entry need not wait for a seek, a call or an amendment."""
-        if self._holds_requests:
+        if self._calls.hold_requests:
             return False
-        if isinstance(entry.request, Call) and self._is_reading:
+        if isinstance(entry.request, Call) and self._calls.are_reading:
             return False
         if entry.is_for_world:
             return self._playback.is_there
         return entry.is_answer or not self._past.cursor.is_amending
 
-    @property
-    def _is_reading(self) -> bool:
-        """Whether a call that has read the world is under way, for which other calls wait."""
-        return any(each.call.wait is Wait.TO_READ for each in self._under_way)
-
-    def _continue_calls(self, calls: Iterable[_UnderWay]) -> bool:
-        """Go on, by a slice, with those calls that have what they wait for; return whether any."""
-        ready = [each for each in calls if each.awaited.done()]
-        for each in ready:
-            self._under_way.remove(each)
-            self._carry_out(each.call, each.slices)
-        return bool(ready)
-
-    def _carry_out(self, call: Call, slices: Slices[Sequence[Answer]]) -> None:
-        """Carry out the next slice of a call, and collect its answers after the last one."""
-        try:
-            self._under_way.append(_UnderWay(call, slices, slices.send(None)))
-        except StopIteration as end:
-            if call.wait is Wait.NONE:
-                # In the order of entries.
-                for answer in end.value:
-                    self.tell(answer)
-                call.on_told()
-            elif call.wait.holds_requests and self._has_jumped and not self._playback.has_arrived:
-                self._answer_arrival = partial(self._answer_call, call, end.value)
-            else:
-                self._answer_call(call, end.value)
+    def _end_call(self, call: Call, answers: Sequence[Answer]) -> None:
+        """Collect the answers to a call that has ended."""
+        if call.wait is Wait.NONE:
+            # In the order of entries.
+            for answer in answers:
+                self.tell(answer)
+            call.on_told()
+        elif call.wait.holds_requests and self._has_jumped and not self._playback.has_arrived:
+            self._answer_arrival = partial(self._answer_call, call, answers)
+        else:
+            self._answer_call(call, answers)
 
     def _answer_call(self, call: Call, answers: Sequence[Answer], _: str = '') -> None:
         """Collect the answers to a call, which is done, be its moment reached or superseded."""
-        self.answers += answers
+        self._answers += answers
         call.on_told()
 
     def _answer_seek(self, origin: Origin, message: str, superseded: str) -> None:
         """Collect the answer to a seek."""
         told = superseded or message
-        self.answers.append(Answer(topic=origin.topic, message=told, asker=origin.asker))
+        self._answers.append(Answer(topic=origin.topic, message=told, asker=origin.asker))
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
         """Change the past in slices, and collect the answers."""
@@ -366,7 +328,7 @@ class RequestQueue:
         topic, field, asker, *_ = entry.origin
         if isinstance(result, Refusal):
             result = Answer.refused(result, topic=topic, subject=entry.subject, field=field)
-        self.answers.append(replace(result, topic=topic, asker=asker))
+        self._answers.append(replace(result, topic=topic, asker=asker))
 
     def apply_now(self, request: Request, gesture: int, author: str = '') -> Answer:
         """
@@ -398,7 +360,7 @@ class RequestQueue:
 
     def note_jump(self) -> None:
         """Show the moment to which something else than a seek has sent the cursor."""
-        self._playback.frames_due = 0
+        self._playback.drop_frames()
         self._playback.note_jump()
         self._has_jumped = True
         self._supersede('jump')
@@ -420,15 +382,20 @@ class RequestQueue:
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
         if events := self.hands.release_grips():
-            self.answers += events
-            self._playback.changed = True
+            self._answers += events
+            self._playback.note_change()
+
+    @property
+    def has_answers(self) -> bool:
+        """Return whether answers, or reports of the past, wait for the next frame."""
+        return bool(self._answers or self._past.reports)
 
     def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that wait, and drop them."""
-        answers, self.answers = tuple(self.answers), []
-        return answers
+        """Return the answers that wait, then the reports of the past, and drop them."""
+        answers, self._answers = self._answers, []
+        return (*answers, *self._past.take_reports())
 
     def report_oldest(self, more: str = '') -> None:
         """Add the event that the moment that is shown is the oldest."""
         message = f'{self._playback.time} is the oldest that is kept{more}'
-        self.answers.append(Answer(topic='history', message=message))
+        self._answers.append(Answer(topic='history', message=message))

@@ -92,7 +92,7 @@ class Robot:
         """
         command = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
         drive_of_name(self.simulation.world.space, self.name)
-        self.simulation.driving[self.name] = command
+        self.simulation.keep_driving(command)
 
     def place(self, x: float, y: float, yaw: float = 0.0) -> None:
         """

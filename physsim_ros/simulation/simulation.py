@@ -133,7 +133,7 @@ class Simulation(FrameMaker):
     @property
     def loaded(self) -> WorldState:
         """Return the state that was loaded last, to which `reset` returns."""
-        return self.past.tree.tip.loaded.state
+        return self.past.line.tip.loaded.state
 
     def limit_history(self, seconds: float) -> None:
         """
@@ -144,7 +144,7 @@ class Simulation(FrameMaker):
         length = self.past.steps_of('history', seconds)
         past = self.at_shown_moment()
         # The times of a paused world are told anew.
-        self.playback.changed = True
+        self.playback.note_change()
         if not past.cursor.keep_within(length):
             self.playback.note_jump()
             self.requests.report_oldest()
@@ -156,7 +156,7 @@ class Simulation(FrameMaker):
         :raises Refusal: it is out of range
         """
         self.past.budget.megabytes = megabytes
-        self.playback.changed = True
+        self.playback.note_change()
 
     @property
     def reports_contacts(self) -> bool:
@@ -182,7 +182,7 @@ class Simulation(FrameMaker):
         self.at_shown_moment()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
         message = self.requests.apply_now(request, gesture).message
-        self.playback.changed = True
+        self.playback.note_change()
         return message
 
     def place(self, name: str, x: float, y: float, yaw: float = 0.0) -> None:
@@ -323,7 +323,8 @@ class Simulation(FrameMaker):
         self.past.restore(saved.checkpoint, saved.loaded)
         self._note_beginning()
         self.requests.note_jump()
-        self.driving = {drive.name: drive for drive in saved.driving}
+        for command in saved.driving:
+            self.keep_driving(command)
         # Its answers are those of the other simulation.
         frame = replace(saved.frame, answers=(), speed=self.speed, course=self.past.tree.course)
         self._show_again(frame, saved.before)

@@ -172,7 +172,7 @@ class PastContacts:
             self._send({'type': 'past_forces', 'name': name, **columns}, page)
 
         if sum(number == page for number, _ in self._searches) < MOST_SEARCHES:
-            self._begin((page, name), tell, self._simulation.past.tree.head, runs=False)
+            self._begin((page, name), tell, self._simulation.past.line.head, runs=False)
 
     def forget(self, page: int) -> None:
         """Forget what a page has asked for."""
@@ -186,7 +186,7 @@ class PastContacts:
         *,
         runs: bool,
     ) -> None:
-        self._searches[key] = _Search(tell, self._simulation.past.tree.oldest, end, runs)
+        self._searches[key] = _Search(tell, self._simulation.past.line.oldest, end, runs)
 
     def send_due(self) -> None:
         """Look at the next frames of the past, for a few milliseconds."""
@@ -200,7 +200,7 @@ class PastContacts:
         while due and time.monotonic() - begin < REPLAY_TIME:
             key = due.pop(0)
             tell, step, end, runs = self._searches.pop(key)
-            end, step = min(end, past.tree.head), max(step, past.tree.oldest)
+            end, step = min(end, past.line.head), max(step, past.line.oldest)
             frames: list[CachedFrame] = []
             while step < end and time.monotonic() - begin < REPLAY_TIME:
                 wanted = min(end, step - step % past.frame_steps + past.frame_steps)
@@ -331,7 +331,7 @@ class BodyPasts:
         name, request_id = self._asked.pop(page)
         simulation = self._simulation
         past = simulation.past
-        snapshots = past.frames.snapshots(past.tree.head, MOST_FRAMES)
+        snapshots = past.frames.snapshots(past.line.head, MOST_FRAMES)
         self._send(partial(_body_content, name, request_id, snapshots), page)
 
 

@@ -159,7 +159,7 @@ def check_taken_back(role: Role, gestures: Collection[int], world: WorldControl)
         return
     snapshot = world.current_snapshot()
     _check_newest(world)
-    nodes = world.simulation.past.tree.nodes_of(gestures)
+    nodes = world.simulation.past.line.nodes_of(gestures)
     _check_names((name for each in nodes for name in _bodies_then(each, snapshot)), world)
 
 

@@ -10,7 +10,7 @@ Not here: topics for RViz and Foxglove (`ros`), and the lines of joints (`appear
 a second to import, so only the thread of an output imports it.
 """
 
-from physsim_ros.view.stream import FrameContext
+from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.viewer import Viewer, ViewerMode
 
 __all__ = ['FrameContext', 'Viewer', 'ViewerMode']

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Forces and velocities: arrows over the bodies, and the legend of forces.
+Forces and velocities: arrows over the bodies.
 
 A contact is an arrow at its point, the force on a body, as long as the force is great. Of two
 dynamic bodies that is the force on the later spawned one. A velocity is the displacement in the
@@ -14,24 +14,20 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-import itertools
 
 import numpy as np
-from physsim_ros.appearance import full_scale_force, nice_number, PULL, PUSH, SLATE
+from physsim_ros.appearance import nice_number
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts
 from physsim_ros.model.transform import norms, rotated_each
-from physsim_ros.view.bodies import sampling_period
-from physsim_ros.view.frame_batch import Change, FrameBatch
-from physsim_ros.view.scenery import ARROWS, IMAGE_LABELS, PIXELS
+from physsim_ros.view.frame_batch import Change, FrameBatch, sampling_period
+from physsim_ros.view.legend import CONTACT_COLOR, CUT, Legend, LENGTH
+from physsim_ros.view.scenery import ARROWS
 import rerun as rr
 
 CONTACTS, VELOCITIES, FORCES = 'world/contacts', 'world/velocities', 'world/forces'
-CONTACT_COLOR, _VELOCITY_COLOR, _FORCE_COLOR = (214, 39, 40), (44, 120, 60), (74, 106, 0)
-# Length of the arrow of the force that the legend tells [units], and the greatest one in lengths
-# of that: arrows of impacts are cut.
-LENGTH, CUT = 1.2, 1.5
+_VELOCITY_COLOR, _FORCE_COLOR = (44, 120, 60), (74, 106, 0)
 # Duration of contacts of which the median of the greatest forces is shown in full [s], so that an
 # impact does not change the scale.
 _FITTED = 0.5
@@ -40,15 +36,6 @@ _SMALL = 0.35
 # Time by which a velocity is multiplied, and the shortest period of sending it [s].
 _AHEAD, _VELOCITY_PERIOD = 0.2, 1 / 6
 _NONE: Floats = np.empty((0, 2))
-
-# In pixels of the image of the camera, so that they stay when the camera moves.
-_ARROW, _BAR, _WORDS = (f'world/camera/legend/{name}' for name in ('arrow', 'bar', 'labels'))
-# Left end of the arrow, and middle of the bar [pixels].
-_ARROW_AT, _BAR_AT = (150.0, 14.0), (640.0, 14.0)
-# Half the length of the bar [pixels], and its number of colours.
-_HALF, _COLORS = 100.0, 11
-# Distance of labels from the arrow and the bar [pixels].
-_BELOW = 4.0
 
 
 class ContactArrows:
@@ -60,7 +47,7 @@ class ContactArrows:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        self._legend = _Legend(recording)
+        self._legend = Legend(recording)
         # The force of the legend [N]; 0 before the first contact.
         self._force = 0.0
         # Time [ns] and greatest force [N] of the last frames with contacts, `_FITTED` long.
@@ -188,65 +175,6 @@ class AppliedArrows:
         )
         self._recording.send_columns(FORCES, batch.times_at(chosen), arrows)
         self._shown = bool(found)
-
-
-class _Legend:
-    """
-    Sends the legend: an arrow for forces of contacts, a bar of colours for those of joints.
-
-    :param recording: stream to log to
-    """
-
-    def __init__(self, recording: rr.RecordingStream) -> None:
-        self._recording = recording
-        recording.log(_WORDS, IMAGE_LABELS, static=True)
-        arrow = rr.Arrows2D.from_fields(colors=[CONTACT_COLOR], radii=rr.Radius.ui_points(1.2))
-        recording.log(_ARROW, arrow, static=True)
-        edges = np.linspace(-_HALF, _HALF, _COLORS + 1) + _BAR_AT[0]
-        self._strips = [
-            [(left, _BAR_AT[1]), (right, _BAR_AT[1])]
-            for left, right in itertools.pairwise(edges.tolist())
-        ]
-        shares = np.linspace(-1.0, 1.0, _COLORS)[:, None]
-        full = np.where(shares < 0.0, PUSH, PULL)
-        levels = (1.0 - np.abs(shares)) * np.array(SLATE) + np.abs(shares) * full
-        bar = rr.LineStrips2D.from_fields(
-            colors=np.rint(levels * 255).astype(np.uint8), radii=rr.Radius.ui_points(3.0)
-        )
-        recording.log(_BAR, bar, static=True)
-
-    def send(self, batch: FrameBatch, force: float) -> None:
-        """
-        Send the legend of a scene, at the first frame of a batch.
-
-        :param force: of the arrow; 0 where there was no contact yet [N]
-        """
-        labels, arrows, strips = [], [], []
-        if force:
-            x, y = _ARROW_AT
-            arrows = [(LENGTH * PIXELS, 0.0)]
-            words = f'contact force: this length = {force:g} N (max {CUT * force:g} N)'
-            labels.append(((x + LENGTH * PIXELS / 2, y + _BELOW), words))
-        if batch.scene.joints:
-            x, y = _BAR_AT
-            strips, full = self._strips, full_scale_force(batch.scene)
-            labels += [
-                ((x - _HALF, y + _BELOW), f'joint pushes {full:g} N'),
-                ((x + _HALF, y + _BELOW), f'joint pulls {full:g} N'),
-            ]
-        points = rr.Points2D.columns(
-            positions=np.array([at for at, _ in labels]).reshape(-1, 2),
-            labels=[text for _, text in labels],
-        )
-        origins = np.array([_ARROW_AT] * len(arrows)).reshape(-1, 2)
-        vectors = np.array(arrows).reshape(-1, 2)
-        times = batch.times_at([0])
-        for path, columns, count in (
-            (_ARROW, rr.Arrows2D.columns(origins=origins, vectors=vectors), len(arrows)),
-            (_BAR, rr.LineStrips2D.columns(strips=strips), len(strips)),
-            (_WORDS, points, len(labels)),
-        ):
-            self._recording.send_columns(path, times, columns.partition([count]))
 
 
 def _arrow_columns(

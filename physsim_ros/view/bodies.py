@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.view.body_mesh import body_mesh, opacity
-from physsim_ros.view.frame_batch import Change, FrameBatch
+from physsim_ros.view.frame_batch import Change, FrameBatch, sampling_period
 from physsim_ros.view.mesh import MeshGroup, MeshTrack, Path
 from physsim_ros.view.scenery import DEPTH, LABELS, TEXTS
 import rerun as rr
@@ -31,8 +31,6 @@ import rerun as rr
 ROOT, NAMES, WORDS = 'world/bodies', 'world/names', 'world/labels'
 # Greatest ratio of two boxes or discs that share a scaled mesh: it scales their outlines too.
 _SIZE_RATIO = 1.5
-# Greatest number of texts or arrows that are sent in a second: of more, fewer frames have them.
-_BUDGET = 9000
 # Shortest period at which the places of texts are sent [s].
 _TEXT_PERIOD = 0.1
 
@@ -167,11 +165,6 @@ class BodyTexts:
             points = rr.Points3D.columns(labels=shown, positions=nowhere)
             times = batch.times_at([0])
             self._recording.send_columns(self._path, times, points.partition([len(shown)]))
-
-
-def sampling_period(count: int) -> float:
-    """Return the period at which texts or arrows are sent [s], by their number in a frame."""
-    return count / _BUDGET
 
 
 def _appearance(body: Body) -> Hashable:

@@ -23,7 +23,7 @@ from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.view.endpoints import Endpoint
-from physsim_ros.view.stream import FrameContext
+from physsim_ros.view.frame_context import FrameContext
 
 # Greatest memory of the frames that wait [bytes], and the greatest number of answers of dropped
 # frames.

@@ -33,7 +33,6 @@ class Endpoint(ABC):
     """
     A receiver of frames.
 
-    :cvar kind: name of the kind, for messages
     :cvar where: address, for messages
     :cvar code: of the event that reports a lost receiver
     :cvar period: time between two writes [s]
@@ -41,12 +40,16 @@ class Endpoint(ABC):
     :cvar reopens: whether a lost receiver is opened again
     """
 
-    kind = ''
     where = ''
     code: ClassVar[str] = 'viewer_lost'
     period: ClassVar[float] = 0.1
     closing: ClassVar[float] = CLOSING
     reopens: ClassVar[bool] = True
+
+    @property
+    @abstractmethod
+    def kind(self) -> str:
+        """Return the name of the kind, for messages."""
 
     @abstractmethod
     def open_stream(self) -> RerunStream:
@@ -77,7 +80,7 @@ class Endpoint(ABC):
     @property
     def page_address(self) -> str:
         """Return the address where that is a web page; else ''."""
-        return self.where if self.kind == 'web' and self.where.startswith('http:') else ''
+        return ''
 
     def lost_answer(self, reason: str) -> Answer:
         """Return the answer that reports a lost receiver, or another one than was asked for."""
@@ -120,9 +123,19 @@ class ServerEndpoint(Endpoint):
 
     def __init__(self, *, native: bool, report: Callable[[Answer], None]) -> None:
         self._report = report
-        self.kind = 'spawn' if native else 'web'
+        self._is_native = native
         self._uri = ''
         self._program: subprocess.Popen[bytes] | None = None
+
+    @property
+    def kind(self) -> str:
+        """Return the kind of the program, which may become another."""
+        return 'spawn' if self._is_native else 'web'
+
+    @property
+    def page_address(self) -> str:
+        """Return the address of the page, once there is one."""
+        return self.where if self.where.startswith('http:') else ''
 
     def open_stream(self) -> RerunStream:
         """Start a server and the program, and return a stream to it."""
@@ -132,7 +145,7 @@ class ServerEndpoint(Endpoint):
         server = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
         stream = RerunStream(server)
         self._uri = server.uri
-        if self.kind == 'spawn' and not has_display():
+        if self._is_native and not has_display():
             self._fall_back('there is no display')
         else:
             self._start_program()
@@ -144,7 +157,7 @@ class ServerEndpoint(Endpoint):
         if program is None or (code := program.poll()) is None:
             return
         self._program = None
-        if self.kind == 'spawn' and code:
+        if self._is_native and code:
             self._fall_back(f'the window has failed ({code})')
         else:
             self._lose_program(f'the viewer was closed ({code})')
@@ -156,12 +169,12 @@ class ServerEndpoint(Endpoint):
             end_child(program, timeout=TERMINATING)
 
     def _fall_back(self, reason: str) -> None:
-        self.kind = 'web'
+        self._is_native = False
         self._start_program()
         self._report(self.lost_answer(f'{reason}, so this page instead'))
 
     def _start_program(self) -> None:
-        if self.kind == 'spawn':
+        if self._is_native:
             self.where = f'window on {self._uri}'
             arguments = [f'--connect={self._uri}', '--port=auto', '--hide-welcome-screen']
         else:

@@ -29,6 +29,8 @@ Times = list[rr.TimeColumn]
 
 # Time between two frames until stamps and speed give one [ns]: a period of the default rate.
 _FIRST_PERIOD = 16_666_667
+# Greatest number of texts or arrows that are sent in a second: of more, fewer frames have them.
+_BUDGET = 9000
 # Shortest and longest time between two frames [ns]: after a seek the picture does not wait.
 _SHORTEST, _LONGEST = 1_000_000, 1_000_000_000
 
@@ -92,6 +94,11 @@ class FrameBatch:
     def sampled(self, period: float) -> list[int]:
         """Return the indices of the frames that are due, as `due` does, and of the last one."""
         return sorted({*self.due(period), len(self.frames) - 1})
+
+
+def sampling_period(count: int) -> float:
+    """Return the period at which texts or arrows are sent [s], by their number in a frame."""
+    return count / _BUDGET
 
 
 class RecordedClock:

@@ -18,13 +18,14 @@ import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.view import arrows, bodies, events, robots
+from physsim_ros.view import arrows, bodies, events, robots, time_track
 from physsim_ros.view.frame_batch import Change, FrameBatch, RECORDED, RecordedClock, Track
+from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.joints import Joints
 from physsim_ros.view.plots import plot_views, Plots
 from physsim_ros.view.preview import PreviewLines
 from physsim_ros.view.scenery import CAMERA, HEIGHT, PAPER, Scenery, WIDTH
-from physsim_ros.view.stream import FrameContext, send_blueprint
+from physsim_ros.view.stream import send_blueprint
 import rerun as rr
 import rerun.blueprint as rrb
 
@@ -67,8 +68,8 @@ class FrameRecorder:
             robots.RobotPaths(recording),
             PreviewLines(recording),
             events.EventLog(recording),
-            events.TimeTrack(recording),
-            events.TimeLabel(recording),
+            time_track.TimeTrack(recording),
+            time_track.TimeLabel(recording),
             self._plots,
         ]
 
@@ -153,7 +154,7 @@ def blueprint(*, paced: bool) -> rrb.Blueprint:
             arrows.VELOCITIES: [hidden],
         },
     )
-    below = rrb.Horizontal(events.time_view(), events.log_view(), column_shares=[1, 2])
+    below = rrb.Horizontal(time_track.time_view(), events.log_view(), column_shares=[1, 2])
     return rrb.Blueprint(
         rrb.Horizontal(
             rrb.Vertical(world, below, row_shares=[4, 1]),

@@ -16,7 +16,6 @@ for it gives the interpreter's lock away.
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass
 import os
 from threading import Lock
 from typing import TYPE_CHECKING
@@ -34,19 +33,6 @@ TICK = 0.1
 # does. It reads this as it is imported; 'warn' is its own default. To go with a setting of the
 # sink.
 os.environ.setdefault('RUST_LOG', 'warn,re_log_encoding::rrd::file_sink=error')
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FrameContext:
-    """
-    Facts about the program, which the world does not have.
-
-    :param real_time_factor: simulation seconds a second; None where nothing paces the world
-    :param title: of the world, which names the recording; '' for none
-    """
-
-    real_time_factor: float | None = None
-    title: str = ''
 
 
 class RerunStream:

@@ -29,7 +29,7 @@ from physsim_ros.view.endpoints import (
     ServerEndpoint,
 )
 from physsim_ros.view.file_endpoint import FileEndpoint
-from physsim_ros.view.stream import FrameContext
+from physsim_ros.view.frame_context import FrameContext
 
 
 class ViewerMode(Enum):

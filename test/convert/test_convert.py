@@ -12,10 +12,12 @@ import struct
 import zlib
 
 from physsim_ros.convert import __main__ as converting
+from physsim_ros.convert import content as converted_content
 from physsim_ros.convert.__main__ import main
 from physsim_ros.files import load_world
-from physsim_ros.model.errors import BadWorldFile, WorldFull
+from physsim_ros.model.errors import BadWorldFile, Refusal, WorldFull
 import pytest
+import yaml
 
 FLATLAND = """
 properties: {}
@@ -315,14 +317,14 @@ def tiled_of(width, data):
         ('layers: [{map: nowhere.yaml}]\nmodels: []\n', 'nowhere.yaml'),
         ('layers: [{map: /dev/zero}]\nmodels: []\n', 'not a regular file'),
         ('layers: 3\nmodels: []\n', 'no valid world of flatland'),
-        ('[' * 2000, 'no valid world of any program'),
+        ('[' * 2000, 'no valid YAML'),
         ('a: 2001-13-45', 'month must be in 1..12'),
         (f'a: {"9" * 5000}', 'Exceeds the limit'),
         ('world: {width: 9}\nrobot: {number: 1000000000}', 'more than 20,000 bodies'),
-        ('world: {width: 9}\nrobot: {number: .inf}', 'OverflowError'),
+        ('world: {width: 9}\nrobot: {number: .inf}', 'robot.number must be a whole number'),
         (tiled_of(1, 'AAAA'), 'no valid world of Tiled'),
         (tiled_of(10**9, 'AAAA'), 'more than 16,000,000 tiles'),
-        (tiled_of(1, base64.b64encode(zlib.compress(bytes(10**6))).decode()), 'buffer size'),
+        (tiled_of(1, base64.b64encode(zlib.compress(bytes(10**6))).decode()), 'no 1 x 1 tiles'),
     ],
 )
 def test_what_cannot_be_converted_is_told(tmp_path, capsys, text, told):
@@ -332,6 +334,51 @@ def test_what_cannot_be_converted_is_told(tmp_path, capsys, text, told):
     assert main([str(source)]) == 1
     assert told in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == [source]
+
+
+# Values of which each is wrong somewhere.
+ODD = (None, True, -1, 0, 2.5, 1e300, math.nan, math.inf, 'x', '', [], [1.0], [[]], {}, {'x': 1})
+FILES = {'burger.model.yaml': BURGER, 'door.model.yaml': DOOR, 'room.yaml': ROOM}
+SAMPLES = {
+    **FILES,
+    'flatland': FLATLAND,
+    'ir-sim': IRSIM,
+    'Tiled': json.dumps(TILED),
+    'R.U.B.E.': json.dumps(RUBE),
+}
+
+
+def places_in(content):
+    """Yield the mapping or list, and the key or index, of each value at any depth."""
+    for key in list(content) if isinstance(content, dict) else range(len(content)):
+        yield content, key
+        if isinstance(content[key], dict | list):
+            yield from places_in(content[key])
+
+
+@pytest.mark.parametrize('sample', SAMPLES)
+def test_a_value_that_is_wrong_is_a_mistake_of_the_file_and_no_error_of_ours(
+    tmp_path, monkeypatch, sample
+):
+    world = FLATLAND if sample in FILES else SAMPLES[sample]
+    texts = {**FILES, 'room.dat': '0 0 5 0\n', 'world.yaml': world}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    contents = {name: yaml.safe_load(text) for name, text in texts.items()}
+    for module in (converting, converted_content):
+        monkeypatch.setattr(module, 'parsed', lambda _, name: contents[name])
+    refused = 0
+    converting.convert(tmp_path / 'world.yaml')
+    for holder, key in [*places_in(contents[sample if sample in FILES else 'world.yaml'])]:
+        kept = holder[key]
+        for odd in ODD:
+            holder[key] = odd
+            try:
+                converting.convert(tmp_path / 'world.yaml')
+            except (Refusal, OSError):
+                refused += 1
+        holder[key] = kept
+    assert refused > len(ODD)
 
 
 @pytest.mark.parametrize(

@@ -133,7 +133,7 @@ LIMITS: dict[
     'length of a chain of many links': ('chains.MOST_LINKS', links, (29.8, 36.0), (99, 100)),
     'length of the arrow of a force': ('tools._NEWTONS', force, (1.0, 2.0), (10.0, 20.0)),
     'gap between parts that touch': (
-        'cut_shape._TOUCHING', largest_piece, (0.0202, 0.0206), (1.2, 1.0),
+        'separating_axes._TOUCHING', largest_piece, (0.0202, 0.0206), (1.2, 1.0),
     ),
     'width of a sliver that is left out': (
         'cut_shape._SLIVERS', sliver_of, (-4.5e-4, -5.5e-4), (2, 0),
@@ -149,8 +149,8 @@ LIMITS: dict[
 }  # fmt: skip
 # Numbers of points between which results do not differ, rounding, work, and looks.
 RESOLUTION = {
-    'chains._FINE', 'chains._STEEL', 'cut_shape._AT_ONCE', 'cut_shape._CORNERS',
-    'cut_shape._ON_LINE', 'cut_shape._ROUNDING', 'knife._SAME_AREA', 'tools._CIRCLE_CORNERS',
+    'chains._FINE', 'chains._STEEL', 'separating_axes._AT_ONCE', 'cut_shape._CORNERS',
+    'cut_shape._ON_LINE', 'cut_shape._ROUNDING', 'knife._SAME_AREA', 'gesture._SIDES',
 }  # fmt: skip
 # Those of the geometry are tested with the strokes.
 CONSTANTS = constants(set(FOLDER.glob('*.py')) - {FOLDER / 'geometry.py'})

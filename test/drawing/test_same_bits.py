@@ -23,7 +23,8 @@ from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.choice import reading_of
-from physsim_ros.drawing.strokes.reading import guesses_of, stroke_in_scene
+from physsim_ros.drawing.strokes.forms import classification_of
+from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.stages import MOST_GUESSES
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
@@ -74,8 +75,8 @@ def digest_of_readings(strokes: Iterable[tuple[Floats, SceneQuery]]) -> str:
     total = hashlib.sha256()
     for samples, scene in strokes:
         try:
-            drawn = resample_stroke(samples)
-            guesses = guesses_of(stroke_in_scene(drawn, scene, DrawingSettings()))
+            drawn = classification_of(resample_stroke(samples))
+            guesses = guesses_of(drawn, scene, DrawingSettings())
         except Refusal as refusal:
             total.update(repr(refusal).encode())
             continue

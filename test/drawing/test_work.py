@@ -15,7 +15,7 @@ from physsim_ros.drawing import DrawingSession, DrawingSettings, knife
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.bodies_under import joint_ends, wheels_passed
 from physsim_ros.drawing.strokes.grouping import MOST_STROKES, MOST_TIME
-from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
+from physsim_ros.drawing.strokes.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_description import new_body
 from physsim_ros.model.body_properties import Properties

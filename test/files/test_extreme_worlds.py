@@ -12,11 +12,11 @@ import math
 from typing import Any
 
 from physsim_ros import Simulation
-from physsim_ros.engine.core_world import LOST
 from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.model.actors import actor_from
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
+from physsim_ros.model.checks import LOST
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_RATIO
 from physsim_ros.model.requests import Delete, Join, Spawn

@@ -112,14 +112,16 @@ def join(sim, name, kind, points, *, a='', b='', **properties):
     sim.perform(Join(name=name, kind=kind, points=tuple(points), a=a, b=b, properties=said))
 
 
-def chain(sim, count, link):
-    """Hang links of 0.1 kg by axles on each other, the first on the background."""
+def hanging_chain(count, link=0.2):
+    """Return links of 0.1 kg that hang by axles on each other, level at first."""
+    sim = simulation()
     for number in range(count):
         place = (link * (number + 0.5), 0.0, 0.0)
         spawn(sim, f'link/{number}', Box(width=link, height=0.05), place, mass=0.1)
         other = f'link/{number - 1}' if number else 'world'
         points = [(link * number, 0.0)]
         join(sim, f'joint/{number}', 'axle', points, a=f'link/{number}', b=other)
+    return sim
 
 
 def pyramid(sim, size, gap):

@@ -82,14 +82,18 @@ def test_a_pull_at_a_point_keeps_the_sum_of_energy_and_its_potential(report):
         report.check(54, 'E - F·x of a pull at an arm, for 20 s', off, 0.0, 1e-3, 'J')
 
 
-@pytest.mark.parametrize(('pull', 'acceleration'), [(3.0, 0.0), (8.0, 8.0 / 2.0 - 0.25 * G)])
-def test_friction_holds_a_block_up_to_its_limit(report, pull, acceleration):
+def pulled_block(pull):
+    """Return a block of 2 kg on a floor that a force pulls [N]."""
     sim = simulation()
     floor(sim, friction=0.25)
     said = {'mass': 2.0, 'friction': 0.25, 'forces': [{'force': [pull, 0.0]}]}
     spawn(sim, 'block/0', Box(width=1.0, height=0.5), (0.0, 0.25, 0.0), **said)
+    return sim
 
-    *_, last = steps(sim, 480)
+
+@pytest.mark.parametrize(('pull', 'acceleration'), [(3.0, 0.0), (8.0, 8.0 / 2.0 - 0.25 * G)])
+def test_friction_holds_a_block_up_to_its_limit(report, pull, acceleration):
+    *_, last = steps(pulled_block(pull), 480)
 
     speed = last.twists[1, 0]
     report.check(54, 'block pulled on a floor for 2 s', speed, acceleration * 2.0, 2e-3, 'm/s')

@@ -61,13 +61,18 @@ def test_an_overdamped_spring_relaxes_as_its_exact_solution(report, stiffness, d
     report.check(49, what, last, exact, 0.01, 'm', relative=True)
 
 
-def fall_on(kind, end, said, max_force):
-    """Return how far 3 kg fall on a joint in a second [m], and the force of the joint [N]."""
+def weight_on(kind, end, max_force, **said):
+    """Return 3 kg that hang on a joint from a place below or above the origin [m]."""
     sim = simulation()
     spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=3.0)
     points = [(0.0, -2.0), (0.0, end)]
     join(sim, 'j/0', kind, points, a='weight/0', b='world', max_force=max_force, **said)
-    now = run(sim, 1.0)
+    return sim
+
+
+def fall_on(kind, end, said, max_force):
+    """Return how far 3 kg fall on a joint in a second [m], and the force of the joint [N]."""
+    now = run(weight_on(kind, end, max_force, **said), 1.0)
     return -2.0 - now.poses[0, 1], now.forces[0]
 
 

@@ -356,17 +356,23 @@ def _belt(sim, length, speed, name='belt/0', yaw=0.0):
     spawn(sim, name, Box(width=length, height=1.0), (0.0, 0.0, yaw), **said)
 
 
-@pytest.mark.parametrize('speeds', [(0.4,), (-0.4, 0.4), (0.2, 0.3, 0.4)])
-def test_a_conveyor_carries_at_its_speed_and_of_several_the_last(report, speeds):
+def on_conveyors(*speeds):
+    """Return a box on conveyors that lie on each other; the last row is that of the box."""
     sim = _floor()
     for number, speed in enumerate(speeds):
         _belt(sim, 6.0, speed, name=f'belt/{number}', yaw=0.3)
-    row = spawn(sim, 'box/0', BOX, (0.0, 0.0, 0.0))
-    start = _after(sim, 1.0).poses[row]
+    spawn(sim, 'box/0', BOX)
+    return sim
+
+
+@pytest.mark.parametrize('speeds', [(0.4,), (-0.4, 0.4), (0.2, 0.3, 0.4)])
+def test_a_conveyor_carries_at_its_speed_and_of_several_the_last(report, speeds):
+    sim = on_conveyors(*speeds)
+    start = _after(sim, 1.0).poses[-1]
 
     last = _after(sim, 2.0)
 
-    way = last.poses[row, :2] - start[:2]
+    way = last.poses[-1, :2] - start[:2]
     exact = turned((0.4 * 2.0, 0.0), 0.3)
     report.check(40, 'way on a conveyor', abs(way - exact).max(), 0.0, 1e-9, 'm')
 

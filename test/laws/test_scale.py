@@ -44,14 +44,18 @@ def check_overlap(report, what, overlap, size):
     report.check(48, f'{what} of {size:g} m, overlap', share, 0.0, tolerance, 'sizes')
 
 
-@pytest.mark.parametrize('size', SIZES)
-def test_a_box_that_falls_on_a_stack_does_not_sink_in(report, size):
+def falls_on_stack(size):
+    """Return a box of a size that falls on a stack of three [m]."""
     sim = simulation()
     ground(sim, size)
     for number, level in enumerate((0.5, 1.5, 2.5, 4.5)):
         spawn(sim, f'box/{number}', Box(width=size, height=size), (0.0, level * size, 0.0))
+    return sim
 
-    end = rested(sim, size)
+
+@pytest.mark.parametrize('size', SIZES)
+def test_a_box_that_falls_on_a_stack_does_not_sink_in(report, size):
+    end = rested(falls_on_stack(size), size)
 
     check_overlap(report, 'a box on three', overlaps(end.poses[1:, 1], size), size)
     speed = float(np.abs(end.twists[1:, :2]).max()) / math.sqrt(G * size)

@@ -64,7 +64,7 @@ def test_a_word_for_a_kind_of_sensor_drive_or_actor_is_told_its_name(check, word
 @pytest.mark.parametrize('check', [sensor_from, drive_from, actor_from])
 def test_the_everyday_words_of_kinds_are_no_kinds(check):
     words = [word for each in check.everyday.values() for word in each]
-    assert check.everyday.keys() == check.kinds.keys()
+    assert all(check.everyday.values())
     assert not {*words} & check.kinds.keys()
     assert len({*words}) == len(words)
 

@@ -23,9 +23,8 @@ from physsim_ros.simulation.simulation import Simulation
 
 from ..laws.scenes import (
     bar_among_discs,
-    chain,
     floor,
-    G,
+    hanging_chain,
     join,
     NOWHERE,
     pyramid,
@@ -34,14 +33,28 @@ from ..laws.scenes import (
     turned,
     walls,
 )
+from ..laws.test_applied_forces import pulled_block
 from ..laws.test_bridges import bridge, put_load
-from ..laws.test_floor import DRIVE
+from ..laws.test_dampers import weight_on
+from ..laws.test_floor import DRIVE, on_conveyors
+from ..laws.test_friction import on_incline
 from ..laws.test_impacts import angular_shape, pair_in_flight, round_shape, walled
-from ..laws.test_joints import double_pendulum, tangle
-from ..laws.test_machines import pendulum
+from ..laws.test_jointed_friction import fridge
+from ..laws.test_joints import beam_on_joints, double_pendulum, tangle
+from ..laws.test_machines import (
+    arm_on_motor,
+    balls_on_rods,
+    bars_in_space,
+    beam,
+    gears,
+    pendulum,
+    pendulum_on_box,
+    slider,
+)
 from ..laws.test_random_worlds import random_crowd, random_world
 from ..laws.test_ropes import loaded_rope
 from ..laws.test_rows import row as row_of_elastic_bodies
+from ..laws.test_scale import falls_on_stack
 from ..laws.test_tracks import ball_in_track
 from ..laws.test_travel import plough
 from ..worlds.digests import scene as drawn_scene
@@ -237,26 +250,14 @@ def incline(angle=0.5):
 
 
 def block_on_incline(degrees):
-    sim, angle = simulation(), math.radians(degrees)
-    floor(sim, angle=angle)
-    spawn(sim, 'body/0', Box(width=1.0, height=0.5), (*turned((0.0, 0.25), angle), angle))
+    sim, _ = on_incline(Box(width=1.0, height=0.5), 0.25, degrees)
     return sim
 
 
 def tips_on_incline(share):
     """Lay a box of 0.5 m by 1 m on an incline of a share of the angle at which it tips."""
-    sim, angle = simulation(friction=2.0, elasticity=0.0), share * math.atan(0.5)
-    floor(sim, angle=angle)
-    spawn(sim, 'body/0', Box(width=0.5, height=1.0), (*turned((0.0, 0.5), angle), angle))
-    return sim
-
-
-def fridge(height):
-    """Push a tall box at a height [m]; it tips above 0.75 m."""
-    sim, friction, mass = simulation(elasticity=0.0, friction=0.4), 0.4, 50.0
-    floor(sim)
-    force = {'force': (1.05 * friction * mass * G, 0.0), 'at': (-0.3, height - 0.9)}
-    spawn(sim, 'fridge/0', Box(width=0.6, height=1.8), (0.0, 0.9, 0.0), mass=mass, forces=[force])
+    degrees = share * math.degrees(math.atan(0.5))
+    sim, _ = on_incline(Box(width=0.5, height=1.0), 0.5, degrees, friction=2.0, elasticity=0.0)
     return sim
 
 
@@ -286,28 +287,6 @@ def sliding_box():
 
 
 # Laws 14 to 23: joints
-
-
-def pendulum_on_box(kind):
-    sim = simulation()
-    floor(sim, friction=1.0)
-    box = Box(width=2.0, height=3.0)
-    spawn(sim, 'box/0', box, (0.0, 1.5, 0.0), mass=100.0, friction=1.0, group=1)
-    spawn(sim, 'bob/0', Disc(radius=0.1), (1.0, 2.9, 0.0), mass=1.0, group=1)
-    points = [(0.0, 2.9)] if kind == 'axle' else [(1.0, 2.9), (0.0, 2.9)]
-    join(sim, 'joint/0', kind, points, a='bob/0', b='box/0')
-    return sim
-
-
-def two_in_space(kind):
-    sim = simulation(gravity=NOWHERE)
-    for number, sign in enumerate((1.0, -1.0)):
-        place, velocity = (1.2 * number, 0.0, 0.0), (0.0, 3.0 * number - 1.0)
-        box, name = Box(width=1.0, height=0.2), f'bar/{number}'
-        spawn(sim, name, box, place, velocity=velocity, spin=2.0 * sign, group=1)
-    points = [(0.6, 0.0)] if kind == 'axle' else [(0.9, 0.05), (0.3, -0.05)]
-    join(sim, 'joint/0', kind, points, a='bar/1', b='bar/0')
-    return sim
 
 
 def mass_on_spring(damping=0.0):
@@ -348,69 +327,6 @@ def four_bars():
     return sim
 
 
-def balls_on_rods():
-    material = {'elasticity': 1.0, 'friction': 0.0}
-    sim = simulation(gravity=(0.0, 0.0), bounds=(-4.0, 0.4, 4.0, 5.0), **material)
-    for number in range(3):
-        x, vx = 0.606 * number, 30.0 if number == 0 else 0.0
-        spawn(sim, f'ball/{number}', Disc(radius=0.3), (x, 1.4, 0.0), velocity=(vx, 0.0))
-        points = [(x, 1.4), (x, 4.4)]
-        join(sim, f'joint/{number}', 'rod', points, a=f'ball/{number}', b='world')
-    return sim
-
-
-def hanging_chain(count):
-    sim = simulation()
-    chain(sim, count, 0.2)
-    return sim
-
-
-def beam(load):
-    sim = simulation()
-    for number in range(5):
-        spawn(sim, f'box/{number}', Box(width=1.0, height=0.2), (number + 0.5, 0.0, 0.0))
-        other = f'box/{number - 1}' if number else 'world'
-        join(sim, f'joint/{number}', 'pin', [(number, 0.0)], a=f'box/{number}', b=other)
-    if load:
-        spawn(sim, 'load/0', Box(width=0.5, height=0.5), (4.5, 0.35, 0.0), mass=load)
-    return sim
-
-
-def beam_on_ropes(count):
-    sim = simulation()
-    spawn(sim, 'beam/0', Box(width=2.0, height=0.1), mass=3.0)
-    for number in range(count):
-        x = -0.9 + 1.8 * number / (count - 1)
-        join(sim, f'rope/{number}', 'rope', [(x, 0.0), (x, 1.0)], a='beam/0', b='world')
-    return sim
-
-
-def motor(max_torque):
-    sim = simulation()
-    spawn(sim, 'arm/0', Box(width=1.0, height=0.1), (0.0, -0.5, -math.pi / 2), mass=1.0)
-    said = {'rate': 2.0, 'max_torque': max_torque}
-    join(sim, 'joint/0', 'motor', [(0.0, 0.0)], a='arm/0', b='world', **said)
-    return sim
-
-
-def gears(ratio):
-    sim = simulation()
-    spawn(sim, 'wheel/0', Disc(radius=0.2), (-0.2, 0.0, 0.0))
-    spawn(sim, 'wheel/1', Disc(radius=0.4), (0.4, 0.0, 0.0))
-    join(sim, 'joint/0', 'axle', [(-0.2, 0.0)], a='wheel/0', b='world')
-    join(sim, 'joint/1', 'motor', [(0.4, 0.0)], a='wheel/1', b='world', rate=3.0)
-    join(sim, 'joint/2', 'gear', [(0.0, 0.0)], a='wheel/0', b='wheel/1', ratio=ratio)
-    return sim
-
-
-def slider():
-    sim = simulation()
-    spawn(sim, 'block/0', Box(width=0.4, height=0.4), (0.0, 3.0, 0.3), velocity=(4.0, 4.0))
-    points = [(0.0, 3.0), (1.0, 4.0)]
-    join(sim, 'joint/0', 'slider', points, a='block/0', b='world', lower=-0.5, upper=0.25)
-    return sim
-
-
 def limited_axle():
     sim = simulation()
     spawn(sim, 'arm/0', Box(width=1.0, height=0.1), (0.5, 0.0, 0.0))
@@ -424,14 +340,6 @@ def slack_rope():
     spawn(sim, 'ball/0', Disc(radius=0.1), (0.3, 0.0, 0.0))
     points = [(0.3, 0.0), (0.0, 1.0)]
     join(sim, 'joint/0', 'rope', points, a='ball/0', b='world', length=1.5)
-    return sim
-
-
-def weak_joint(kind):
-    sim = simulation()
-    spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=3.0)
-    points = [(0.0, -2.0), (0.0, 0.0)]
-    join(sim, 'joint/0', kind, points, a='weight/0', b='world', max_force=20.0)
     return sim
 
 
@@ -557,15 +465,6 @@ def pile(size, gap):
     return sim
 
 
-def falls_on_stack(size):
-    sim = simulation()
-    spawn(sim, 'floor/0', Box(width=50 * size, height=10 * size), (0.0, -5 * size, 0.0),
-          anchored=True)  # fmt: skip
-    for number, level in enumerate((0.5, 1.5, 2.5, 4.5)):
-        spawn(sim, f'box/{number}', Box(width=size, height=size), (0.0, level * size, 0.0))
-    return sim
-
-
 def gas(count):
     sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
     walls(sim, -5.0, -5.0, 5.0, 5.0)
@@ -638,6 +537,25 @@ def kinematic_pusher():
     return sim
 
 
+# Laws 75 and 76: what rises through one-way platforms, falls onto them, and rolls to rest
+
+
+def platforms():
+    sim = simulation()
+    walls(sim, -4.0, 0.0, 4.0, 12.0)
+    for number in range(3):
+        said = {'anchored': True, 'one_way': (0.0, 1.0), 'closed_sides': number == 1}
+        pose = (number - 1.0, 1.0 + number, 0.1 * number)
+        spawn(sim, f'platform/{number}', Box(width=3.0, height=0.2), pose, **said)
+    wedge = Polygon(outline=((-0.2, -0.1), (0.2, -0.1), (-0.1, 0.2)))
+    shapes = (Disc(radius=0.2), Box(width=0.4, height=0.3), wedge)
+    for number in range(5):
+        said = {'velocity': (0.2 - 0.1 * number, 9.0), 'rolling_resistance': 0.05}
+        pose = (1.3 * number - 2.6, 0.4, 0.1 * number)
+        spawn(sim, f'thrown/{number}', shapes[number % 3], pose, **said)
+    return sim
+
+
 # Laws 37 to 41 and 51 to 54: floors seen from above, robots, people, applied forces
 
 
@@ -645,14 +563,6 @@ def sliding_on_floor():
     sim = simulation(gravity=NOWHERE, floor_friction=0.5)
     spawn(sim, 'box/0', Box(width=0.4, height=0.2), velocity=(2.0, 0.5), spin=4.0)
     spawn(sim, 'disc/0', Disc(radius=0.2), (2.0, 0.3, 0.0))
-    return sim
-
-
-def conveyor():
-    sim = simulation(gravity=NOWHERE, floor_friction=0.5)
-    said = {'anchored': True, 'sensor': True, 'surface_velocity': (0.4, 0.0)}
-    spawn(sim, 'belt/0', Box(width=6.0, height=1.0), (0.0, 0.0, 0.3), **said)
-    spawn(sim, 'box/0', Box(width=0.2, height=0.2))
     return sim
 
 
@@ -700,14 +610,6 @@ def thruster():
     sim = simulation(gravity=(0.0, 0.0))
     forces = [{'force': [0.0, 2.0], 'at': [0.5, 0.0], 'axes': 'body'}, {'force': [1.0, 0.0]}]
     spawn(sim, 'body/0', ELL, mass=4.0, forces=forces)
-    return sim
-
-
-def pulled_block():
-    sim = simulation()
-    floor(sim, friction=0.25)
-    said = {'mass': 2.0, 'friction': 0.25, 'forces': [{'force': [8.0, 0.0]}]}
-    spawn(sim, 'block/0', Box(width=1.0, height=0.5), (0.0, 0.25, 0.0), **said)
     return sim
 
 
@@ -827,20 +729,21 @@ def _laws():
         'damped spring': Scene(build=partial(mass_on_spring, 2.0)),
         'pendulum beside a damper': Scene(build=partial(pendulum_beside_damper, 0.1)),
         'cradle': Scene(build=cradle),
-        'balls on rods': Scene(build=balls_on_rods),
+        'balls on rods': Scene(build=partial(balls_on_rods, 30.0)),
+        'one-way platforms': Scene(build=platforms, seconds=2.5),
         'four bars': Scene(build=four_bars),
         'chain of 5': Scene(build=partial(hanging_chain, 5)),
         'chain of 30': Scene(build=partial(hanging_chain, 30)),
         'beam': Scene(build=partial(beam, 0.0)),
         'beam with a load': Scene(build=partial(beam, 2.0)),
-        'beam on 3 ropes': Scene(build=partial(beam_on_ropes, 3)),
-        'motor': Scene(build=partial(motor, 100.0)),
-        'motor that stalls': Scene(build=partial(motor, 1.0)),
+        'beam on 3 ropes': Scene(build=partial(beam_on_joints, 'rope', 3)),
+        'motor': Scene(build=partial(arm_on_motor, 100.0)),
+        'motor that stalls': Scene(build=partial(arm_on_motor, 1.0)),
         'gears': Scene(build=partial(gears, -2.0)),
         'slider between limits': Scene(build=slider),
         'axle between limits': Scene(build=limited_axle),
         'rope that becomes taut': Scene(build=slack_rope),
-        'rod that is too weak': Scene(build=partial(weak_joint, 'rod')),
+        'rod that is too weak': Scene(build=partial(weight_on, 'rod', 0.0, 20.0)),
         'four-bar linkage': Scene(build=four_bar),
         'sled on a rope': Scene(build=sled_on_rope),
         'car': Scene(build=partial(car, 10.0)),
@@ -867,12 +770,12 @@ def _laws():
         'bar among discs': chaotic(build=bar, seconds=0.5),
         'crowd of 60': chaotic(build=partial(crowd, 60)),
         'slides on a floor': Scene(build=sliding_on_floor),
-        'conveyor': Scene(build=conveyor),
+        'conveyor': Scene(build=partial(on_conveyors, 0.4)),
         'people of ORCA': Scene(build=partial(people, 'orca')),
         'people of social forces': Scene(build=partial(people, 'social_force')),
         'carts on paths': Scene(build=carts),
         'thruster': Scene(build=thruster),
-        'block that is pulled': Scene(build=pulled_block),
+        'block that is pulled': Scene(build=partial(pulled_block, 8.0)),
         'stack in the wind': Scene(build=windy_stack),
         'floats': Scene(build=floats),
         'leaves in the wind': Scene(build=leaves),
@@ -881,7 +784,7 @@ def _laws():
     for kind in ('axle', 'rod', 'rope'):
         yield f'pendulum by a(n) {kind} on a box', Scene(build=partial(pendulum_on_box, kind))
     for kind in ('axle', 'rod', 'slider'):
-        yield f'two bars by a(n) {kind} in space', Scene(build=partial(two_in_space, kind))
+        yield f'two bars by a(n) {kind} in space', Scene(build=partial(bars_in_space, kind))
     for kind, struck in itertools.product(('discs', 'boxes', 'mixed'), (1, 2)):
         yield (
             f'row of {kind}, {struck} struck',

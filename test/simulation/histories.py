@@ -543,7 +543,7 @@ class Player:
 
     def _note_requests(self, frame: Frame) -> list[Made]:
         """Return the requests that have changed the world since the last frame, from its log."""
-        history, line = self.sim.past.tree, self.line
+        history, line = self.sim.past.line, self.line
         dropped, logged = history.nodes[0].serial, history.nodes[1:]
         pairs = zip(line.made[dropped:], logged, strict=False)
         same_yet = itertools.takewhile(lambda pair: pair[0].request is pair[1].request, pairs)

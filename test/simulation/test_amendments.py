@@ -211,7 +211,7 @@ def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_we
 ):
     simulation = world_after(ANNA, BEN)
     simulation.past.boundary = ErrorBoundary(lambda _: None)
-    before, users = simulation.world.digest(), simulation.past.tree.tip.users
+    before, users = simulation.world.digest(), simulation.past.line.tip.users
     simulation.undo()
     simulation.redo()
 
@@ -225,5 +225,5 @@ def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_we
 
     assert [each.code for each in frame.answers] == ['failed']
     assert simulation.world.digest() == before
-    assert simulation.past.tree.tip.users == users
+    assert simulation.past.line.tip.users == users
     assert simulation.undo().startswith('undid spawn b/0')

@@ -205,7 +205,7 @@ def test_a_request_that_fails_in_the_past_keeps_no_line(monkeypatch):
     sim.perform(spawning('a/0', BOX, (0.0, 1.0, 0.0)))
     run(sim, 1.0)
     sim.seek(SECOND // 2)
-    users = sim.past.tree.tip.users
+    users = sim.past.line.tip.users
     carry_out = World.apply
 
     def fail(world: World, request: Request) -> Answer:
@@ -218,7 +218,7 @@ def test_a_request_that_fails_in_the_past_keeps_no_line(monkeypatch):
         with pytest.raises(Failed):
             act(sim, 1.0)
 
-    assert sim.past.tree.tip.users == users
+    assert sim.past.line.tip.users == users
     assert not sim.past.tree.left
 
 
@@ -255,7 +255,7 @@ def test_a_world_that_is_refused_changes_nothing():
     sim = Simulation()
     sim.perform(spawning('a/0', BOX, (0.0, 1.0, 0.0)))
     run(sim, 1.0)
-    before, users = sim.world.digest(), sim.past.tree.tip.users
+    before, users = sim.world.digest(), sim.past.line.tip.users
     too_large = replace(
         sim.save(),
         settings=replace(sim.world.settings, max_bodies=1),
@@ -263,5 +263,5 @@ def test_a_world_that_is_refused_changes_nothing():
     )
     with pytest.raises(Refusal):
         sim.open_world(too_large)
-    assert (sim.world.digest(), sim.past.tree.tip.users) == (before, users)
+    assert (sim.world.digest(), sim.past.line.tip.users) == (before, users)
     assert sim.status.undo == 'undo spawn a/0'

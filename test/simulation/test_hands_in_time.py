@@ -83,7 +83,7 @@ def test_a_thousand_moves_between_two_frames_are_logged_as_one():
     frame = sim.advance_frame()
 
     assert frame.snapshot.grips[0].target == (1.0, 0.0)
-    logged = [type(entry.request) for entry in sim.past.tree.nodes_between(1, 9)]
+    logged = [type(entry.request) for entry in sim.past.line.nodes_between(1, 9)]
     assert logged == [Grab, MoveHand]
 
 

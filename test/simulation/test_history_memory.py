@@ -95,7 +95,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
 
     assert 0.5 < (used(sim) - first) / taken < 2.0
     assert len(events) == 1
-    history = sim.past.tree
+    history = sim.past.line
     assert sim.status.oldest == history.oldest / RATE
     if paused:
         return
@@ -264,7 +264,7 @@ def test_a_gesture_is_undone_as_a_whole_or_not_at_all():
     for number in range(600):
         command(sim, number, joined=number > 0)
     sim.apply_requests()
-    assert sim.past.tree.keyframes[0].serial > 0
+    assert sim.past.line.keyframes[0].serial > 0
     before = sim.world.digest()
 
     with pytest.raises(OutOfHistory):

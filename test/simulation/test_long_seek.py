@@ -351,7 +351,7 @@ def test_an_undo_among_requests_that_are_replayed_at_one_step_takes_the_last_one
     assert simulation.apply_requests().snapshot.scene.names == ('disc/0', 'disc/1', 'disc/2')
     simulation.redo()
     assert len(simulation.apply_requests().snapshot.scene.names) == 4
-    assert simulation.past.tree.head == head
+    assert simulation.past.line.head == head
 
 
 def of_anna_and_ben(seconds: int) -> Simulation:

@@ -16,7 +16,7 @@ from physsim_ros import (
     Simulation,
 )
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import Command, Grab
+from physsim_ros.model.requests import Command, DriveRobot, Grab
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
@@ -71,6 +71,9 @@ OF_SIMULATION: dict[str, Call] = {
     'forces_now': of_simulation(lambda it: it.forces_now(it.frame.snapshot)[1]),
     'frame': of_simulation(lambda it: it.frame),
     'open_world': of_simulation(lambda it: it.open_world(it.save())),
+    'keep_driving': of_simulation(
+        lambda it: it.keep_driving(DriveRobot(name='robot/0', velocity=(0.1, 0.0, 0.0)))
+    ),
     'limit_history': of_simulation(lambda it: it.limit_history(1.0)),
     'limit_memory': of_simulation(lambda it: it.limit_memory(64.0)),
     'load': of_simulation(lambda it: it.load(it.save())),

@@ -108,7 +108,7 @@ def test_what_was_loaded_at_the_beginning_cannot_be_undone():
 def test_older_steps_than_are_kept_are_dropped():
     driven = dropped(history=3.0)
     driven.record(10.0)
-    history = driven.simulation.past.tree
+    history = driven.simulation.past.line
     assert history.head - history.oldest == 3 * 240
     assert len(history.keyframes) <= 3
     frames = driven.run(-64.0, 0.5)

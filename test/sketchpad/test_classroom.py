@@ -106,66 +106,6 @@ def test_thousands_of_names_may_be_locked_and_some_patterns(browser: Browser) ->
     assert pupil.spawn('a/1')['code'] == 'frozen'
 
 
-MACHINES = """
-format: 1
-gravity: [0, 0]
-bodies:
-- {name: arm/0, robot: arm, at: [0, 0]}
-- {name: w/0, circle: {radius: 0.5}, at: [6, 4], anchored: true}
-- {name: d/0, circle: {radius: 0.2}, at: [6, 4], anchored: true, sensor: true}
-- {name: l/0, box: {width: 0.2, height: 0.2}, at: [5.5, 0]}
-- {name: l/1, box: {width: 0.2, height: 0.2}, at: [6.5, 0]}
-- {name: g/0, circle: {radius: 0.5}, at: [10, 0]}
-- {name: g/1, circle: {radius: 0.5}, at: [12, 0]}
-- {name: c/0, box: {width: 0.5, height: 0.2}, at: [11, 2]}
-joints:
-- {name: rope/0, kind: rope, a: l/0, b: l/1, points: [[5.5, 0], [6, 4], [6.5, 0]], over: [w/0]}
-- {name: gear/0, kind: gear, a: g/0, b: g/1, points: [[11, 0]], ratio: -1, carrier: c/0}
-"""
-# Messages that change a machine, by a body of it.
-CHANGES: dict[str, list[tuple[str, dict[str, Any]]]] = {
-    'arm/0': [
-        ('move_bodies', {'names': ['arm/0/upper/0'], 'by': [1, 0]}),
-        ('delete', {'names': ['arm/0/upper/0']}),
-        ('click', {'tool': 'delete', 'point': [0.2, 0]}),
-    ],
-    'arm/0/upper/0': [
-        ('move_bodies', {'names': ['arm/0'], 'by': [1, 0]}),
-        ('place', {'names': ['arm/0'], 'poses': [[0, 1, 0]]}),
-        ('delete', {'names': ['arm/0']}),
-        ('change', {'name': 'arm/0', 'properties': {'friction': 0.1}}),
-        ('change_joint', {'name': 'arm/0/shoulder/0', 'properties': {'effort': 1}}),
-        ('motor', {'name': 'arm/0/shoulder/0', 'position': 0.5}),
-    ],
-    # A rope passes over it.
-    'w/0': [
-        ('change_joint', {'name': 'rope/0', 'properties': {'length': 9}}),
-        ('change_joint', {'name': 'rope/0', 'properties': {'rate': 1}}),
-        ('unjoin', {'name': 'rope/0'}),
-    ],
-    # It carries a gear.
-    'c/0': [
-        ('change_joint', {'name': 'gear/0', 'properties': {'ratio': 2}}),
-        ('unjoin', {'name': 'gear/0'}),
-    ],
-}
-
-
-@pytest.mark.parametrize('locked', CHANGES)
-def test_a_part_of_a_machine_is_locked_against_what_changes_the_machine(
-    browser: Browser, tmp_path: Path, locked: str
-) -> None:
-    (tmp_path / 'machines.yaml').write_text(MACHINES)
-    pupil, boss = browser.open_page(), teacher(browser)
-    for kind, fields in CHANGES[locked]:
-        browser.physsim.load(tmp_path / 'machines.yaml')
-        browser.physsim.step()
-        assert boss.ask('lock', names=[locked])['ok']
-        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
-        assert boss.ask('lock', names=[])['ok']
-        assert pupil.ask(kind, **fields)['ok'], (kind, fields)
-
-
 def test_time_brings_no_locked_body_back_or_away_but_for_a_teacher(browser: Browser) -> None:
     pupil, boss = browser.open_page(), teacher(browser)
     assert pupil.spawn('b/0', 4.0)['ok']

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from physsim_ros.simulation.world.world import HANDLERS
 from physsim_ros.sketchpad import page_session, Role
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages.worlds import ACTIONS
-from physsim_ros.sketchpad.rights import check_locked, check_unchanged, Right
+from physsim_ros.sketchpad.rights import check_locked, check_unchanged, Locks, Right
 from physsim_ros.testing import PhysSim
 import pytest
 
@@ -38,10 +39,15 @@ bodies:
 - {name: a/4, robot: turtlebot3_burger, at: [20, 0]}
 - {name: b/0, box: {width: 1, height: 1}, at: [4, 5]}
 - {name: b/1, box: {width: 1, height: 1}, at: [8, 0]}
+- {name: b/2, circle: {radius: 0.5}, at: [14, 0]}
+- {name: b/3, robot: arm, at: [30, 0]}
+- {name: carrier/0, circle: {radius: 0.5}, at: [11, 20]}
 joints:
 - {name: rod/0, kind: rod, a: a/0, b: b/0, points: [[0, 5], [4, 5]]}
 - {name: rope/0, kind: rope, a: b/0, b: b/1, points: [[4, 5], [6, 4], [8, 0]], over: [a/2]}
 - {name: axle/0, kind: axle, a: a/3, b: b/1, points: [[9, 0]]}
+- {name: rod/1, kind: rod, a: b/3/upper/0, b: a/2, points: [[30.2, 0], [6, 4]]}
+- {name: gear/0, kind: gear, a: b/1, b: b/2, points: [[11, 0]], ratio: -1, carrier: carrier/0}
 """
 ON, FREE, ASIDE = [0.0, 5.0], [4.0, 5.0], [2.0, 8.0]
 JOINTS = ('rod/0', 'rope/0', 'axle/0', 'a/1/shoulder/0')
@@ -114,21 +120,19 @@ CHANGING = (
 ELSEWHERE = {'gravity', 'air', 'seek', 'here'}
 
 
-def locked(physsim: PhysSim) -> str:
-    """Return all that there is of the locked bodies: state, joints, and hands on them."""
-    world = physsim.node.simulation.world
-    state = world.save()
-    bodies = [
-        (each.body, each.pose, each.twist, each.wrench, each.driven, each.coming)
-        for each in state.bodies
-        if each.body.name.startswith('a/')
-    ]
-    joints = [
-        (each, [command for command, _ in state.commands if command.joint == each.name])
-        for each in state.joints
-        if any(name.startswith('a/') for name in each.bodies)
-    ]
-    return repr((bodies, joints, [each for each in world.grips if each.body.startswith('a/')]))
+def states_of(physsim: PhysSim, patterns: Collection[str]) -> dict[str, str]:
+    """Return all that there is of each body whose name is one of those: state, joints, hands."""
+    world, locks = physsim.node.simulation.world, Locks(patterns)
+    state, states = world.save(), {}
+    for held in state.bodies:
+        name = held.body.name
+        if locks.has(name):
+            joints = {each.name: each for each in state.joints if name in each.bodies}
+            commands = [each for each, _ in state.commands if each.joint in joints]
+            hands = [each for each in world.grips if each.body == name]
+            own = (held.body, held.pose, held.twist, held.wrench, held.driven, held.coming)
+            states[name] = repr((own, joints, commands, hands))
+    return states
 
 
 def load_world(browser: Browser, tmp_path: Path) -> None:
@@ -169,11 +173,11 @@ def test_what_changes_bodies_changes_no_locked_one(
     browser: Browser, tmp_path: Path, kind: str
 ) -> None:
     pupil, boss = opened(browser, tmp_path)
-    before = locked(browser.physsim)
+    before = states_of(browser.physsim, ['a/*'])
 
     def changes(fields: dict[str, Any]) -> bool:
         tell(pupil, kind, fields)
-        return locked(browser.physsim) != before
+        return states_of(browser.physsim, ['a/*']) != before
 
     assert [fields for fields in ATTEMPTS[kind] if changes(fields)] == []
     # A kind of which no attempt would do anything would not be tried.
@@ -185,11 +189,11 @@ def test_what_is_about_other_things_changes_no_locked_body(
     browser: Browser, tmp_path: Path
 ) -> None:
     pupil, _ = opened(browser, tmp_path)
-    before = locked(browser.physsim)
+    before = states_of(browser.physsim, ['a/*'])
     for kind in [each for each in ATTEMPTS if each not in CHANGING]:
         for fields in ATTEMPTS[kind]:
             tell(pupil, kind, fields)
-            assert locked(browser.physsim) == before, (kind, fields)
+            assert states_of(browser.physsim, ['a/*']) == before, (kind, fields)
 
 
 # Roles that may send a message of each right.
@@ -301,6 +305,41 @@ def test_a_pupil_has_no_request_for_a_locked_body_carried_out(
             check_locked(Role.DRAW, [request], control)
         check_locked(Role.TEACH, [request], control)
     check_locked(Role.DRAW, HARMLESS, control)
+
+
+SHOULDER = MotorCommand(joint='a/1/shoulder/0', mode='effort', points=(CommandPoint(0.0, 1.0),))
+# A body, and requests for other bodies of its machine, or for its joints.
+OF_MACHINES = {
+    'a/1': (
+        requests.MoveBodies(names=('a/1/upper/0',), by=(1.0, 0.0)),
+        requests.Delete(name='a/1/upper/0'),
+    ),
+    'a/1/upper/0': (
+        requests.ChangeBody(name='a/1'),
+        requests.Delete(name='a/1'),
+        requests.CommandMotors(commands=(SHOULDER,)),
+    ),
+    # A rope passes over it, and the part of a robot has a rod to it.
+    'a/2': (
+        requests.Unjoin(name='rope/0'),
+        requests.Rejoin(name='rope/0', a='b/0', b='b/1'),
+        requests.Delete(name='b/3'),
+    ),
+    'carrier/0': (requests.Unjoin(name='gear/0'),),
+}
+
+
+@pytest.mark.parametrize('locked', OF_MACHINES)
+def test_a_machine_is_locked_with_any_of_its_bodies(
+    browser: Browser, tmp_path: Path, locked: str
+) -> None:
+    load_world(browser, tmp_path)
+    control = browser.physsim.node.control
+    check_locked(Role.DRAW, OF_MACHINES[locked], control)
+    control.set_parameter('sketchpad_locked', locked)
+    for request in OF_MACHINES[locked]:
+        with pytest.raises(Frozen):
+            check_locked(Role.DRAW, [request], control)
 
 
 def test_a_hand_lets_go_of_what_is_locked_meanwhile(

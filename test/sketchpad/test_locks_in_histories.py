@@ -10,12 +10,11 @@ from random import Random
 from typing import Any
 
 from physsim_ros.sketchpad import Role
-from physsim_ros.sketchpad.rights import locks_of
 from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser, Page
-from .test_locks import ATTEMPTS, load_world, tell
+from .test_locks import ATTEMPTS, load_world, states_of, tell
 from ..slow import slow
 
 # A message: its kind and its fields.
@@ -70,23 +69,6 @@ def of_teacher(random: Random) -> Message:
     )
 
 
-def locked(physsim: PhysSim) -> dict[str, str]:
-    """Return all that there is of each locked body: state, joints, and hands on it."""
-    control, world = physsim.node.control, physsim.node.simulation.world
-    locks, state = locks_of(control.locked_bodies), world.save()
-    return {
-        each.body.name: repr(
-            (
-                (each.body, each.pose, each.twist, each.wrench, each.driven, each.coming),
-                [joint for joint in state.joints if each.body.name in joint.bodies],
-                [grip for grip in world.grips if grip.body == each.body.name],
-            )
-        )
-        for each in state.bodies
-        if locks.has(each.body.name)
-    }
-
-
 def return_to_newest(physsim: PhysSim, boss: Page) -> None:
     """Have what is under way be done, and the newest moment be shown."""
     simulation = physsim.node.simulation
@@ -102,6 +84,10 @@ def test_no_message_of_a_pupil_changes_a_locked_body_whatever_came_before(
     browser: Browser, tmp_path: Path, seed: int
 ) -> None:
     random, physsim = Random(seed), browser.physsim
+
+    def locked() -> dict[str, str]:
+        return states_of(physsim, physsim.node.control.locked_bodies)
+
     load_world(browser, tmp_path)
     pupils = [browser.open_page() for _ in range(2)]
     boss = browser.open_page(cookie=browser.cookie_of(Role.TEACH))
@@ -112,10 +98,10 @@ def test_no_message_of_a_pupil_changes_a_locked_body_whatever_came_before(
         if random.random() < OF_TIME:
             physsim.step(random.randrange(1, 30))
         return_to_newest(physsim, boss)
-        before, message = locked(physsim), of_pupil(random)
+        before, message = locked(), of_pupil(random)
         tell(random.choice(pupils), *message)
         return_to_newest(physsim, boss)
-        assert before.items() <= locked(physsim).items(), message
+        assert before.items() <= locked().items(), message
 
 
 def test_a_pupil_takes_back_what_concerns_no_locked_body_and_nothing_else(

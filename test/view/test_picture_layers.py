@@ -11,7 +11,7 @@ import math
 import numpy as np
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.preview import NO_PREVIEW, Preview
-from physsim_ros.view.arrows import CUT
+from physsim_ros.view.legend import CUT
 from physsim_ros.view.preview import LINGER
 import pytest
 

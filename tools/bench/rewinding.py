@@ -24,7 +24,7 @@ def measure(count: int, seconds: int) -> None:
     fill(simulation.world, count)
     gc.collect()
     gc.freeze()
-    history = simulation.past.tree
+    history = simulation.past.line
     frames, stalls = [], []
     for _ in range(60 * seconds):
         before = history.keyframes[-1]

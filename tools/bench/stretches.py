@@ -134,7 +134,7 @@ def run(watched: Watched, _: str) -> None:
 def seek(watched: Watched, _: str) -> None:
     """Go to a step whose frame is not cached, by a replay from a checkpoint, and back."""
     simulation = watched.node.simulation
-    for step in (simulation.step // 2 + 1, simulation.past.tree.head):
+    for step in (simulation.step // 2 + 1, simulation.past.line.head):
         watched.seek(round(step * 1e9 / simulation.physics_rate))
 
 

@@ -21,8 +21,7 @@ import time
 
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import features_of
-from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.forms import classification_of
 from physsim_ros.drawing.strokes.stages import DELETION, GRAVITY
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
@@ -122,7 +121,7 @@ class Tally:
         if scene.name in CLOSED and what in CLOSED:
             self.right['disc or polygon'].append((what == 'disc') == (scene.name == 'disc'))
         if scene.name in _CORNERED:
-            found = forms_of(features_of(resample_stroke(scene.samples)))
+            found = classification_of(resample_stroke(scene.samples)).forms
             exact = bool(found) and len(found[0].points) == scene.figure.corners
             self.corners[_CORNERED[scene.name]].append(exact)
 

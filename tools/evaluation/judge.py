@@ -24,11 +24,11 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
-from physsim_ros.drawing.strokes.choice import guesses_by_rules, is_likely, measures_of
+from physsim_ros.drawing.strokes.choice import is_likely
 from physsim_ros.drawing.strokes.evidence import log_odds
-from physsim_ros.drawing.strokes.judge import Node, TABLE, Tree
-from physsim_ros.drawing.strokes.meanings import meanings_of
-from physsim_ros.drawing.strokes.reading import stroke_in_scene
+from physsim_ros.drawing.strokes.forms import classification_of
+from physsim_ros.drawing.strokes.judge import measures_of, Node, TABLE, Tree
+from physsim_ros.drawing.strokes.reading import guesses_by_rules
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal
@@ -54,13 +54,12 @@ def examples(count: int, half: str) -> Iterator[Example]:
     settings = DrawingSettings()
     for scene in itertools.chain(scenes(count, half), faulty_scenes(count, half)):
         try:
-            stroke = resample_stroke(scene.samples)
+            stroke = classification_of(resample_stroke(scene.samples))
         except Refusal:
             continue
-        context = stroke_in_scene(stroke, scene.view, settings)
-        guesses = guesses_by_rules(meanings_of(context), context)
+        guesses = guesses_by_rules(stroke, scene.view, settings)
         if is_likely(guesses, settings):
-            measures = measures_of(guesses, context)
+            measures = measures_of(guesses, stroke, scene.view)
             yield guesses[0].confidence, measures, guesses[0].meaning == scene.meaning
 
 

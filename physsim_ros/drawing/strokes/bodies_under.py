@@ -15,8 +15,9 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.drawing.geometry import few_points, middle_half, nearest_points, point_of, towards
+from physsim_ros.drawing.geometry import nearest_points, point_of, towards
 from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.strokes.resampled import few_points, middle_half
 from physsim_ros.drawing.strokes.stages import Context, End
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD

@@ -16,16 +16,13 @@ prints how well they hold.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from functools import cache
 
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.evidence import log_odds, logistic
-from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.stages import (
     CLOSED,
     confidences_in,
-    Context,
     DELETION,
     GRAVITY,
     Guess,
@@ -45,38 +42,12 @@ _GROUP_BIAS, _GROUP_SLOPE = -0.4, 1.9
 _SURE = 0.9
 
 
-def guesses_among(meanings: Iterable[Meaning], context: Context) -> tuple[Guess, ...]:
+def guesses_among(meanings: Iterable[Meaning], unexplained: float) -> tuple[Guess, ...]:
     """
-    Return the most likely meanings of a stroke by the rules, and how sure the first one is.
+    Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first.
 
-    The confidence in the first one is that of the judge; the others have no more, nor more than it
-    leaves.
+    :param unexplained: the weight that no form of the stroke has, 0 .. 1
     """
-    guesses = guesses_by_rules(meanings, context)
-    if not guesses:
-        return ()
-    first, *others = guesses
-    sure = judged(first.confidence, measures_of(guesses, context))
-    most = min(sure, 1.0 - sure)
-    rest = (replace(each, confidence=min(each.confidence, most)) for each in others)
-    return replace(first, confidence=sure), *rest
-
-
-def measures_of(guesses: Sequence[Guess], context: Context) -> dict[str, float]:
-    """Return the measures of a reading by which the judge doubts it, by their names."""
-    return {
-        'confidence': guesses[0].confidence,
-        'group': guesses[0].group_confidence,
-        'second': guesses[1].confidence if len(guesses) > 1 else 0.0,
-        'bodies': float(bool(context.scene.names)),
-        f'read as {guesses[0].meaning}': 1.0,
-        **{f'form {form.name}': form.weight for form in context.forms},
-        **{name: value for form in context.forms for name, value in form.measures.items()},
-    }
-
-
-def guesses_by_rules(meanings: Iterable[Meaning], context: Context) -> tuple[Guess, ...]:
-    """Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first."""
     weights: dict[str, float] = {}
     # Of each meaning, the likeliest one.
     best: dict[str, Meaning] = {}
@@ -85,7 +56,6 @@ def guesses_by_rules(meanings: Iterable[Meaning], context: Context) -> tuple[Gue
         if each.name not in best or each.weight > best[each.name].weight:
             best[each.name] = each
     total = sum(weights.values())
-    unexplained = max(1.0 - sum(form.weight for form in context.forms), 0.0)
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
         others = _group_of(meaning)

@@ -16,8 +16,9 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.drawing.geometry import angles, ARM, meeting_point, smoothed, turns
+from physsim_ros.drawing.geometry import angles, meeting_point
 from physsim_ros.drawing.strokes.fitting import line, WOBBLE
+from physsim_ros.drawing.strokes.resampled import ARM, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import signed_area

@@ -17,18 +17,10 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import (
-    ARM,
-    COUNT,
-    Crossing,
-    intersections,
-    path_length,
-    smoothed,
-    turns,
-)
+from physsim_ros.drawing.geometry import Crossing, intersections, path_length
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import Limit
-from physsim_ros.drawing.strokes.fitting import simplified
+from physsim_ros.drawing.strokes.resampled import ARM, COUNT, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, norms
@@ -95,11 +87,6 @@ class Features:
     def bends(self) -> Floats:
         """Return ends and bends of the stroke as an open line, (k, 2) float64 [m]."""
         return bends_of(self.stroke.points, self.path)
-
-    @cached_property
-    def curve(self) -> Floats | None:
-        """(k, 2) float64: the stroke as a curve [m]; None where straight sides fit it."""
-        return simplified(self.path, self.bends, self.stroke.size)
 
     @property
     def has_teeth(self) -> bool:

@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.choice import is_likely
-from physsim_ros.drawing.strokes.meanings import in_scene
 from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.stages import (
-    Context,
+    Classification,
     DELETION,
     DISC,
     GRAVITY,
@@ -51,7 +50,8 @@ class Figure:
     :param strokes: each (COUNT, 2) float64: evenly spaced [m]
     :param began: when its first stroke began [s]
     :param ended: when its last stroke ended [s]
-    :param context: its strokes as one, in the scene over which the first one was drawn
+    :param whole: its strokes as one
+    :param scene: over which the first one was drawn
     :param guesses: its possible meanings, the likeliest first
     :param chosen: index of the guess that was taken; None where it was not recognised
     :param requests: of that reading; () where the world cannot have it
@@ -61,7 +61,8 @@ class Figure:
     strokes: tuple[Floats, ...]
     began: float
     ended: float
-    context: Context
+    whole: Classification
+    scene: SceneQuery
     guesses: tuple[Guess, ...]
     chosen: int | None = None
     requests: tuple[Request, ...] = ()
@@ -69,33 +70,28 @@ class Figure:
 
     @classmethod
     def read(
-        cls, context: Context, *, strokes: tuple[Floats, ...], began: float, ended: float
+        cls,
+        whole: Classification,
+        scene: SceneQuery,
+        settings: DrawingSettings,
+        *,
+        strokes: tuple[Floats, ...],
+        began: float,
+        ended: float,
     ) -> Figure:
-        """
-        Return a figure with the guesses at its meaning; the first one is taken if it is likely.
-
-        :param context: its strokes as one, in the scene that they were drawn over
-        """
-        guesses = guesses_of(context)
-        likely = is_likely(guesses, context.settings)
+        """Return a figure with its guesses; the first one is taken if it is likely enough."""
+        guesses = guesses_of(whole, scene, settings)
+        likely = is_likely(guesses, settings)
         return cls(
             strokes=strokes,
             began=began,
             ended=ended,
-            context=context,
+            whole=whole,
+            scene=scene,
             guesses=guesses,
             chosen=0 if likely else None,
             requests=_requests_of(guesses[0]) if likely else (),
         )
-
-    @property
-    def scene(self) -> SceneQuery:
-        """Return the scene over which its first stroke was drawn."""
-        return self.context.scene
-
-    def over(self, scene: SceneQuery, settings: DrawingSettings) -> Context:
-        """Return its strokes as one over another scene."""
-        return in_scene(self.context.features, self.context.forms, scene, settings)
 
     @property
     def meaning(self) -> str:

@@ -14,14 +14,13 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.geometry import (
-    COUNT,
     principal_axis,
     quarter_heading,
     size_of,
-    smoothed,
     spaced,
     unit_vector,
 )
+from physsim_ros.drawing.strokes.resampled import COUNT, smoothed
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import (
     dots,

@@ -20,26 +20,18 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import connected, few_points, size_of
-from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.geometry import connected, size_of
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.figure import ARROWS, Figure, ON_SOLID
-from physsim_ros.drawing.strokes.forms import sign_forms
+from physsim_ros.drawing.strokes.forms import arrow_of, cross_of, path_of
 from physsim_ros.drawing.strokes.joining import (
     are_sides,
-    joined_arrow,
     joined_strokes,
     touch,
     touching,
 )
-from physsim_ros.drawing.strokes.meanings import in_scene
-from physsim_ros.drawing.strokes.reading import stroke_in_scene
-from physsim_ros.drawing.strokes.signs import x
-from physsim_ros.drawing.strokes.signs.arrow import ARROW
-from physsim_ros.drawing.strokes.stages import CLOSED, Context
-from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
-from physsim_ros.model.arrays import Floats
+from physsim_ros.drawing.strokes.resampled import few_points
+from physsim_ros.drawing.strokes.stages import Classification, CLOSED
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Join, Spawn
 
@@ -54,14 +46,14 @@ _JOINED = CLOSED | ARROWS | {'anchor', 'motor'}
 _ON_BODIES, SLOWLY = frozenset({'anchor', 'velocity'}), 10.0
 
 
-def likeliest_group(
+def grouped(
     figures: Sequence[Figure],
     last: Figure,
     settings: DrawingSettings,
     clock: Callable[[], float],
-) -> Figure | None:
+) -> tuple[Figure, ...]:
     """
-    Return the last strokes as one figure, if that is better than each stroke by itself.
+    Return figures with a new stroke: as one with those just before it, if that is better.
 
     :param figures: drawn before, the earliest first
     :param last: the new one, of a single stroke
@@ -71,12 +63,13 @@ def likeliest_group(
     hatching = _is_hatching((*figures, last))
     for group in _groups(figures, last, settings):
         if clock() > began + MOST_TIME:
-            return None
+            break
         whole = _as_one(group, settings)
         if whole is not None and not (hatching and whole.meaning == 'anchor'):
             gestures = tuple(number for figure in group for number in figure.gestures)
-            return replace(whole, gestures=gestures)
-    return None
+            before = len(figures) + 1 - len(group)
+            return *figures[:before], replace(whole, gestures=gestures)
+    return *figures, last
 
 
 def _groups(
@@ -113,9 +106,11 @@ def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None
     if all(joints):
         # Rods from body to body to body are a truss, no polygon.
         return None
-    for context, meanings in _contexts_together(group, settings):
+    for together, meanings in _together(group, settings):
         whole = Figure.read(
-            context,
+            together,
+            group[0].scene,
+            settings,
             strokes=tuple(stroke for figure in group for stroke in figure.strokes),
             began=group[0].began,
             ended=group[-1].ended,
@@ -127,19 +122,18 @@ def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None
     return None
 
 
-def _contexts_together(
+def _together(
     group: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[tuple[Context, AbstractSet[str]]]:
-    """Yield what figures may be together, each in its scene with the meanings to look for."""
-    scene = group[0].scene
+) -> Iterator[tuple[Classification, AbstractSet[str]]]:
+    """Yield what figures may be together, each with the meanings that make it better."""
     strokes = tuple(stroke for figure in group for stroke in figure.strokes)
     pairs = itertools.pairwise(group)
     in_time = all(follows(figure, later, settings) for figure, later in pairs)
-    cross = crossing_in(scene, strokes, settings)
+    cross = cross_of(strokes)
     if cross is not None:
         yield cross, _JOINED if in_time else _ON_BODIES
         return
-    arrow = arrow_in(scene, strokes, settings)
+    arrow = arrow_of(strokes)
     if arrow is not None:
         yield arrow, ARROWS if in_time else _ON_BODIES
     if not in_time:
@@ -150,37 +144,8 @@ def _contexts_together(
         each.is_line or is_side(last, each, settings) or (each.is_arrow and len(each.strokes) > 1)
         for each in before
     ):
-        whole = _joined(joined_strokes(strokes))
         meanings = _JOINED if are_sides(strokes) else _JOINED - CLOSED
-        yield stroke_in_scene(whole, scene, settings), meanings
-
-
-def crossing_in(
-    scene: SceneQuery, strokes: Sequence[Floats], settings: DrawingSettings
-) -> Context | None:
-    """Return strokes in a scene if they are an x of two lines, else None."""
-    cross = x.of_lines(strokes)
-    if cross is None:
-        return None
-    return in_scene(features_of(_joined(joined_strokes(strokes))), (cross,), scene, settings)
-
-
-def arrow_in(
-    scene: SceneQuery, strokes: Sequence[Floats], settings: DrawingSettings
-) -> Context | None:
-    """Return strokes in a scene as an arrow if they are a shaft and its head, else None."""
-    arrow = joined_arrow(strokes)
-    if arrow is None:
-        return None
-    features = features_of(_joined(arrow))
-    # The gaps between the parts are no evidence for other forms.
-    forms, _ = sign_forms(features, (ARROW,))
-    return in_scene(features, forms, scene, settings)
-
-
-def _joined(path: Floats) -> Stroke:
-    """Return joined strokes as one: another one may close a gap, which the ends do not tell."""
-    return replace(resample_stroke(path), relatability=0.0)
+        yield path_of(strokes), meanings
 
 
 def follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:

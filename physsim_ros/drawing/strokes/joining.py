@@ -16,18 +16,8 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import (
-    angles,
-    ARM,
-    convex_hull,
-    COUNT,
-    few_points,
-    path_length,
-    size_of,
-    smoothed,
-    spaced,
-    straightness,
-)
+from physsim_ros.drawing.geometry import angles, convex_hull, path_length, size_of, spaced
+from physsim_ros.drawing.strokes.resampled import ARM, COUNT, few_points, smoothed, straightness
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import cross, dots, norms, segment_distances
 

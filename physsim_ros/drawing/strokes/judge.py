@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The judge of doubt: how sure a reading is. It reads nothing, and changes no reading.
+The judge of doubt: how sure the first guess is. It changes no meaning, and not their order.
 
 Boosted trees (Friedman, "Greedy function approximation: a gradient boosting machine", 2001)
 correct the log odds that the rules give to a reading, by the weights of all forms of the stroke,
@@ -13,12 +13,14 @@ Each tree asks at most three questions, and adds log odds. Trees are rows of `ju
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.evidence import log_odds, logistic
+from physsim_ros.drawing.strokes.stages import Classification, Guess
 
 # The file of the trees, beside this one.
 TABLE = 'judge.csv'
@@ -41,6 +43,38 @@ class Node:
 
 # A tree: its nodes by number. The root is 1, the children of n are 2n and 2n + 1.
 Tree = dict[int, Node]
+
+
+def doubted(
+    guesses: Sequence[Guess], stroke: Classification, scene: SceneQuery
+) -> tuple[Guess, ...]:
+    """
+    Return guesses with the confidence of the judge in the first one.
+
+    The others have no more confidence, nor more than the first one leaves.
+    """
+    if not guesses:
+        return ()
+    first, *others = guesses
+    sure = judged(first.confidence, measures_of(guesses, stroke, scene))
+    most = min(sure, 1.0 - sure)
+    rest = (replace(each, confidence=min(each.confidence, most)) for each in others)
+    return replace(first, confidence=sure), *rest
+
+
+def measures_of(
+    guesses: Sequence[Guess], stroke: Classification, scene: SceneQuery
+) -> dict[str, float]:
+    """Return the measures of guesses by which the first one is doubted, by their names."""
+    return {
+        'confidence': guesses[0].confidence,
+        'group': guesses[0].group_confidence,
+        'second': guesses[1].confidence if len(guesses) > 1 else 0.0,
+        'bodies': float(bool(scene.names)),
+        f'read as {guesses[0].meaning}': 1.0,
+        **{f'form {form.name}': form.weight for form in stroke.forms},
+        **stroke.fits,
+    }
 
 
 def judged(confidence: float, measures: Mapping[str, float]) -> float:

@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from physsim_ros.drawing.geometry import inside, middle_half
+from physsim_ros.drawing.geometry import inside
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.choice import reading_of
 from physsim_ros.drawing.strokes.figure import Figure, ON_SOLID
 from physsim_ros.drawing.strokes.grouping import follows, is_side
 from physsim_ros.drawing.strokes.joining import joined_strokes
+from physsim_ros.drawing.strokes.resampled import middle_half
 from physsim_ros.drawing.strokes.stages import Guess, Outcome, Reading
 
 

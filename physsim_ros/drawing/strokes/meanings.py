@@ -9,7 +9,7 @@ Law: the meanings of a form share its weight.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from physsim_ros.drawing.scene_query import SceneQuery
@@ -44,15 +44,12 @@ _MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
 _OUTLINES = frozenset({DISC, OVAL, RECTANGLE, POLYGON})
 
 
-def in_scene(
-    features: Features, forms: Sequence[Form], scene: SceneQuery, settings: DrawingSettings
-) -> Context:
-    """Return a stroke with its features and forms in the scene that it was drawn over."""
+def in_scene(features: Features, scene: SceneQuery, settings: DrawingSettings) -> Context:
+    """Return a stroke in the scene that it was drawn over."""
     points = features.stroke.points
     ends = joint_ends(points, scene, settings.snap)
     return Context(
         features=features,
-        forms=forms,
         scene=scene,
         settings=settings,
         ends=ends,
@@ -60,10 +57,14 @@ def in_scene(
     )
 
 
-def meanings_of(context: Context) -> Iterator[Meaning]:
-    """Yield the meanings of all forms of a stroke; several forms may have the same one."""
-    rope = open_lines.rope_around_wheels(context) if context.wheels else None
-    for form in context.forms:
+def meanings_of(forms: Iterable[Form], context: Context) -> Iterator[Meaning]:
+    """
+    Yield the meanings of forms of a stroke in its scene; several forms may have the same one.
+
+    :param forms: that the stroke may have
+    """
+    rope = open_lines.rope_around_wheels(context)
+    for form in forms:
         found = _MEANINGS[form.name](form, context)
         if rope is not None and form.name in _OUTLINES:
             # A line from body to body that runs around a wheel encloses nothing.

@@ -15,18 +15,19 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import ARM, COUNT, path_length, point_of
+from physsim_ros.drawing.geometry import path_length, point_of
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import LEAST
 from physsim_ros.drawing.strokes.features import Features, FEWEST
-from physsim_ros.drawing.strokes.stages import BETWEEN, Context, Form, Meaning, Outcome
+from physsim_ros.drawing.strokes.resampled import ARM, COUNT
+from physsim_ros.drawing.strokes.stages import BETWEEN, Context, End, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
-from physsim_ros.model.transform import cross, norms
+from physsim_ros.model.transform import cross
 
 # The least straightness of a rod and of the advance of round teeth, the greatest of a rope: the
 # distance of the ends by the length. An arc as high as a seventh of its chord has 0.95.
@@ -37,51 +38,59 @@ _HEAVIER = 1.25
 
 def meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield hatching, or a rod, spring or rope, with that a chain, and a wall."""
-    points = form.points
-    kind, share = _joint_along(points, context)
+    points, ends = form.points, context.ends
+    kind = None if ends is None else _joint_along(points, ends, context)
     body = bodies_under.hatched_body(context.drawn.points, context.scene)
-    if body is not None and share == 0.0:
+    if kind is None and body is not None:
         lines = len(points) - 1
         yield hatching_meaning(body, lines, context, weight=form.weight)
         return
-    yield Meaning(
-        name=str(kind),
-        weight=form.weight * share,
-        build=partial(outcomes.join, kind, context),
-    )
-    if kind is JointKind.ROPE:
-        # No stroke tells a chain from a rope: it is offered, and never the first guess.
-        build = partial(outcomes.chain, context)
-        yield Meaning(name='chain', weight=LEAST, build=build)
+    if ends is not None and kind is not None:
+        yield Meaning(
+            name=str(kind),
+            weight=form.weight * BETWEEN,
+            build=partial(outcomes.join, kind, ends, context),
+        )
+        if kind is JointKind.ROPE:
+            # No stroke tells a chain from a rope: it is offered, and never the first guess.
+            build = partial(outcomes.chain, ends, context)
+            yield Meaning(name='chain', weight=LEAST, build=build)
     yield Meaning(
         name='wall',
-        weight=form.weight * (1.0 - share),
-        build=partial(outcomes.wall, context),
+        weight=form.weight * (1.0 if kind is None else 1.0 - BETWEEN),
+        build=partial(outcomes.wall, points, context),
     )
 
 
 def rope_around_wheels(context: Context) -> Meaning | None:
     """Return the meaning of a line from body to body, or to the background, around a wheel."""
     start, end = context.drawn.points[[0, -1]]
-    if math.dist(start, end) <= context.settings.snap:
+    if (
+        context.ends is None
+        or not context.wheels
+        or math.dist(start, end) <= context.settings.snap
+    ):
         return None
-    build = partial(outcomes.join, JointKind.ROPE, context)
+    build = partial(outcomes.join, JointKind.ROPE, context.ends, context)
     return Meaning(name=str(JointKind.ROPE), weight=BETWEEN, build=build)
 
 
-def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
-    """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
-    drawn, ends = context.drawn.points, context.ends
-    start, end = point_of(drawn[0]), point_of(drawn[-1])
-    sides = np.diff(points, axis=0)
-    between = ends is not None and ends[1].body != WORLD
-    joins = between or (ends is not None and _is_held(ends[0].body, context))
+def _joint_along(points: Floats, ends: tuple[End, End], context: Context) -> JointKind | None:
+    """
+    Return the kind of joint that a line would be between the bodies at its ends, if any.
+
+    :param points: ends and bends of the line, (k, 2) float64 [m]
+    """
+    drawn = context.drawn.points
+    distance = math.dist(drawn[0], drawn[-1])
+    between = ends[1].body != WORLD
     if between and _is_toothed(context.features, points):
-        return JointKind.SPRING, BETWEEN
-    if joins and math.dist(start, end) < _STRAIGHT * _cubic_length(drawn):
-        return JointKind.ROPE, BETWEEN
-    straight = math.dist(start, end) > _STRAIGHT * float(norms(sides).sum())
-    return JointKind.ROD, BETWEEN if joins and straight else 0.0
+        return JointKind.SPRING
+    if not between and not _is_held(ends[0].body, context):
+        return None
+    if distance < _STRAIGHT * _cubic_length(drawn):
+        return JointKind.ROPE
+    return JointKind.ROD if distance > _STRAIGHT * path_length(points) else None
 
 
 def _is_held(body: str, context: Context) -> bool:

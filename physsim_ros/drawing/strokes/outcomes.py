@@ -16,9 +16,9 @@ import numpy as np
 from physsim_ros.drawing import chains, new_bodies
 from physsim_ros.drawing.geometry import circle_outline, point_of
 from physsim_ros.drawing.strokes import bodies_under, regularisation
+from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.stages import Context, End, Outcome
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
 from physsim_ros.model.requests import Join
 from physsim_ros.model.transform import Point
@@ -73,11 +73,11 @@ def smooth_polygon(corners: Floats, context: Context) -> Outcome:
     )
 
 
-def wall(context: Context) -> Outcome:
-    """Return a wall, of the ends and bends of the stroke, or along its curve."""
+def wall(points: Floats, context: Context) -> Outcome:
+    """Return a wall of ends and bends of the stroke; along its curve where these do not fit it."""
     settings, name = context.settings, context.scene.next_body()
-    bends, curve = context.features.bends, context.features.curve
-    path = regularisation.line(bends, settings.beautify) if curve is None else curve
+    curve = simplified(context.features.path, points, context.drawn.size)
+    path = regularisation.line(points, settings.beautify) if curve is None else curve
     corners = list(map(point_of, path))
     corners[0] = bodies_under.wall_end(corners[0], context)
     end = bodies_under.wall_end(corners[-1], context)
@@ -93,14 +93,9 @@ def wall(context: Context) -> Outcome:
     )
 
 
-def join(kind: JointKind, context: Context) -> Outcome:
+def join(kind: JointKind, ends: tuple[End, End], context: Context) -> Outcome:
     """Return a joint between the bodies at the ends of the stroke."""
-    if context.ends is None:
-        raise NothingThere(
-            f'{kind.phrase} joins two bodies, one of which moves; there are none at its ends',
-            field='poses',
-        )
-    first, last = context.ends
+    first, last = ends
     name = context.scene.next_joint()
     line: tuple[Point, ...] = (first.point, last.point)
     message = f'{kind.phrase} from {first.body} to {last.body}'
@@ -134,12 +129,10 @@ def _begins_at(end: End, context: Context) -> bool:
     return math.dist(end.point, start) <= math.dist(end.point, finish)
 
 
-def chain(context: Context) -> Outcome:
+def chain(ends: tuple[End, End], context: Context) -> Outcome:
     """Return a chain between the bodies at the ends of the stroke, along it."""
     path = context.drawn.points.copy()
-    if context.ends is None:
-        raise NothingThere('a chain joins two bodies; there are none at its ends', field='poses')
-    first, last = context.ends if _begins_at(context.ends[0], context) else context.ends[::-1]
+    first, last = ends if _begins_at(ends[0], context) else ends[::-1]
     path[0], path[-1] = first.point, last.point
     bodies = first.body, last.body
     requests = chains.chain(path, bodies, context.scene, context.settings)

@@ -11,17 +11,18 @@ becomes a polygon along the stroke; an outline that crosses itself becomes its o
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import loop_roundness, size_of, widened
+from physsim_ros.drawing.geometry import size_of
 from physsim_ros.drawing.strokes import fitting
 from physsim_ros.drawing.strokes.corner_detection import outline_corners, turning_within
 from physsim_ros.drawing.strokes.evidence import evidence, LEAST, Limit, probabilities
 from physsim_ros.drawing.strokes.features import Features, TREMOR
 from physsim_ros.drawing.strokes.fitting import Ellipse, traced
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
+from physsim_ros.drawing.strokes.resampled import loop_roundness, widened
 from physsim_ros.drawing.strokes.stages import DISC, Form, LINE, OVAL, POLYGON, RECTANGLE
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
@@ -69,26 +70,29 @@ class Fits:
     measures: Mapping[str, float]
 
 
-def plain_forms(features: Features, plain: float) -> Iterator[Form]:
+def plain_forms(features: Features, plain: float) -> tuple[list[Form], Mapping[str, float]]:
     """
-    Yield the forms of a stroke that is no sign: a line, or the shapes of an outline.
+    Return the forms of a stroke that is no sign: a line, and the shapes of an outline.
 
     The points of a line, straight, bent or curved, are its ends and bends; those of a disc its
     centre and a point on its rim; those of the other shapes corners.
 
     :param plain: weight of the stroke being no sign
+    :return: the forms, and the measures of the fits to the outline; {} where it has no shape
     """
     stroke = features.stroke
     still = _SWINGING.below(features.swings.count)
     closure = _OPEN.below(stroke.gap - _RELATED * max(stroke.relatability, 0.0))
     line = plain * (1.0 - closure) * _lineness(features, still)
-    if line >= LEAST:
-        yield Form(name=LINE, weight=line, points=features.bends)
     closed = plain * closure * still
+    forms: list[Form] = []
+    if line >= LEAST:
+        forms.append(Form(name=LINE, weight=line, points=features.bends))
     if closed < LEAST:
-        return
-    for shape in _shapes(stroke.outline):
-        yield replace(shape, weight=closed * shape.weight)
+        return forms, {}
+    fits = fits_of(stroke.outline)
+    shapes = [each for each in _shapes(stroke.outline, fits, closed) if each.weight >= LEAST]
+    return [*forms, *shapes], fits.measures if shapes else {}
 
 
 def _lineness(features: Features, still: float) -> float:
@@ -108,26 +112,29 @@ def _lineness(features: Features, still: float) -> float:
     return 0.0 if looped else calm
 
 
-def _shapes(outline: Floats) -> Iterator[Form]:
-    """Yield the shapes that an outline may have, each with the measures of its fits."""
-    fits = fits_of(outline)
+def _shapes(outline: Floats, fits: Fits, closed: float) -> Iterator[Form]:
+    """
+    Yield the shapes that an outline may have.
+
+    :param closed: weight of the stroke being an outline
+    """
     ellipse, measures = fits.ellipse, fits.measures
     elliptic, square = probabilities([evidence(each, measures) for each in SHAPES])
     circular = _CIRCULAR.above(ellipse.aspect)
     rim = ellipse.center + np.array((ellipse.radius, 0.0))
     disc = np.array((ellipse.center, rim))
-    yield Form(name=DISC, weight=elliptic * circular, points=disc, measures=measures)
+    yield Form(name=DISC, weight=closed * (elliptic * circular), points=disc)
     oval = ellipse.corners(_OVAL_SIDES)
-    yield Form(name=OVAL, weight=elliptic * (1.0 - circular), points=oval, measures=measures)
+    yield Form(name=OVAL, weight=closed * (elliptic * (1.0 - circular)), points=oval)
     # Corners that the stroke has are more exact than those of the rectangle of least squares.
     sharp = len(fits.corners) == 4 and measures['sides error'] < measures['rectangle error']
     corners = fits.corners if sharp else fits.rectangle
-    yield Form(name=RECTANGLE, weight=square, points=corners, measures=measures)
+    yield Form(name=RECTANGLE, weight=closed * square, points=corners)
     corners = fits.corners if measures['sides error'] < _SIDED else traced(outline)
     boundary = outer_boundary(corners) if crosses_itself(corners) else corners
     if boundary is not None:
-        weight = 1.0 - elliptic - square
-        yield Form(name=POLYGON, weight=weight, points=boundary, measures=measures)
+        weight = closed * (1.0 - elliptic - square)
+        yield Form(name=POLYGON, weight=weight, points=boundary)
 
 
 def fits_of(outline: Floats) -> Fits:

@@ -55,13 +55,31 @@ class Form:
     :param name: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
     :param weight: how well the stroke fits the form, 0 .. 1
     :param points: (n, 2) float64: the points that describe the form, in the world [m]
-    :param measures: of the fits to the stroke that the form was chosen by, by name
     """
 
     name: str
     weight: float
     points: Floats
-    measures: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Classification:
+    """
+    A stroke with the forms that it may have, whatever it was drawn over.
+
+    :param features: of the stroke
+    :param forms: by falling weight
+    :param fits: measures of the fits to its outline, by name; {} where no form is an outline
+    """
+
+    features: Features
+    forms: Sequence[Form]
+    fits: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def unexplained(self) -> float:
+        """Return the weight that no form has, 0 .. 1."""
+        return max(1.0 - sum(form.weight for form in self.forms), 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +101,6 @@ class Context:
     A stroke in the scene that it was drawn over.
 
     :param features: of the stroke
-    :param forms: that it may have, by falling weight
     :param scene: the world that it was drawn over
     :param settings: of drawing
     :param ends: of a joint between the bodies at its ends, the first on a dynamic body; None where
@@ -92,7 +109,6 @@ class Context:
     """
 
     features: Features
-    forms: Sequence[Form]
     scene: SceneQuery
     settings: DrawingSettings
     ends: tuple[End, End] | None

@@ -21,7 +21,8 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import angles, ARM, COUNT, path_length, size_of, spaced
+from physsim_ros.drawing.geometry import angles, path_length, size_of, spaced
+from physsim_ros.drawing.strokes.resampled import ARM, COUNT
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed

@@ -21,17 +21,19 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import few_points, middle_half, point_of
+from physsim_ros.drawing.geometry import point_of
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.bodies_under import SLOPE, stands_on
 from physsim_ros.drawing.strokes.choice import is_likely, reading_of
 from physsim_ros.drawing.strokes.figure import Figure
-from physsim_ros.drawing.strokes.grouping import arrow_in, crossing_in, pause_between, SLOWLY
+from physsim_ros.drawing.strokes.forms import arrow_of, cross_of
+from physsim_ros.drawing.strokes.grouping import pause_between, SLOWLY
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
 from physsim_ros.drawing.strokes.reading import guesses_of
-from physsim_ros.drawing.strokes.stages import Context, GRAVITY, Reading
+from physsim_ros.drawing.strokes.resampled import few_points, middle_half
+from physsim_ros.drawing.strokes.stages import Classification, GRAVITY, Reading
 from physsim_ros.model.body_description import new_body
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
@@ -86,7 +88,7 @@ def _motor(
     for figure in reversed(figures):
         if figure.meaning not in _BY_AXLE or figure.requests:
             continue
-        reading = _likely_reading(figure.over(scene, settings), _BY_AXLE)
+        reading = _likely_reading(figure.whole, scene, settings, _BY_AXLE)
         if reading is not None:
             yield (figure,), reading
             return
@@ -194,10 +196,10 @@ def _reading_over(
 ) -> Reading | None:
     """Return the reading of figures that reach a new body, or None where it is the same."""
     strokes = [stroke for each in group for stroke in each.strokes]
-    context = crossing_in(scene, strokes, settings) or arrow_in(scene, strokes, settings)
-    if context is None and len(group) == 1:
-        context = group[0].over(scene, settings)
-    reading = None if context is None else _likely_reading(context, _BY_BODIES)
+    whole = cross_of(strokes) or arrow_of(strokes) or (group[0].whole if len(group) == 1 else None)
+    if whole is None:
+        return None
+    reading = _likely_reading(whole, scene, settings, _BY_BODIES)
     if reading is None:
         return None
     ends = (point_of(each) for each in joined_strokes(strokes)[[0, -1]])
@@ -213,10 +215,15 @@ def _reading_over(
     return reading if held else None
 
 
-def _likely_reading(context: Context, meanings: AbstractSet[str]) -> Reading | None:
+def _likely_reading(
+    stroke: Classification,
+    scene: SceneQuery,
+    settings: DrawingSettings,
+    meanings: AbstractSet[str],
+) -> Reading | None:
     """Return the likeliest reading of a stroke if it can be built and is one of some meanings."""
-    guesses = guesses_of(context)
-    if not is_likely(guesses, context.settings) or guesses[0].meaning not in meanings:
+    guesses = guesses_of(stroke, scene, settings)
+    if not is_likely(guesses, settings) or guesses[0].meaning not in meanings:
         return None
     try:
         return reading_of(guesses, 0)

@@ -24,15 +24,7 @@ from physsim_ros.model.declarations import OfKind
 ACTORS: dict[str, type[Actor]] = {each.KIND: each for each in (Path, SocialForce, Orca)}
 
 # The check of an actor.
-actor_from = OfKind(
-    'actor',
-    ACTORS,
-    {
-        'path': ('trajectory', 'waypoints', 'loop', 'patrol'),
-        'social_force': ('pedestrian', 'person', 'people', 'human', 'walk', 'crowd'),
-        'orca': ('rvo', 'rvo2', 'velocity_obstacle'),
-    },
-)
+actor_from = OfKind('actor', ACTORS)
 
 __all__ = [
     'ACTORS',

@@ -30,6 +30,7 @@ from physsim_ros.model.checks import (
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.spelling import canonical
+from physsim_ros.model.texts import Words
 
 # Greatest number of points of an actor.
 MOST_POINTS = 1000
@@ -174,6 +175,7 @@ class Path(Actor):
     """
 
     KIND: ClassVar = 'path'
+    KIND_WORDS: ClassVar = Words('trajectory', 'waypoints', 'loop', 'patrol')
 
     times: Annotated[
         tuple[float, ...] | None,

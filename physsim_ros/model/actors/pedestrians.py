@@ -11,6 +11,7 @@ from physsim_ros.model.actors.actor import Actor, PACE
 from physsim_ros.model.checks import MOST_SPEED_WORDS, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.texts import Words
 
 # Greatest length of a model of pedestrians [m], time [s] and strength [m²/s²].
 _FAR, _LONG, _STRONG = 100.0, 100.0, 1e4
@@ -60,6 +61,7 @@ class SocialForce(Pedestrian):
     """
 
     KIND: ClassVar = 'social_force'
+    KIND_WORDS: ClassVar = Words('pedestrian', 'person', 'people', 'human', 'walk', 'crowd')
 
     relaxation_time: Annotated[float, _TIME, 'time to approach the desired velocity: τ'] = 0.5
     repulsion: Annotated[float, _STRENGTH, 'potential of other pedestrians: V⁰'] = 2.1
@@ -100,6 +102,7 @@ class Orca(Pedestrian):
     """
 
     KIND: ClassVar = 'orca'
+    KIND_WORDS: ClassVar = Words('rvo', 'rvo2', 'velocity_obstacle')
 
     horizon: Annotated[
         float,

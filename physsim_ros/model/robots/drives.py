@@ -20,6 +20,7 @@ from physsim_ros.model.checks import FASTEST, FRICTION, MOST_SPEED_WORDS, Within
 from physsim_ros.model.declarations import Checked, OfKind
 from physsim_ros.model.latency import COMMAND_RATE, COMMAND_RATE_WORDS, delays, LATENCY_WORDS
 from physsim_ros.model.shapes import LARGEST, SMALLEST
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point, Pose, Twist
 
 # Greatest acceleration of wheels [m/s²]: 0.4 m/s in a step.
@@ -118,6 +119,7 @@ class Differential(Drive):
     """A differential drive; it resists every lateral velocity, and turns in place."""
 
     KIND: ClassVar = 'differential'
+    KIND_WORDS: ClassVar = Words('diff', 'diff_drive', 'differential_drive', 'two_wheels', 'tank')
 
     @property
     def wheels(self) -> dict[str, Pose]:
@@ -148,6 +150,7 @@ class Omni(Drive):
     """An omnidirectional drive; `track` is the diameter of the circle that its wheels are on."""
 
     KIND: ClassVar = 'omni'
+    KIND_WORDS: ClassVar = Words('omnidirectional', 'holonomic', 'mecanum', 'kiwi')
 
     @property
     def wheels(self) -> dict[str, Pose]:
@@ -186,6 +189,7 @@ class Car(Drive):
     """A car with Ackermann steering; it turns only as it moves, and no closer than it steers."""
 
     KIND: ClassVar = 'car'
+    KIND_WORDS: ClassVar = Words('ackermann', 'bicycle', 'steering', 'vehicle')
 
     wheelbase: Annotated[float, LENGTH, 'distance of front and rear axle'] = 0.2
     steering: Annotated[
@@ -222,12 +226,4 @@ DRIVES: dict[str, type[Drive]] = {each.KIND: each for each in (Differential, Omn
 
 
 # The check of a drive.
-drive_from = OfKind(
-    'drive',
-    DRIVES,
-    {
-        'differential': ('diff', 'diff_drive', 'differential_drive', 'two_wheels', 'tank'),
-        'omni': ('omnidirectional', 'holonomic', 'mecanum', 'kiwi'),
-        'car': ('ackermann', 'bicycle', 'steering', 'vehicle'),
-    },
-)
+drive_from = OfKind('drive', DRIVES)

@@ -20,9 +20,9 @@ branches. The request of a node never changes, but that of a new root, which the
 node is added at an end, and removed when nothing uses it.
 
 *The cursor.* A line of events is a node, its tip, with the last step that was reached there, its
-head. One line is in force. The tree has it as flat lists, from the oldest checkpoint that is kept
-to the tip. The cursor is a world at a moment of that line: a step, and the number of requests up
-to it, the serial of the last one. Everything that a person does with time moves it:
+head. One line is in force, with flat lists of its nodes and checkpoints, from the oldest that is
+kept to the tip. The cursor is a world at a moment of that line: a step, and the number of requests
+up to it, the serial of the last one. Everything that a person does with time moves it:
 
 - Rewind, seek and play move it to another moment of the line in force.
 - A request adds a node at the cursor, the new tip. If steps or requests lay ahead, that line is

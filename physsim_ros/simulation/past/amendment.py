@@ -57,12 +57,11 @@ def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Re
     """
     if not past.cursor.is_newest:
         raise InPast('the past is shown; go to its end first', field='history')
-    first = past.tree.last_gesture_of(author)
+    first = past.line.last_gesture_of(author)
     if first is None:
         raise OutOfHistory(f'there is nothing by {author.strip()} to undo', field='history')
     before = yield from _Amendment(past, (first.gesture,), stands_alone=True).carry_out()
-    before.words = first.phrase(1)
-    past.tree.undone.append(before)
+    past.tree.keep_undone(before, first.phrase(1))
     return [Answer(message=f'undid {before.words}')]
 
 
@@ -91,10 +90,10 @@ class _Amendment:
         *,
         stands_alone: bool = False,
     ) -> None:
-        self._past, self._tree, self._cursor = past, past.tree, past.cursor
+        self._past, self._line, self._cursor = past, past.line, past.cursor
         self._requests, self._gesture, self._author = requests, gestures[0], author
-        tree, (self._end, serial) = self._tree, self._cursor.moment
-        starts = [tree.moment_before_gesture(each, serial) for each in gestures]
+        line, (self._end, serial) = self._line, self._cursor.moment
+        starts = [line.moment_before_gesture(each, serial) for each in gestures]
         # The first step that differs, and the serial before it.
         self._step, self._serial = min(
             (start for start in starts if start is not None),
@@ -104,8 +103,8 @@ class _Amendment:
         # Commands of robots join the gesture before them, whose author is another one.
         self._later = [
             each
-            for each in tree.nodes_between(self._serial, serial)
-            if each.gesture not in gestures or each.author != tree.node(each.gesture_start).author
+            for each in line.nodes_between(self._serial, serial)
+            if each.gesture not in gestures or each.author != line.node(each.gesture_start).author
         ]
         self._stands_alone = stands_alone
         self.done: list[Answer | Refusal] = []
@@ -121,15 +120,14 @@ class _Amendment:
         :raises NotAlone: too much would be simulated again, or a later request is refused, and it
             is to stand alone
         """
-        past, tree = self._past, self._tree
+        past, tree = self._past, self._past.tree
         if self._end - self._step > past.steps_in(LONGEST_AGAIN):
             raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
-        before, told = tree.line(self._cursor.moment), len(past.reports)
+        before, told = tree.line_left_at(self._cursor.moment), len(past.reports)
         try:
             for _ in self._simulate():
-                reached, tree.head = tree.head, self._end
-                yield
-                tree.head = reached
+                with self._line.reaching(self._end):
+                    yield
         except Exception:
             # Reports of the way were given the first time.
             del past.reports[told:]
@@ -141,9 +139,9 @@ class _Amendment:
         return before
 
     def _simulate(self) -> Iterator[None]:
-        cursor, tree = self._cursor, self._tree
+        cursor = self._cursor
         start = self._step, self._serial
-        cursor.follow(tree.node(self._serial), self._step, start)
+        cursor.follow(self._line.node(self._serial), self._step, start)
         yield from cursor.slices_of_work()
         for request in self._requests:
             self.done.append(self._apply(request, self._gesture, self._author))

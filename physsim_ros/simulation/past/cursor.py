@@ -27,7 +27,7 @@ from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Configure, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.runtime.slices import finish
-from physsim_ros.simulation.past.line import Keyframe, Moment, Node
+from physsim_ros.simulation.past.line import Keyframe, LineInForce, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import Beginning, Change, World
 
@@ -41,16 +41,16 @@ class Replay:
     A world that is sent to moments of the line in force.
 
     :param world: at a moment of the line, or sent there by `slices_of_resumption`
-    :param tree: of all lines
+    :param line: in force
     :param reports: of events without a request, to which it adds
 
     :ivar serial: number of the last request that was applied
     """
 
-    def __init__(self, world: World, tree: Tree, reports: list[Answer]) -> None:
+    def __init__(self, world: World, line: LineInForce, reports: list[Answer]) -> None:
         self.serial = 0
         self._world = world
-        self._tree = tree
+        self._line = line
         self._reports = reports
         # The checkpoint from which the present space was built.
         self._resumed: Moment | None = None
@@ -74,7 +74,7 @@ class Replay:
 
     def slices_to_shown(self, step: int) -> Generator[None]:
         """Replay up to a step of the line, with the requests with which it was shown."""
-        yield from self._replay_to(step, self._tree.serial_shown_at(step))
+        yield from self._replay_to(step, self._line.serial_shown_at(step))
 
     def _replay_to(self, step: int, serial: int) -> Generator[None]:
         """Replay up to a moment of the line, no earlier than now; yield after each slice."""
@@ -86,40 +86,19 @@ class Replay:
 
     def _replay_to_stop(self, end: int) -> Generator[None]:
         """Replay up to the next step with a request or a checkpoint, or to the end."""
-        tree, world = self._tree, self._world
-        yield from self._apply_logged(tree.serial_at(world.step_count))
+        line, world = self._line, self._world
+        yield from self._apply_logged(line.serial_at(world.step_count))
         yield from self._enter_checkpoint()
-        stop = tree.next_stop(world.step_count, end)
-        yield from self._make_steps(stop, is_new=False)
-        yield from self._apply_logged(tree.serial_shown_at(world.step_count))
-
-    def _make_steps(self, end: int, *, is_new: bool) -> Generator[None]:
-        """
-        Make the steps up to one with a request or a checkpoint; yield where they take long.
-
-        :param is_new: whether the line has not reached them before; else their events were
-            reported the first time
-        """
-        world, tree = self._world, self._tree
-        for _ in world.slices_of_steps(end - world.step_count):
-            if is_new:
-                tree.note_step(world.step_count)
-            yield
-        lost, broken = world.take_lost(), world.take_broken()
-        if is_new:
-            tree.note_step(end)
-            for name in lost:
-                self._report(
-                    'body_lost', f'{name} left the range of numbers and was removed', name
-                )
-            for name, force in broken:
-                self._report(
-                    'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
-                )
+        stop = line.next_stop(world.step_count, end)
+        yield from world.slices_of_steps(stop - world.step_count)
+        # Their events were reported the first time.
+        world.take_lost()
+        world.take_broken()
+        yield from self._apply_logged(line.serial_shown_at(world.step_count))
 
     def _apply_logged(self, serial: int) -> Generator[None]:
         """Apply the logged requests of this step up to a serial; yield after each."""
-        for node in self._tree.nodes_between(self.serial, serial):
+        for node in self._line.nodes_between(self.serial, serial):
             yield from self._enter_checkpoint()
             try:
                 yield from self._world.slices_of_reapplying(node.request)
@@ -133,13 +112,13 @@ class Replay:
         finish(self._enter_checkpoint())
 
     def _enter_checkpoint(self) -> Generator[None]:
-        keyframe = self._tree.keyframe_at(*self._here)
+        keyframe = self._line.keyframe_at(*self._here)
         if keyframe is not None and self._resumed != keyframe.moment:
             yield from self.slices_of_resumption(keyframe, going_over=self.check_digest())
 
     def check_digest(self) -> bool:
         """Return whether the world has the digest of the keyframe here; report a difference."""
-        keyframe = self._tree.keyframe_at(*self._here)
+        keyframe = self._line.keyframe_at(*self._here)
         same = keyframe is None or self._world.digest() == keyframe.digest
         if not same:
             seconds = self._world.step_count * self._world.dt
@@ -183,7 +162,8 @@ class Cursor(Replay):
     """
 
     def __init__(self, world: World, tree: Tree, reports: list[Answer]) -> None:
-        super().__init__(world, tree, reports)
+        super().__init__(world, tree.line, reports)
+        self._tree = tree
         self._work: _Work | None = None
         # Whether the world is where no way along the line in force leads to the goal of a seek.
         self._is_elsewhere = False
@@ -202,7 +182,7 @@ class Cursor(Replay):
     @property
     def settings(self) -> WorldSettings:
         """Return the settings of the world at this moment."""
-        return self._tree.node(self.moment.serial).settings
+        return self._line.node(self.moment.serial).settings
 
     @property
     def moment(self) -> Moment:
@@ -210,15 +190,15 @@ class Cursor(Replay):
         if self._work is None:
             return self._here
         step = self._world.step_count
-        if self._work.kind is _Kind.STEPS and step < self._tree.head:
+        if self._work.kind is _Kind.STEPS and step < self._line.head:
             # The world may be among the requests of this step.
-            return Moment(step, self._tree.serial_shown_at(step))
-        return self._work.goal or self._tree.end
+            return Moment(step, self._line.serial_shown_at(step))
+        return self._work.goal or self._line.end
 
     @property
     def is_newest(self) -> bool:
         """Whether nothing lies ahead of this moment."""
-        return self.moment == self._tree.end
+        return self.moment == self._line.end
 
     @property
     def is_working(self) -> bool:
@@ -304,14 +284,14 @@ class Cursor(Replay):
         :param with_contacts: whether the contacts of its frame are still to be shown
         :raises OutOfHistory: the time is no longer kept, or in the future
         """
-        tree, dt = self._tree, self._world.dt
-        if not tree.oldest <= step <= tree.head:
+        line, dt = self._line, self._world.dt
+        if not line.oldest <= step <= line.head:
             raise OutOfHistory(
                 f'{step * dt:.3f} s is not in the history, which reaches from '
-                f'{tree.oldest * dt:.3f} to {tree.head * dt:.3f} s',
+                f'{line.oldest * dt:.3f} to {line.head * dt:.3f} s',
                 field='clock',
             )
-        self.seek_moment(step, tree.serial_shown_at(step), with_contacts=with_contacts)
+        self.seek_moment(step, line.serial_shown_at(step), with_contacts=with_contacts)
 
     def seek_moment(
         self, step: int, serial: int, *, with_contacts: bool = True, elsewhere: bool = False
@@ -321,12 +301,12 @@ class Cursor(Replay):
 
         :param elsewhere: whether the world is on another line now
         """
-        tree, frame, goal = self._tree, self._world.frame_steps, Moment(step, serial)
+        line, frame, goal = self._line, self._world.frame_steps, Moment(step, serial)
         # Contacts are those of one frame, as they were the first time.
-        begin = max(tree.oldest, step - (step % frame or frame))
-        start = min(Moment(begin, tree.serial_shown_at(begin)), goal)
+        begin = max(line.oldest, step - (step % frame or frame))
+        start = min(Moment(begin, line.serial_shown_at(begin)), goal)
         first = start if self._world.reports_contacts else goal
-        keyframe = tree.keyframe_before(*first)
+        keyframe = line.keyframe_before(*first)
         # A seek that this one replaces has also come to a moment of the line.
         is_within_step = self._world.is_within_step
         is_on_way = keyframe.moment <= self._here <= first
@@ -357,11 +337,10 @@ class Cursor(Replay):
         :param moment: step and serial; a serial of None is that with which the step was shown
         :return: the first step at which the lines differ
         """
-        tree = self._tree
-        differs = tree.follow(tip, head)
-        step, serial = max(moment[0], tree.oldest), moment[1]
-        if serial is None or step != moment[0] or (step, serial) < tree.keyframes[0].moment:
-            serial = tree.serial_shown_at(step)
+        line, differs = self._line, self._tree.follow(tip, head)
+        step, serial = max(moment[0], line.oldest), moment[1]
+        if serial is None or step != moment[0] or (step, serial) < line.keyframes[0].moment:
+            serial = line.serial_shown_at(step)
         self.seek_moment(step, serial, elsewhere=True)
         return differs
 
@@ -374,11 +353,11 @@ class Cursor(Replay):
         """
         # Before the steps that it replays are dropped.
         self.finish_work()
-        tree = self._tree
-        tree.limit_length(length)
-        if self._world.step_count >= tree.oldest and self.moment >= tree.keyframes[0].moment:
+        line = self._line
+        self._tree.limit_length(length)
+        if self._world.step_count >= line.oldest and self.moment >= line.keyframes[0].moment:
             return True
-        self.seek(tree.oldest)
+        self.seek(line.oldest)
         return False
 
     # Going on
@@ -408,10 +387,10 @@ class Cursor(Replay):
 
         :param fields: of it, beside those that follow from the moment
         """
-        tree, (step, serial) = self._tree, self.moment
-        parent, settings = tree.node(serial), self._world.settings
+        step, serial = self.moment
+        parent, settings = self._line.node(serial), self._world.settings
         node = Node(parent=parent, step=step, request=request, settings=settings, **fields)
-        tree.add_request(node)
+        self._tree.add_request(node)
         self.serial += 1
 
     def advance(self, steps: int) -> None:
@@ -425,18 +404,30 @@ class Cursor(Replay):
 
     def _slices_of_advance(self, end: int) -> Generator[None]:
         """Advance to a step; yield where steps take long."""
-        world, tree = self._world, self._tree
+        world, line = self._world, self._line
         while (step := world.step_count) < end:
-            if step < tree.head:
-                yield from self._replay_to_stop(min(end, tree.head))
+            if step < line.head:
+                yield from self._replay_to_stop(min(end, line.head))
                 continue
             tip, steps = self._stretch
-            if tip is not tree.tip or self.serial != tip.serial or step not in steps:
-                yield from self._apply_logged(tree.serial_at(step))
+            if tip is not line.tip or self.serial != tip.serial or step not in steps:
+                yield from self._apply_logged(line.serial_at(step))
                 yield from self._make_checkpoint()
-                steps = range(step, tree.next_stop(step, step + tree.spacing))
-                self._stretch = tree.tip, steps
-            yield from self._make_steps(min(end, steps.stop), is_new=True)
+                steps = range(step, line.next_stop(step, step + line.spacing))
+                self._stretch = line.tip, steps
+            yield from self._make_steps(min(end, steps.stop))
+
+    def _make_steps(self, end: int) -> Generator[None]:
+        """Make steps that the line has not reached before; yield where they take long."""
+        world, tree = self._world, self._tree
+        for _ in world.slices_of_steps(end - world.step_count):
+            tree.note_step(world.step_count)
+            yield
+        tree.note_step(end)
+        for name in world.take_lost():
+            self._report('body_lost', f'{name} left the range of numbers and was removed', name)
+        for name, force in world.take_broken():
+            self._report('joint_broken', f'{name} broke at {force:.3g} N and was removed', name)
 
     # Checkpoints
 
@@ -445,12 +436,12 @@ class Cursor(Replay):
         yield from self._enter_checkpoint()
         step = self._world.step_count
         # Another line has run from this node before: its checkpoints are used.
-        if step < self._tree.tip.end:
+        if step < self._line.tip.end:
             return
         due = self._tree.is_checkpoint_due(step) or (
             self._resumed is not None and self._resumed.step == step
         )
-        if due and self._tree.keyframe_at(*self._here) is None:
+        if due and self._line.keyframe_at(*self._here) is None:
             yield from self.slices_of_keyframe()
 
     def add_keyframe(self) -> Checkpoint:
@@ -461,7 +452,7 @@ class Cursor(Replay):
         whose request changes nothing: an undo takes it back with the gesture before.
         """
         self.finish_work()
-        tip = self._tree.tip
+        tip = self._line.tip
         if self._world.step_count < tip.end:
             self._add_node(Configure(changes={}), gesture=tip.gesture)
         return finish(self.slices_of_keyframe())
@@ -470,12 +461,13 @@ class Cursor(Replay):
         """Do as `add_keyframe` in slices, before whose end nothing else is done."""
         checkpoint = yield from self._world.slices_of_renewal()
         digest = self._world.digest()
-        self._resumed = self._tree.add_keyframe(self._here, checkpoint, digest).moment
+        self._resumed = self._here
+        self._tree.add_keyframe(self._here, checkpoint, digest)
         return checkpoint
 
     def build_ahead(self, steps: int) -> None:
         """Build the share of the bodies for the next checkpoint that is due in some steps."""
-        world, spacing = self._world, self._tree.spacing
+        world, spacing = self._world, self._line.spacing
         if not world.is_built_ahead:
             count = world.scene.piece_count + len(world.scene.joints)
             world.build_bodies(-(-count * steps // max(1, int(spacing * _AHEAD))))

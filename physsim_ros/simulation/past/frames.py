@@ -24,8 +24,8 @@ from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.past.cursor import Replay
-from physsim_ros.simulation.past.line import CachedFrame, Keyframe
-from physsim_ros.simulation.past.tree import Tree
+from physsim_ros.simulation.past.line import CachedFrame, Keyframe, LineInForce
+from physsim_ros.simulation.past.tree import Budget
 from physsim_ros.simulation.world import World
 
 # Share of the budget for frames [1]: 64 MB of 256, three minutes of 100 bodies. More saves little,
@@ -59,20 +59,22 @@ class FrameCache:
 
     :param replay: that replays segments
     :param world: of that replay
-    :param tree: of all lines, with the budget; for few bodies frames take less of it: a pose of
-        each body in each frame of the past
+    :param line: in force
+    :param budget: of the past; for few bodies frames take less of it: a pose of each body in each
+        frame
 
     :ivar size: memory that the frames take [bytes]
-    :ivar line: number of the line in force: each that is put in force gets the next one
+    :ivar line_number: of the line in force: each that is put in force gets the next one
     :ivar parts: the first step at which that line may differ from the one before
     """
 
-    def __init__(self, replay: Replay, world: World, tree: Tree) -> None:
+    def __init__(self, replay: Replay, world: World, line: LineInForce, budget: Budget) -> None:
         self.size = 0
-        self.line = self.parts = 0
+        self.line_number = self.parts = 0
         self._replay = replay
         self._world = world
-        self._tree = tree
+        self._line = line
+        self._budget = budget
         # The frames by step, and their steps in the order of time.
         self._frames: dict[int, CachedFrame] = {}
         self._steps: list[int] = []
@@ -99,7 +101,7 @@ class FrameCache:
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown; a past without length has none."""
-        if not self._tree.length:
+        if not self._line.length:
             self._drop(0, len(self._steps))
             return
         self._bodies = len(frame.snapshot.poses)
@@ -116,19 +118,19 @@ class FrameCache:
     def drop_from(self, step: int) -> list[CachedFrame]:
         """Drop the frames from a step on, where a line parts; return them in the order of time."""
         self._segment = None
-        self.line, self.parts = self.line + 1, step
+        self.line_number, self.parts = self.line_number + 1, step
         return self._drop(bisect_left(self._steps, step), len(self._steps))
 
     def cached_frame(self, step: int) -> CachedFrame | None:
         """Return the cached frame of a step; None if it is not cached, or not in the past."""
-        if self._tree.oldest <= step <= self._tree.head and self._is_cached(step):
+        if self._line.oldest <= step <= self._line.head and self._is_cached(step):
             return self._frames[step].copy()
         return None
 
     def replay_to_frame(self, step: int) -> CachedFrame | None:
         """Return the frame of a step if it is cached; else replay the next frame on its way."""
         if not self._is_cached(step):
-            _, end = self._tree.segment(step)
+            _, end = self._line.segment(step)
             frame = self._world.frame_steps
             stride = frame if step == end or step % frame == 0 else 1
             segment = self._segment_of(step, stride)
@@ -157,7 +159,7 @@ class FrameCache:
             # Not `yield from`, which would end it where this work is dropped.
             for _ in segment.beginning:
                 yield
-            _, end = self._tree.segment(gap)
+            _, end = self._line.segment(gap)
             left, calls = end - self._world.step_count, max(1, (step - gap) // max(1, steps))
             yield from islice(segment.slices, -(-left // (calls * stride)))
             self._evict(step)
@@ -169,8 +171,8 @@ class FrameCache:
 
     def _begin_of_segments(self, step: int) -> int:
         """Return the first step of the segment before that of a step."""
-        keyframe, _ = self._tree.segment(step)
-        before, _ = self._tree.segment(keyframe.step)
+        keyframe, _ = self._line.segment(step)
+        before, _ = self._line.segment(keyframe.step)
         return before.step
 
     def _segment_of(self, step: int, stride: int) -> _Segment:
@@ -179,7 +181,7 @@ class FrameCache:
 
         :param stride: steps from one frame to the next
         """
-        keyframe, end = self._tree.segment(step)
+        keyframe, end = self._line.segment(step)
         of, segment = (keyframe, end, self._world.reports_contacts), self._segment
         if segment is None or segment.of != of or segment.stride > stride:
             slices = self._slices_of_segment(keyframe, end, stride)
@@ -196,7 +198,7 @@ class FrameCache:
         """Replay a segment from its keyframe; at its end its frames replace those cached."""
         replay, world, frames = self._replay, self._world, []
         # The step may have been shown without the requests before the keyframe.
-        if replay.serial == self._tree.serial_shown_at(keyframe.step):
+        if replay.serial == self._line.serial_shown_at(keyframe.step):
             frames.append(self._frame())
         while (at := world.step_count) < end:
             finish(replay.slices_to_shown(min(end, at - at % stride + stride)))
@@ -207,7 +209,7 @@ class FrameCache:
         self._segment = None
         # The frame at its keyframe is the last one of the segment before, if there is one.
         begin = keyframe.step
-        if begin == self._tree.keyframes[0].step and not self._is_cached(begin):
+        if begin == self._line.keyframes[0].step and not self._is_cached(begin):
             begin -= 1
         self._drop(bisect_right(self._steps, begin), bisect_right(self._steps, end))
         for frame in frames:
@@ -240,10 +242,10 @@ class FrameCache:
     def _evict(self, step: int) -> None:
         """Drop the frames that are no longer kept, and more until all fit."""
         self._shown = step
-        tree, frame = self._tree, self._world.frame_steps
-        self._drop(0, bisect_left(self._steps, tree.keyframes[0].step))
-        poses = tree.length // frame * self._bodies
-        limit = min(tree.budget.size * _SHARE, poses * _BODY)
+        line, frame = self._line, self._world.frame_steps
+        self._drop(0, bisect_left(self._steps, line.keyframes[0].step))
+        poses = line.length // frame * self._bodies
+        limit = min(self._budget.size * _SHARE, poses * _BODY)
         if self.size > limit:
             self.shrink(limit * _KEPT)
 
@@ -256,7 +258,7 @@ class FrameCache:
 
         :param size: memory that the others may take [bytes]
         """
-        begin, (_, end) = self._begin_of_segments(self._shown), self._tree.segment(self._shown)
+        begin, (_, end) = self._begin_of_segments(self._shown), self._line.segment(self._shown)
         while self.size > size and self._steps:
             if self._steps[-1] > end:
                 self._drop(len(self._steps) - 1, len(self._steps))

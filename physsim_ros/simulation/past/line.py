@@ -13,7 +13,8 @@ Time mostly goes on at the end of the line: there, nothing is searched for.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
@@ -167,8 +168,7 @@ class Line:
 
     :param tip: its last node
     :param head: the last step that it has reached
-    :param moment: at which it is shown when it is in force again; a serial of None is that with
-        which the step was shown
+    :param moment: at which it was left
     :param course: number of its course
     :param reset_count: number of resets before it
     :param words: phrase for the gesture that was undone in it, or for the reset after it; '' is
@@ -180,7 +180,7 @@ class Line:
 
     tip: Node
     head: int
-    moment: tuple[int, int | None]
+    moment: Moment
     course: int
     reset_count: int
     words: str = ''
@@ -210,9 +210,16 @@ class LineInForce:
         # Serial of the first request of each gesture.
         self._gesture_starts: dict[int, int] = {}
 
-    def _splice(self, kept: int, nodes: Sequence[Node]) -> list[Node]:
-        """Keep some nodes, replace those after them by others, and return those replaced."""
-        left = self.nodes[kept:]
+    # Changes, by the tree
+
+    def replace_after(self, kept: int, nodes: Sequence[Node], head: int) -> list[Node]:
+        """
+        Keep some nodes, replace those after them by others, and return those replaced.
+
+        :param kept: number of nodes that are kept
+        :param head: the last step that the line has reached then
+        """
+        left, self.head = self.nodes[kept:], head
         self.nodes[kept:] = nodes
         if left:
             self._gesture_starts.clear()
@@ -231,7 +238,7 @@ class LineInForce:
         self.keyframes += self.tip.keyframes
         return left
 
-    def _begin_at(self, place: int) -> Node:
+    def begin_at(self, place: int) -> Node:
         """Drop what is before a keyframe, by its place; return its node, the root from then on."""
         root = self.node(self.keyframes[place].serial)
         del self.keyframes[:place]
@@ -239,6 +246,37 @@ class LineInForce:
         # A gesture that began before the root keeps its start, the serial of a dropped node.
         self._gesture_starts = {each.gesture: each.gesture_start for each in self.nodes}
         return root
+
+    def add_keyframe(self, keyframe: Keyframe) -> None:
+        """Add a keyframe of the tip, the last one."""
+        self.tip.keyframes.append(keyframe)
+        self.keyframes.append(keyframe)
+
+    def limit(self, length: int) -> None:
+        """Set the number of steps that are kept."""
+        self.length = length
+
+    def reach(self, step: int) -> None:
+        """Note that the world has reached a step."""
+        self.tip.end = max(self.tip.end, step)
+        self.head = max(self.head, step)
+
+    @contextmanager
+    def reaching(self, step: int) -> Iterator[None]:
+        """Have the line count as reached up to a step, while others act within the block."""
+        reached, self.head = self.head, step
+        yield
+        # Where the block was left by an exception, another line has begun.
+        self.head = reached
+
+    def note_shown(self, step: int, serial: int) -> None:
+        """Note that a step was shown with the requests up to a serial."""
+        place = serial - self._first
+        while place > 0 and self.nodes[place].step == step and not self.nodes[place].shown:
+            self.nodes[place].shown = True
+            place -= 1
+
+    # Moments
 
     @property
     def oldest(self) -> int:
@@ -261,6 +299,22 @@ class LineInForce:
     @property
     def _first(self) -> int:
         return self.nodes[0].serial if self.nodes else 0
+
+    def apart_from(self, tip: Node) -> tuple[int, list[Node]]:
+        """
+        Return the number of nodes in common with another line, and its other nodes.
+
+        :param tip: of the other line
+        """
+        apart: list[Node] = []
+        node: Node | None = tip
+        while node is not None:
+            place = node.serial - self._first
+            if 0 <= place < len(self.nodes) and self.nodes[place] is node:
+                return place + 1, apart[::-1]
+            apart.append(node)
+            node = node.parent
+        return 0, apart[::-1]
 
     def node(self, serial: int) -> Node:
         """Return the node of a serial."""
@@ -327,6 +381,10 @@ class LineInForce:
 
     # Gestures
 
+    def start_of(self, node: Node) -> int:
+        """Return the serial of the first request of the gesture of a node, which may be new."""
+        return min(self._gesture_starts.get(node.gesture, node.serial), node.serial)
+
     def last_gesture(self, serial: int) -> tuple[Node, int] | None:
         """
         Return the first request of the last gesture up to a serial.
@@ -374,10 +432,3 @@ class LineInForce:
         start = self._gesture_starts.get(gesture, serial + 1)
         kept = self._first < start <= serial
         return Moment(self.node(start).step, start - 1) if kept else None
-
-    def note_shown(self, step: int, serial: int) -> None:
-        """Note that a step was shown with the requests up to a serial."""
-        place = serial - self._first
-        while place > 0 and self.nodes[place].step == step and not self.nodes[place].shown:
-            self.nodes[place].shown = True
-            place -= 1

@@ -29,14 +29,12 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
-from physsim_ros.simulation.past.line import CachedFrame, Line, Moment
+from physsim_ros.simulation.past.line import CachedFrame, Line, LineInForce, Moment
 from physsim_ros.simulation.past.tree import Budget, Tree
 from physsim_ros.simulation.world import Beginning, Change, World
 
 # Check of the times of a past [s].
 _SPAN = Within(0.0, LONGEST, 's')
-# Share of the budget below which the next loss is reported again [1].
-_RELIEF = 1 / 2
 
 
 class Past:
@@ -58,6 +56,7 @@ class Past:
 
     :ivar boundary: of the requests
     :ivar budget: of all that is kept
+    :ivar line: in force
     :ivar tree: of all lines
     :ivar cursor: the world at a moment of the line in force
     :ivar frames: that are cached of that line
@@ -80,20 +79,20 @@ class Past:
         self.boundary = boundary
         self.budget = Budget(memory)
         self.reports: list[Answer] = []
-        self.tree = Tree(
-            self.budget,
+        self.line = LineInForce(
             length=self.steps_of('history', length),
             spacing=self.steps_of('checkpoints', checkpoints),
         )
+        self.tree = Tree(self.line, self.budget)
         # The world of the cursor, and the one that replays cached frames.
         self._worlds = tuple(
             World(physics_rate=physics_rate, frame_steps=frame_steps) for _ in range(2)
         )
         present, shown = self._worlds
         self.cursor = Cursor(present, self.tree, self.reports)
-        self.frames = FrameCache(Replay(shown, self.tree, self.reports), shown, self.tree)
+        replay = Replay(shown, self.line, self.reports)
+        self.frames = FrameCache(replay, shown, self.line, self.budget)
         self.cursor.begin(WorldState(settings=settings))
-        self._courses = 1
 
     @property
     def reports_contacts(self) -> bool:
@@ -119,6 +118,12 @@ class Past:
         """
         return self.steps_in(_SPAN(seconds, name))
 
+    def take_reports(self) -> tuple[Answer, ...]:
+        """Return the events without a request since the last call."""
+        reports = tuple(self.reports)
+        self.reports.clear()
+        return reports
+
     def free_slice(self) -> None:
         """Free a part of what worlds were before they were replaced."""
         for world in self._worlds:
@@ -140,11 +145,11 @@ class Past:
 
         That is the state after the last request of the line, or at the first that is kept.
         """
-        tree, rate, frame_steps = self.tree, self.physics_rate, self.frame_steps
-        moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
-        keyframe = tree.keyframe_before(*moment)
+        line, rate, frame_steps = self.line, self.physics_rate, self.frame_steps
+        moment = max(Moment(line.tip.step, line.tip.serial), line.keyframes[0].moment)
+        keyframe = line.keyframe_before(*moment)
         # Not the nodes: one that becomes the root has another request from then on.
-        nodes = tree.nodes_between(keyframe.serial, moment.serial)
+        nodes = line.nodes_between(keyframe.serial, moment.serial)
         requests = [(node.step, node.request) for node in nodes]
 
         def save() -> WorldState:
@@ -169,34 +174,31 @@ class Past:
         """
         tree, frames, budget = self.tree, self.frames, self.budget
         tree.drop_lost()
-        self._count_memory()
-        if budget.told and budget.used <= _RELIEF * budget.size:
-            budget.told = False
-        if budget.used <= budget.size:
+        is_full = self._is_full()
+        budget.note_relief()
+        if not is_full:
             return
         # Frames come back by a replay, and are no loss.
         frames.shrink(budget.size - tree.size)
-        self._count_memory()
         is_lost = False
         for drop in (
             tree.drop_oldest_frames,
             tree.drop_oldest_line,
             partial(tree.drop_oldest_checkpoint, shown),
         ):
-            while budget.used > budget.size and drop():
-                self._count_memory()
+            while self._is_full() and drop():
                 is_lost = True
-        if is_lost and not budget.told:
-            budget.told = True
-            oldest = tree.oldest / self.physics_rate
+        if is_lost and budget.note_loss():
+            oldest = self.line.oldest / self.physics_rate
             message = (
                 f'the past would take more than {budget.megabytes:g} MB (history_memory): the '
                 f'oldest goes, {oldest:.3f} s is the oldest that is kept'
             )
             self.reports.append(Answer(topic='history', message=message, code='history'))
 
-    def _count_memory(self) -> None:
-        self.budget.used = self.frames.size + self.tree.size
+    def _is_full(self) -> bool:
+        """Count the memory, and return whether it exceeds the budget."""
+        return self.budget.count(self.frames.size + self.tree.size)
 
     # Requests
 
@@ -221,7 +223,7 @@ class Past:
 
         :raises Refusal: and nothing is changed
         """
-        self._apply(request, self.tree.node(self.cursor.serial).gesture)
+        self._apply(request, self.line.node(self.cursor.serial).gesture)
 
     def _apply(self, request: Request, gesture: int, author: str = '') -> Change:
         cursor = self.cursor
@@ -251,18 +253,14 @@ class Past:
 
     def _begin_course(self) -> None:
         """Begin a course at this moment, and keep the line that is in force."""
-        step = self.cursor.moment.step
-        left = self.tree.line(self.cursor.moment)
-        self.tree.keep_course(left, self.frames.drop_from(step))
-        self.tree.drop_undone()
-        self._courses += 1
-        self.tree.course = self._courses
-        message = f'course {self._courses} begins at {step / self.physics_rate:.3f} s'
-        self.reports.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
+        moment = self.cursor.moment
+        left = self.tree.begin_course(moment, self.frames.drop_from(moment.step))
+        begun = f'course {self.tree.course} begins at {moment.step / self.physics_rate:.3f} s'
+        self.reports.append(Answer(topic='branch', message=f'{begun}; {left.course} is kept'))
 
     def added_by(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the bodies and the joints in the world that a person has added, by name."""
-        return self.tree.added_by(author, self.cursor.world.scene)
+        return self.line.added_by(author, self.cursor.world.scene)
 
     # Moves of the cursor
 
@@ -288,9 +286,8 @@ class Past:
 
     def _forget(self) -> None:
         """Forget all lines but the one in force, which has begun."""
-        self.tree.drop_where(lambda _: True)
+        self.tree.forget()
         self.frames.drop_from(0)
-        self.tree.course = self._courses = 1
 
     def reset(self, seed: int | None = None, ahead: Beginning | None = None) -> bool:
         """
@@ -301,11 +298,10 @@ class Past:
         :return: whether anything had happened since
         :raises BadProperty: the seed is out of range
         """
-        tree = self.tree
-        state = tree.tip.loaded.state
+        state = self.line.tip.loaded.state
         if seed is not None:
             state = replace(state, settings=replace(state.settings, seed=seed))
-        is_begun = tree.head == 0 and self.cursor.moment.serial == 0
+        is_begun = self.line.head == 0 and self.cursor.moment.serial == 0
         if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
@@ -329,18 +325,14 @@ class Past:
         :raises Refusal: the state is refused; nothing is changed
         """
         tree = self.tree
-        before = tree.line(self.cursor.moment)
-        before.words = words
+        before = tree.line_left_at(self.cursor.moment)
         try:
             self.cursor.begin(state, ahead)
         except Refusal:
             tree.drop(before)
             raise
-        tree.drop_undone()
-        tree.resets.append(before)
+        tree.note_reset(before, words)
         self.frames.drop_from(0)
-        self._courses += 1
-        tree.course, tree.reset_count = self._courses, tree.reset_count + 1
 
     def words(self, moment: Moment) -> tuple[str, str]:
         """
@@ -350,7 +342,7 @@ class Past:
         """
         tree, (_, serial) = self.tree, moment
         redo = tree.undone[-1].words if tree.can_redo else ''
-        if gesture := tree.last_gesture(serial):
+        if gesture := self.line.last_gesture(serial):
             first, count = gesture
             return first.phrase(count), redo
         return tree.resets[-1].words if tree.undoes_reset(serial) else '', redo
@@ -361,20 +353,19 @@ class Past:
 
         :raises OutOfHistory: there is none that is kept
         """
-        tree, moment = self.tree, self.cursor.moment
+        tree, line, moment = self.tree, self.line, self.cursor.moment
         words, _ = self.words(moment)
         if not words:
             raise OutOfHistory('there is nothing to undo', field='history')
-        if gesture := tree.last_gesture(moment.serial):
+        if gesture := line.last_gesture(moment.serial):
             first, _ = gesture
-            before = tree.node(first.serial - 1)
+            before = line.node(first.serial - 1)
             goal = tree.line_to(before, first.step, Moment(first.step, before.serial))
         else:
             # The requests since a reset are undone before it, though they are no longer kept.
             goal = tree.resets[-1]
         left, _ = self.go_to(goal)
-        left.words = words
-        tree.undone.append(left)
+        tree.keep_undone(left, words)
         return words
 
     def redo(self) -> str:
@@ -392,8 +383,7 @@ class Past:
         if tree.reset_count == resets:
             tree.drop(left)
         else:
-            left.words = words
-            tree.resets.append(left)
+            tree.keep_reset(left, words)
         return words
 
     def return_to_course(self, number: int) -> bool:
@@ -404,28 +394,33 @@ class Past:
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
         tree, moment = self.tree, self.cursor.moment
-        tree.note_shown(*moment)
+        self.line.note_shown(*moment)
         if number == tree.course:
             return False
         line = next((line for line, _ in tree.courses_left() if line.course == number), None)
         if line is None:
             raise OutOfHistory(f'course {number} is not kept', field='course')
-        line.moment = min(moment.step, line.head), None
-        tree.keep_course(*self.go_to(line))
+        tree.keep_course(*self.go_to(line, (min(moment.step, line.head), None)))
         self.tree.drop_undone()
         return True
 
-    def go_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
-        """Put a line in force; return the line before, and the frames that only that has shown."""
-        tree, cursor = self.tree, self.cursor
-        left = tree.line(cursor.moment)
-        frames = self.frames.drop_from(cursor.follow(line.tip, line.head, line.moment))
+    def go_to(
+        self, line: Line, moment: tuple[int, int | None] | None = None
+    ) -> tuple[Line, list[CachedFrame]]:
+        """
+        Put a line in force; return the line before, and the frames that only that has shown.
+
+        :param moment: step and serial; a serial of None is that with which the step was shown;
+            None is the moment at which the line was left
+        """
+        tree, cursor, moment = self.tree, self.cursor, moment or line.moment
+        left = tree.line_left_at(cursor.moment)
+        frames = self.frames.drop_from(cursor.follow(line.tip, line.head, moment))
         reached = cursor.moment.step
-        if reached != line.moment[0]:
+        if reached != moment[0]:
             message = f'{reached / self.physics_rate:.3f} s is the oldest that is kept'
             self.reports.append(Answer(topic='history', message=message))
-        tree.course, tree.reset_count = line.course, line.reset_count
         for frame in line.frames:
             self.frames.add_frame(frame)
-        self.tree.drop(line)
+        tree.note_return(line)
         return left, frames

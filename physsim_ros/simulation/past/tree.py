@@ -40,6 +40,8 @@ MOST_COURSES = 16
 # Share of the budget from which the requests after a checkpoint make the next one due [1], so that
 # the past has at least eight parts that can be dropped.
 _LOG_SHARE = 1 / 8
+# Share of the budget below which the next loss is reported again [1].
+_RELIEF = 1 / 2
 
 
 class Budget:
@@ -52,7 +54,6 @@ class Budget:
 
     :ivar size: the budget [bytes]
     :ivar used: memory of the past at the last count [bytes]
-    :ivar told: whether users know that the past was shortened
     """
 
     def __init__(self, megabytes: float) -> None:
@@ -68,23 +69,38 @@ class Budget:
     def megabytes(self, megabytes: float) -> None:
         megabytes = Within(LEAST_MEMORY, MOST_MEMORY, 'MB')(megabytes, 'history_memory')
         self.size = round(megabytes * MEGABYTE)
-        self.told = False
+        # Whether users know that the past was shortened.
+        self._is_told = False
 
     @property
     def in_megabytes(self) -> tuple[float, float]:
         """Return the memory of the past at the last count, and the budget [MB]."""
         return self.used / MEGABYTE, self.megabytes
 
+    def count(self, used: int) -> bool:
+        """Note the memory of the past [bytes], and return whether it exceeds the budget."""
+        self.used = used
+        return used > self.size
 
-class Tree(LineInForce):
+    def note_relief(self) -> None:
+        """Have the next loss be told again, where much less is used."""
+        self._is_told &= self.used > _RELIEF * self.size
+
+    def note_loss(self) -> bool:
+        """Note that something was dropped, and return whether that is to be told."""
+        was_told, self._is_told = self._is_told, True
+        return not was_told
+
+
+class Tree:
     """
     All lines of events.
 
+    :param line: in force
     :param budget: with the memory of the requests after a checkpoint from which the next one is
         due; a checkpoint is dropped only together with the requests after it
-    :param length: number of steps that are kept
-    :param spacing: greatest number of steps from one checkpoint to the next
 
+    :ivar line: in force
     :ivar size: memory of requests, checkpoints and frames of lines that were left [bytes]
     :ivar course: number of the course of the line in force
     :ivar reset_count: number of resets before it
@@ -93,14 +109,16 @@ class Tree(LineInForce):
     :ivar resets: lines before each reset, the latest last
     """
 
-    def __init__(self, budget: Budget, *, length: int, spacing: int) -> None:
-        super().__init__(length=length, spacing=spacing)
-        self.budget = budget
+    def __init__(self, line: LineInForce, budget: Budget) -> None:
+        self.line = line
         self.size = 0
         self.course, self.reset_count = 1, 0
         self.left: dict[int, Line] = {}
         self.undone: list[Line] = []
         self.resets: list[Line] = []
+        self._budget = budget
+        # Number of the last course that began.
+        self._courses = 1
         # By tip and head of another line: the number of nodes that it has in common with this one,
         # and the step at which it parts from this one.
         self._partings: dict[tuple[Node, int], tuple[int, int | None]] = {}
@@ -111,15 +129,15 @@ class Tree(LineInForce):
 
     def is_checkpoint_due(self, step: int) -> bool:
         """Return whether a checkpoint is due at the tip; a loaded state begins with one."""
-        last = self.keyframes[-1]
-        long = step - last.step >= self.spacing or self.is_log_long
-        return long or self.tip.loaded.serial > last.serial
+        last = self.line.keyframes[-1]
+        long = step - last.step >= self.line.spacing or self.is_log_long
+        return long or self.line.tip.loaded.serial > last.serial
 
     @property
     def is_log_long(self) -> bool:
         """Whether the memory of the requests since the last checkpoint exceeds the limit."""
-        last = self.node(self.keyframes[-1].serial)
-        return self.tip.total - last.total > self.budget.size * _LOG_SHARE
+        last = self.line.node(self.line.keyframes[-1].serial)
+        return self.line.tip.total - last.total > self._budget.size * _LOG_SHARE
 
     def parting(self, tip: Node, head: int) -> int | None:
         """
@@ -130,33 +148,22 @@ class Tree(LineInForce):
         :return: None if they have no kept moment in common
         """
         if (tip, head) not in self._partings:
-            kept, apart = self._apart(tip)
+            line = self.line
+            kept, apart = line.apart_from(tip)
             # The last step of the root's run that the other line needs a checkpoint before.
             after = apart[0].after if apart else head
-            lost = kept == 0 or (kept == 1 and after < self.keyframes[0].step)
-            steps = [each[0].step for each in (self.nodes[kept:], apart) if each]
-            step = None if lost else min(steps, default=self.head)
+            lost = kept == 0 or (kept == 1 and after < line.keyframes[0].step)
+            steps = [each[0].step for each in (line.nodes[kept:], apart) if each]
+            step = None if lost else min(steps, default=line.head)
             self._partings[tip, head] = kept, step
         return self._partings[tip, head][1]
-
-    def _apart(self, tip: Node) -> tuple[int, list[Node]]:
-        """Return the number of nodes in common with another line, and its other nodes."""
-        apart: list[Node] = []
-        node: Node | None = tip
-        while node is not None:
-            place = node.serial - self._first
-            if 0 <= place < len(self.nodes) and self.nodes[place] is node:
-                return place + 1, apart[::-1]
-            apart.append(node)
-            node = node.parent
-        return 0, apart[::-1]
 
     def begin(self, state: WorldState, checkpoint: Checkpoint, digest: str) -> None:
         """Begin a world at a checkpoint; the state was loaded last, at time 0."""
         step, settings = checkpoint.step, checkpoint.scene.settings
         request = Restore(state=state)
         root = Node(parent=None, step=0, request=request, settings=settings, shown=True)
-        self._add_keyframe(root, Moment(step, 0), checkpoint, digest, None)
+        root.keyframes.append(self._keyframe(Moment(step, 0), checkpoint, digest, None))
         self.follow(root, step)
 
     def follow(self, tip: Node, head: int) -> int:
@@ -167,58 +174,85 @@ class Tree(LineInForce):
         :param head: the last step that it has reached
         :return: the first step at which it differs from the line before
         """
-        kept, apart = self._apart(tip)
+        kept, apart = self.line.apart_from(tip)
         tip.users += 1
-        if self.nodes:
-            self._release(self.tip)
-        left = self._splice(kept, apart)
+        if self.line.nodes:
+            self._release(self.line.tip)
+        left = self.line.replace_after(kept, apart, head)
         # A line that grows parts from others where it did, but from those that it goes on from.
         same = {} if left else self._partings
         self._partings = {line: found for line, found in same.items() if found[0] < kept}
         steps = [head, *(each[0].step for each in (left, apart) if each)]
-        self.head = head
         self._drop_old()
         return min(steps) if kept else 0
 
     def add_request(self, node: Node) -> None:
         """Add the node of a request that changed the world, and follow it."""
-        start = self._gesture_starts.get(node.gesture, node.serial)
-        node.gesture_start = min(start, node.serial)
+        node.gesture_start = self.line.start_of(node)
         self.size += node.size
         self.follow(node, node.step)
 
-    def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> Keyframe:
+    def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> None:
         """Add a checkpoint at the tip."""
-        before = self.keyframes[-1].checkpoint
-        keyframe = self._add_keyframe(self.tip, moment, checkpoint, digest, before)
-        self.keyframes.append(keyframe)
-        return keyframe
+        before = self.line.keyframes[-1].checkpoint
+        self.line.add_keyframe(self._keyframe(moment, checkpoint, digest, before))
 
-    def _add_keyframe(
-        self,
-        node: Node,
-        moment: Moment,
-        checkpoint: Checkpoint,
-        digest: str,
-        before: Checkpoint | None,
+    def _keyframe(
+        self, moment: Moment, checkpoint: Checkpoint, digest: str, before: Checkpoint | None
     ) -> Keyframe:
+        """Return the keyframe of a checkpoint, whose memory counts from now on."""
         keyframe = Keyframe(*moment, checkpoint, digest, checkpoint_size(checkpoint, before))
-        node.keyframes.append(keyframe)
         self.size += keyframe.size
         return keyframe
 
     def note_step(self, step: int) -> None:
         """Note that the world has reached a step."""
-        self.tip.end = max(self.tip.end, step)
-        if step > self.head:
-            self.head = step
+        is_new = step > self.line.head
+        self.line.reach(step)
+        if is_new:
             self._drop_old()
+
+    def begin_course(self, moment: Moment, frames: Sequence[CachedFrame]) -> Line:
+        """
+        Leave the line in force as a course, and begin another one; return the line that was left.
+
+        :param moment: at which it is left
+        :param frames: that only it has shown
+        """
+        left = self.line_left_at(moment)
+        self.keep_course(left, frames)
+        self.drop_undone()
+        self._courses += 1
+        self.course = self._courses
+        return left
+
+    def note_reset(self, before: Line, words: str) -> None:
+        """
+        Note that the line in force has begun anew, as another course.
+
+        :param before: the line before, to which an undo returns
+        :param words: phrase for the reset
+        """
+        self.drop_undone()
+        self.keep_reset(before, words)
+        self._courses += 1
+        self.course, self.reset_count = self._courses, self.reset_count + 1
+
+    def note_return(self, line: Line) -> None:
+        """Note that a line was put in force again, which is no longer kept beside it."""
+        self.course, self.reset_count = line.course, line.reset_count
+        self.drop(line)
+
+    def forget(self) -> None:
+        """Drop all lines but the one in force, which has begun as course 1."""
+        self.drop_where(lambda _: True)
+        self.course = self._courses = 1
 
     # Lines that are not in force
 
-    def line(self, moment: Moment) -> Line:
+    def line_left_at(self, moment: Moment) -> Line:
         """Return the line in force, left at a moment and kept from now on."""
-        return self.line_to(self.tip, self.head, moment)
+        return self.line_to(self.line.tip, self.line.head, moment)
 
     def line_to(self, tip: Node, head: int, moment: Moment) -> Line:
         """Return a line of the course in force up to a node, kept from now on."""
@@ -248,6 +282,24 @@ class Tree(LineInForce):
         since_reset = [each for each in self.left.values() if each.reset_count == line.reset_count]
         if len(since_reset) > MOST_COURSES:
             self.drop(since_reset[0])
+
+    def keep_undone(self, line: Line, words: str) -> None:
+        """
+        Keep a line for redo.
+
+        :param words: phrase for the gesture or the reset that was undone
+        """
+        line.words = words
+        self.undone.append(line)
+
+    def keep_reset(self, line: Line, words: str) -> None:
+        """
+        Keep the line before a reset, for undo.
+
+        :param words: phrase for the reset
+        """
+        line.words = words
+        self.resets.append(line)
 
     def course_snapshot(self, course: int, step: int) -> Snapshot | None:
         """Return the last snapshot that a course has shown up to a step, if it is kept."""
@@ -279,13 +331,13 @@ class Tree(LineInForce):
 
     def undoes_reset(self, serial: int) -> bool:
         """Return whether an undo at a serial reverts a reset: every gesture since is undone."""
-        since = self.node(serial).gesture_start
-        return since == 0 and self.oldest == 0 and bool(self.resets)
+        since = self.line.node(serial).gesture_start
+        return since == 0 and self.line.oldest == 0 and bool(self.resets)
 
     def drop_lost(self) -> None:
         """Drop the lines that part from the line in force before the oldest checkpoint."""
-        if self._oldest is not self.keyframes[0]:
-            self._oldest = self.keyframes[0]
+        if self._oldest is not self.line.keyframes[0]:
+            self._oldest = self.line.keyframes[0]
             self.drop_where(self._is_lost)
 
     def _is_lost(self, line: Line) -> bool:
@@ -323,14 +375,14 @@ class Tree(LineInForce):
 
     def limit_length(self, length: int) -> None:
         """Set the number of steps that are kept."""
-        self.length = length
+        self.line.limit(length)
         self._drop_old()
 
     def _drop_old(self) -> None:
         """Drop the checkpoints before the last one that is older than `length`."""
-        oldest = self.head - self.length
+        keyframes, oldest = self.line.keyframes, self.line.head - self.line.length
         old = 0
-        while old + 1 < len(self.keyframes) and self.keyframes[old + 1].step <= oldest:
+        while old + 1 < len(keyframes) and keyframes[old + 1].step <= oldest:
             old += 1
         if old > 0:
             self._drop_before(old)
@@ -341,15 +393,15 @@ class Tree(LineInForce):
 
         :param shown: the moment that is shown, which needs the checkpoint before it
         """
-        if len(self.keyframes) == 1 or self.keyframes[1].moment > shown:
+        if len(self.line.keyframes) == 1 or self.line.keyframes[1].moment > shown:
             return False
         self._drop_before(1)
         return True
 
     def _drop_before(self, place: int) -> None:
         """Drop the checkpoints before a place in the list, with their requests."""
-        keyframe = self.keyframes[place]
-        root = self._begin_at(place)
+        keyframe = self.line.keyframes[place]
+        root = self.line.begin_at(place)
         kept = root.keyframes.index(keyframe)
         self.size -= root.size + sum(each.size for each in root.keyframes[:kept])
         del root.keyframes[:kept]

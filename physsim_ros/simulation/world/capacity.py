@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import chain
 
 import numpy as np
@@ -63,6 +64,15 @@ class Capacity:
         # Steps that the space had made at the last count, and pieces of requests since then.
         self._age = -1
         self._since = 0
+
+    @contextmanager
+    def unchecked(self) -> Iterator[None]:
+        """Refuse nothing within the block, whose requests were checked the first time."""
+        self.checking = False
+        try:
+            yield
+        finally:
+            self.checking = True
 
     def check_body(self, body: Body, pose: Pose, *, old: RigidBody | None = None) -> None:
         """

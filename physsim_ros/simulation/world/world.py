@@ -240,7 +240,8 @@ class World(LiveSpace):
         :raises Refusal: nothing is changed, or the request is half done
         """
         space, changes, counts = self.space, self.space.changes, self._counts
-        space.joined.clear()
+        # Without those of joints that have broken.
+        space.take_joined()
         try:
             answer = HANDLERS[type(request)](self, request)
         except Refusal as refusal:
@@ -250,7 +251,7 @@ class World(LiveSpace):
         return Change(
             answer=answer,
             has_changed=is_other or space.changes != changes,
-            joined=frozenset() if is_other else frozenset(space.joined),
+            joined=frozenset() if is_other else space.take_joined(),
             # One by one: a cut may add a body, and remove a joint.
             has_grown=any(map(gt, self._counts, counts)),
         )
@@ -272,11 +273,8 @@ class World(LiveSpace):
 
     def reapply(self, request: Request) -> None:
         """Do as `slices_of_reapplying` at once."""
-        self.capacity.checking = False
-        try:
+        with self.capacity.unchecked():
             self.apply(request)
-        finally:
-            self.capacity.checking = True
 
     @property
     def is_within_step(self) -> bool:
@@ -292,10 +290,7 @@ class World(LiveSpace):
 
     def take_broken(self) -> list[tuple[str, float]]:
         """Return the joints that broke since the last call, and the force of each then [N]."""
-        if not self.space.broken:
-            return []
-        broken, self.space.broken = self.space.broken, []
-        return broken
+        return self.space.take_broken()
 
     def step(self, count: int) -> tuple[str, ...]:
         """

@@ -115,7 +115,7 @@ def take_back(page: PageSession, origin: Origin) -> None:
     # The last one may wait.
     page.world.current_snapshot()
     simulation = page.world.simulation
-    last = simulation.past.tree.last_gesture_of(origin.author)
+    last = simulation.past.line.last_gesture_of(origin.author)
     check_taken_back(page.role, () if last is None else (last.gesture,), page.world)
     simulation.requests.submit(TakeBack(), origin)
 

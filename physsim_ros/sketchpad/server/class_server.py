@@ -34,7 +34,7 @@ from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
 
 # Size of a request [bytes].
-_MOST_BYTES = 4096
+MOST_BYTES = 4096
 # Size of a message of a world that is watched [bytes].
 _MOST_WATCHED = 2**25
 # Time from one check whether the class is over to the next [s].
@@ -84,7 +84,7 @@ class ClassServer:
         asyncio.run(self._serve(is_over))
 
     async def _serve(self, is_over: Callable[[], bool]) -> None:
-        server = BoundedServer(self._application, max_body_size=_MOST_BYTES)
+        server = BoundedServer(self._application, max_body_size=MOST_BYTES)
         server.add_sockets(self._site.sockets)
         # It is asked, since a signal handler of a thread sets it.
         while not is_over():  # noqa: ASYNC110

@@ -3,12 +3,13 @@
 
 """The forms of strokes are recognised, drawn by ruler and by many hands."""
 
+from collections.abc import Sequence
 import math
 
 import numpy as np
 from physsim_ros.drawing.geometry import spaced
-from physsim_ros.drawing.strokes.features import features_of, swings_of
-from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.features import swings_of
+from physsim_ros.drawing.strokes.forms import classification_of
 from physsim_ros.drawing.strokes.stages import Form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
@@ -73,9 +74,9 @@ RULED: dict[str, tuple[str, Floats]] = {
 }
 
 
-def forms_drawn(way: Floats) -> tuple[Form, ...]:
-    """Return the readings of a stroke, the likeliest first."""
-    return forms_of(features_of(resample_stroke(way)))
+def forms_drawn(way: Floats) -> Sequence[Form]:
+    """Return the forms of a stroke, the likeliest first."""
+    return classification_of(resample_stroke(way)).forms
 
 
 @pytest.mark.parametrize(('primitive', 'way'), RULED.values(), ids=RULED)
@@ -150,15 +151,11 @@ def test_geometry_comes_with_it() -> None:
         ('triangle', {'sides error': 0.0, 'corners': 3.0}),
     ],
 )
-def test_every_form_of_an_outline_has_the_measures_of_all_fits(
-    name: str, fits: dict[str, float]
-) -> None:
-    forms = forms_drawn(RULED[name][1])
+def test_an_outline_has_the_measures_of_all_fits(name: str, fits: dict[str, float]) -> None:
+    measures = classification_of(resample_stroke(RULED[name][1])).fits
 
-    for form in forms:
-        assert form.measures == forms[0].measures
-        # Shares of the size, and corners.
-        assert {each: form.measures[each] for each in fits} == pytest.approx(fits, abs=0.001)
+    # Shares of the size, and corners.
+    assert {each: measures[each] for each in fits} == pytest.approx(fits, abs=0.001)
 
 
 def test_a_pentagram_is_a_solid_of_ten_corners_and_an_oval_is_fine_enough_to_roll() -> None:
@@ -180,7 +177,7 @@ def test_a_flat_circle_is_a_disc_and_the_other_form_is_offered(aspect: float, fo
     angle = np.linspace(0.0, 2.0 * math.pi, 60)
     flat = np.column_stack((np.cos(angle), aspect * np.sin(angle)))
 
-    first, second, *_ = forms_of(features_of(resample_stroke(flat)))
+    first, second, *_ = classification_of(resample_stroke(flat)).forms
 
     assert first.name == form
     assert {first.name, second.name} == {'disc', 'oval'}

@@ -3,36 +3,41 @@
 
 """The judge of doubt: trees that are whole, that change no reading, and that learn from errors."""
 
+from collections.abc import Sequence
 import csv
 from importlib.resources import files
 
 import numpy as np
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
-from physsim_ros.drawing.strokes.choice import guesses_by_rules, measures_of
-from physsim_ros.drawing.strokes.judge import judged, TABLE
-from physsim_ros.drawing.strokes.meanings import meanings_of
-from physsim_ros.drawing.strokes.reading import guesses_of, stroke_in_scene
+from physsim_ros.drawing.strokes.forms import classification_of
+from physsim_ros.drawing.strokes.judge import doubted, judged, measures_of, TABLE
+from physsim_ros.drawing.strokes.reading import guesses_by_rules
 from physsim_ros.drawing.strokes.signs import SIGNS
-from physsim_ros.drawing.strokes.stages import Context
+from physsim_ros.drawing.strokes.stages import Classification, Guess
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 import pytest
 from tools.evaluation.judge import Example, fit, table
-from tools.evaluation.scenes import Scene, scenes
+from tools.evaluation.scenes import scenes
 
-
-def context_of(scene: Scene) -> Context:
-    return stroke_in_scene(resample_stroke(scene.samples), scene.view, DrawingSettings())
+# A stroke with its forms, the guesses of the rules, and its scene.
+ByRules = tuple[Classification, Sequence[Guess], SceneQuery]
 
 
 @pytest.fixture(scope='module')
-def contexts() -> list[Context]:
+def guessed() -> list[ByRules]:
     """Return strokes of every kind in their scenes."""
-    return [context_of(scene) for scene in scenes(1, 'report')]
+    found = []
+    for scene in scenes(1, 'report'):
+        stroke = classification_of(resample_stroke(scene.samples))
+        guesses = guesses_by_rules(stroke, scene.view, DrawingSettings())
+        found.append((stroke, guesses, scene.view))
+    return found
 
 
 def test_every_tree_ends_in_leaves_and_asks_for_measures_that_readings_have(
-    contexts: list[Context],
+    guessed: list[ByRules],
 ) -> None:
     rows = list(csv.DictReader((files(judge.__package__) / TABLE).read_text('utf-8').splitlines()))
     nodes = {(row['tree'], int(row['node'])): row['measure'] for row in rows}
@@ -42,14 +47,14 @@ def test_every_tree_ends_in_leaves_and_asks_for_measures_that_readings_have(
         children = {(tree, 2 * number), (tree, 2 * number + 1)}
         assert children <= nodes.keys() if measure else not children & nodes.keys()
     had = {f'form {sign.name}' for sign in SIGNS}
-    for context in contexts:
-        had |= measures_of(guesses_by_rules(meanings_of(context), context), context).keys()
+    for stroke, guesses, scene in guessed:
+        had |= measures_of(guesses, stroke, scene).keys()
     assert {each for each in nodes.values() if not each.startswith('read as')} - {''} <= had
 
 
-def test_the_judge_changes_no_reading(contexts: list[Context]) -> None:
-    for context in contexts:
-        by_rules, guesses = guesses_by_rules(meanings_of(context), context), guesses_of(context)
+def test_the_judge_changes_no_reading(guessed: list[ByRules]) -> None:
+    for stroke, by_rules, scene in guessed:
+        guesses = doubted(by_rules, stroke, scene)
 
         assert [each.meaning for each in guesses] == [each.meaning for each in by_rules]
         confidences = [each.confidence for each in guesses]

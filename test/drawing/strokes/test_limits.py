@@ -24,7 +24,7 @@ from physsim_ros.drawing import (
 from physsim_ros.drawing.geometry import path_length, unit_vector
 from physsim_ros.drawing.strokes.choice import group_confidence
 from physsim_ros.drawing.strokes.features import features_of
-from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.forms import classification_of
 from physsim_ros.drawing.strokes.joining import joined_arrow
 from physsim_ros.drawing.strokes.plain_forms import fits_of
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
@@ -38,6 +38,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Delete, Join, Spawn
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -733,7 +734,7 @@ def corners_of(way: Way | Floats) -> float:
 
 def is_triangle(bow: float) -> bool:
     """Return whether a triangle whose sides are bowed outwards by a share has three corners."""
-    best = forms_of(features_of(resample_stroke(sampled(bowed(ring(3), bow)))))[0]
+    best = classification_of(resample_stroke(sampled(bowed(ring(3), bow)))).forms[0]
     return best.name == POLYGON and len(best.points) == 3
 
 
@@ -800,7 +801,7 @@ STAGES: dict[
         'corner_detection._CORNER_TURN', lambda it: corners_of(roofs(it)), (0.35, 0.43), (4, 6),
     ),
     'bow of a plank whose corners are four': (
-        'geometry._WIDE', lambda it: corners_of(bowed_plank(it)), (0.067, 0.075), (4, 3),
+        'resampled._WIDE', lambda it: corners_of(bowed_plank(it)), (0.067, 0.075), (4, 3),
     ),
     'lines of hatching': ('open_lines._HEAVIER', heavier, (1, 2), (1.25, 1.5625)),
     'height of one tooth above the others': (
@@ -813,7 +814,7 @@ STAGES: dict[
 RESOLUTION = {
     'stroke._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG', 'corner_detection._ALONG',
     'corner_detection._PARABOLA',
-    'geometry.COUNT', 'geometry.ARM', 'geometry._FEW', 'geometry._SMOOTHING', 'stroke._FINER',
+    'resampled.COUNT', 'resampled.ARM', 'resampled._FEW', 'resampled._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',
     'features._STRIDE', 'features._SEGMENTS', 'features._PAIRS', 'features._MERGED',
     'stages.MOST_GUESSES', 'grouping.MOST_TIME',
@@ -956,7 +957,7 @@ def last_meaning(bodies: Sequence[Spawn], strokes: Sequence[Way | Floats], pause
         samples = np.column_stack((points, np.linspace(0.0, 0.6, len(points))))
         began = number * (0.6 + pause)
         reading = session.stroke(samples, '', frame.snapshot, began=began)
-        submit_reading(simulation, session, reading, topic='')
+        submit_reading(simulation, session, reading, Origin(''))
     return reading.meaning if reading is not None else ''
 
 

@@ -8,8 +8,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import features_of
-from physsim_ros.drawing.strokes.forms import forms_of
+from physsim_ros.drawing.strokes.forms import classification_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal
@@ -192,7 +191,7 @@ def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is
     ids=['an eight', 'a spiral', 'a pigtail'],
 )
 def test_what_is_no_figure_is_not_recognised(world: World, way: Floats) -> None:
-    forms = forms_of(features_of(resample_stroke(way)))
+    forms = classification_of(resample_stroke(way)).forms
 
     assert max((each.weight for each in forms), default=0.0) < 0.3
     with pytest.raises(NotRecognised):

@@ -7,9 +7,10 @@ from itertools import pairwise
 import math
 
 import numpy as np
-from physsim_ros.drawing.geometry import COUNT, smoothed, widened
 from physsim_ros.drawing.strokes.corner_detection import corners, vertices
 from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.fitting import simplified
+from physsim_ros.drawing.strokes.resampled import COUNT, smoothed, widened
 from physsim_ros.drawing.strokes.stroke import clean_samples, GRAIN, resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize, Malformed
@@ -93,17 +94,22 @@ def test_a_line_that_goes_back_upon_itself_has_a_corner_there() -> None:
     assert len(corners(features_of(drawn).path, closed=False)) == 5
 
 
+def curve_of(way: Floats) -> Floats | None:
+    features = features_of(resample_stroke(way))
+    return simplified(features.path, features.bends, features.stroke.size)
+
+
 def test_a_curve_is_kept_as_points_near_to_it_and_a_bow_of_a_line_is_not() -> None:
     x = np.linspace(0.0, 4.0, 150)
     hill, bow = (np.column_stack((x, high * np.sin(math.pi * x / 4))) for high in (1.0, 0.05))
 
-    curve = features_of(resample_stroke(hill)).curve
+    curve = curve_of(hill)
 
     assert curve is not None
     assert 6 <= len(curve) <= 30
     # m: 0.6 % of its size, and what smoothing takes
     assert curve[:, 1] == pytest.approx(np.sin(math.pi * curve[:, 0] / 4), abs=0.03)
-    assert features_of(resample_stroke(bow)).curve is None
+    assert curve_of(bow) is None
 
 
 def test_points_are_evenly_spaced_and_of_one_count() -> None:

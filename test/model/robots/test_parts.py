@@ -48,7 +48,7 @@ def test_parts_and_sensors_on_them_are_written_as_they_are_read():
     link = {**LINK, 'at': [0.1, 0.2, 0.3], 'mass': 2.0, 'towed': {'track': 0.3}}
     gear = {**JOINT, 'name': 'g', 'kind': 'gear', 'ratio': 2.0}
     sensors = [{'kind': 'imu', 'link': 'a'}]
-    said = {'links': [link], 'joints': [JOINT, SPRING, gear], 'sensors': sensors}
+    said = {'links': [link], 'joints': [SPRING, gear, JOINT], 'sensors': sensors}
     robot = Robot.from_mapping(said)
     assert Robot.from_mapping(robot.entry()) == robot
     assert robot.joint_above('a').name == 'j'

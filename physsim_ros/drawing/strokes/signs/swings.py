@@ -53,26 +53,23 @@ def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
 def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield hatching, spring and wall."""
     drawn, ends, weight = context.drawn, context.ends, form.weight
+    body = bodies_under.hatched_body(drawn.points, context.scene)
+    if body is not None and (ends is None or ends[1].body == WORLD):
+        lines = len(form.points) - 1
+        yield open_lines.hatching_meaning(body, lines, context, weight=weight)
+        return
     spring = 0.0
     if ends is not None:
         # A spring leaves the bodies that it joins.
         crossed = bodies_under.crossed_bodies(drawn.points, context.scene)
         share = bodies_under.share_on(crossed, ends)
         spring = _ON_ENDS.below(share) if ends[1].body != WORLD else 1.0 - share
-    body = bodies_under.hatched_body(drawn.points, context.scene)
-    if body is not None and (ends is None or ends[1].body == WORLD):
-        lines = len(form.points) - 1
-        yield open_lines.hatching_meaning(body, lines, context, weight=weight)
-        return
-    yield Meaning(
-        name='spring',
-        weight=weight * spring,
-        build=partial(outcomes.join, JointKind.SPRING, context),
-    )
+        build = partial(outcomes.join, JointKind.SPRING, ends, context)
+        yield Meaning(name='spring', weight=weight * spring, build=build)
     yield Meaning(
         name='wall',
         weight=weight * (1.0 - spring),
-        build=partial(outcomes.wall, context),
+        build=partial(outcomes.wall, form.points, context),
     )
 
 
@@ -93,11 +90,8 @@ def _scribble_meanings(form: Form, context: Context) -> Iterator[Meaning]:
         others = set(covered) - {end.body for end in ends}
         middle = 1.0 if others else bodies_under.middle_share_on(crossed, ends)
         spring = _MIDDLE_ON_ENDS.below(middle)
-    yield Meaning(
-        name='spring',
-        weight=form.weight * spring,
-        build=partial(outcomes.join, JointKind.SPRING, context),
-    )
+        build = partial(outcomes.join, JointKind.SPRING, ends, context)
+        yield Meaning(name='spring', weight=form.weight * spring, build=build)
     yield Meaning(
         name=DELETION,
         weight=form.weight * (1.0 - spring) * (1.0 if covered else MISPLACED),

@@ -9,17 +9,10 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 import math
 
-from physsim_ros.drawing.geometry import (
-    Crossing,
-    few_points,
-    intersections,
-    LEAST_SINE,
-    loop_roundness,
-    point_of,
-    straightness,
-)
+from physsim_ros.drawing.geometry import Crossing, intersections, LEAST_SINE, point_of
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import line
+from physsim_ros.drawing.strokes.resampled import few_points, loop_roundness, straightness
 from physsim_ros.drawing.strokes.stages import (
     Candidate,
     Context,

@@ -28,20 +28,7 @@ SENSORS: dict[str, type[Sensor]] = {
 
 
 # The check of a sensor.
-sensor_from = OfKind(
-    'sensor',
-    SENSORS,
-    {
-        'laser': ('lidar', 'scan', 'scanner', 'laser_scan'),
-        'range': ('sonar', 'ultrasonic', 'ultrasound', 'infrared', 'distance', 'proximity'),
-        'bumper': ('contact', 'touch', 'switch'),
-        'imu': ('gyro', 'gyroscope', 'accelerometer'),
-        'joint_states': ('encoder', 'encoders', 'wheel_encoders', 'wheels'),
-        'floor': ('line', 'line_sensor', 'camera', 'color', 'photodiodes'),
-        'landmarks': ('beacons', 'fiducials', 'markers', 'apriltag', 'aruco'),
-        'gps': ('gnss', 'navsat', 'fix'),
-    },
-)
+sensor_from = OfKind('sensor', SENSORS)
 
 __all__ = [
     'LEAST_INCREMENT',

@@ -20,6 +20,7 @@ from physsim_ros.model.robots.sensors.sensor import (
     LENGTH,
     Sensor,
 )
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
 
 # Greatest number of beams: ten times as many as real scanners have; some 3 ms a scan.
@@ -40,6 +41,7 @@ class Laser(Sensor):
     """
 
     KIND: ClassVar = 'laser'
+    KIND_WORDS: ClassVar = Words('lidar', 'scan', 'scanner', 'laser_scan')
 
     name: str = 'scan'
     beams: Annotated[int, Whole(1, MOST_BEAMS), 'number of beams'] = 360
@@ -95,6 +97,9 @@ class RangeFinder(Sensor):
     """
 
     KIND: ClassVar = 'range'
+    KIND_WORDS: ClassVar = Words(
+        'sonar', 'ultrasonic', 'ultrasound', 'infrared', 'distance', 'proximity'
+    )
 
     name: str = 'range'
     radiation: Annotated[str, OneOf(('infrared', 'sonar')), 'kind of waves that it emits'] = (
@@ -132,6 +137,7 @@ class Landmarks(Sensor):
     """
 
     KIND: ClassVar = 'landmarks'
+    KIND_WORDS: ClassVar = Words('beacons', 'fiducials', 'markers', 'apriltag', 'aruco')
 
     name: str = 'landmarks'
     bodies: Annotated[

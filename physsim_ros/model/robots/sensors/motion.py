@@ -13,6 +13,7 @@ from typing import Annotated, ClassVar
 
 from physsim_ros.model.checks import FASTEST, OneOf, Row, Whole, Within
 from physsim_ros.model.robots.sensors.sensor import FULL_TURN, LENGTH, Sensor
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
 
 # Greatest number of photodiodes in a row.
@@ -24,6 +25,7 @@ class Imu(Sensor):
     """An inertial measurement unit: turn rate, and proper acceleration at `at`."""
 
     KIND: ClassVar = 'imu'
+    KIND_WORDS: ClassVar = Words('gyro', 'gyroscope', 'accelerometer')
 
     name: str = 'imu'
     rate: float = 100.0
@@ -44,6 +46,7 @@ class WheelEncoders(Sensor):
     """Encoders: of all wheels of the drive, and of all joints; `at` and `link` have no effect."""
 
     KIND: ClassVar = 'joint_states'
+    KIND_WORDS: ClassVar = Words('encoder', 'encoders', 'wheel_encoders', 'wheels')
 
     name: str = 'joint_states'
     rate: float = 30.0
@@ -54,6 +57,7 @@ class Gps(Sensor):
     """A receiver of satellite navigation, on WGS 84; without a `datum` it has no fix."""
 
     KIND: ClassVar = 'gps'
+    KIND_WORDS: ClassVar = Words('gnss', 'navsat', 'fix')
 
     name: str = 'fix'
     rate: float = 5.0
@@ -71,6 +75,7 @@ class Bumper(Sensor):
     """A bumper: whether another body or a wall touches a sector of its body, seen from `at`."""
 
     KIND: ClassVar = 'bumper'
+    KIND_WORDS: ClassVar = Words('contact', 'touch', 'switch')
 
     name: str = 'bumper'
     rate: float = 30.0
@@ -88,6 +93,7 @@ class FloorEye(Sensor):
     """
 
     KIND: ClassVar = 'floor'
+    KIND_WORDS: ClassVar = Words('line', 'line_sensor', 'camera', 'color', 'photodiodes')
 
     name: str = 'floor'
     rate: float = 30.0

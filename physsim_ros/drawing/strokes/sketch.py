@@ -1,0 +1,99 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+A sketch: the figures that a person drew last, and what a stroke, or another guess, makes of them.
+
+Law: a sketch is a value. It changes nothing, and refuses before it returns another one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.choice import reading_of
+from physsim_ros.drawing.strokes.figure import Figure
+from physsim_ros.drawing.strokes.grouping import grouped, MOST_STROKES
+from physsim_ros.drawing.strokes.marks import marked_solid
+from physsim_ros.drawing.strokes.stages import Reading
+from physsim_ros.drawing.strokes.waiting import readings_over
+from physsim_ros.drawing.strokes.waiting_joints import requests_with_waiting_joints
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Sketch:
+    """
+    The figures that a person drew last.
+
+    :param figures: at most `MOST_STROKES`, the earliest first
+    :param mark: a line within the last one, which has no effect
+    """
+
+    figures: tuple[Figure, ...] = ()
+    mark: Figure | None = None
+
+    def is_marked_by(self, stroke: Figure, settings: DrawingSettings) -> bool:
+        """Return whether a new stroke is a mark within the last figure, the first one on it."""
+        return self.mark is None and marked_solid(self.figures, stroke, settings)
+
+    def with_mark(self, stroke: Figure) -> Sketch:
+        """Return the sketch with a mark: the solid under it may still get another reading."""
+        return replace(self, mark=stroke)
+
+    def with_stroke(
+        self, stroke: Figure, settings: DrawingSettings, clock: Callable[[], float]
+    ) -> Sketch:
+        """
+        Return the sketch with a stroke, by itself or as one with the strokes before it.
+
+        :param clock: returns the CPU time of the thread [s]
+        """
+        # A second line may make an x of a mark.
+        mark = () if self.mark is None else (replace(self.mark, scene=stroke.scene),)
+        figures = grouped((*self.figures, *mark), stroke, settings, clock)
+        return Sketch(figures=figures[-MOST_STROKES:])
+
+    def built(self, number: int, settings: DrawingSettings) -> tuple[Sketch, Reading]:
+        """
+        Return the sketch with a guess of its last figure built, and the reading by that.
+
+        Earlier figures are read again over its new body.
+
+        :param number: of the guess
+        :raises Refusal: the world cannot have its outcome
+        """
+        *earlier, figure = self.figures
+        reading = reading_of(figure.guesses, number, amends=figure.gestures)
+        requests = requests_with_waiting_joints(reading.requests, figure.scene, settings.snap)
+        figure = replace(figure, chosen=number, requests=requests)
+        message, also, mark = reading.message, [], self.mark
+        for (stroke, *_), over in readings_over(figure, earlier, settings):
+            requests += over.requests
+            message += f'; {over.message}'
+            also.append(over.meaning)
+            if over.meaning == 'mark':
+                mark = replace(stroke, requests=(), gestures=())
+            elif over.meaning == 'velocity':
+                figure = figure.with_gravity()
+                reading = replace(reading, guesses=figure.guesses)
+        reading = replace(reading, requests=requests, message=message, also=tuple(also))
+        figures = *earlier, replace(figure, requests=requests)
+        return Sketch(figures=figures, mark=mark), reading
+
+    def other_guesses(self, meaning: str = '') -> list[int]:
+        """
+        Return the numbers of the other guesses at the last figure, the next likely one first.
+
+        :param meaning: of the guesses; '' is any
+        """
+        if not self.figures:
+            return []
+        last = self.figures[-1]
+        return [each for each in last.other_guesses if meaning in {'', last.guesses[each].meaning}]
+
+    def submitted(self, gesture: int) -> Sketch:
+        """Return the sketch with the number of the gesture that its last figure became."""
+        *earlier, last = self.figures
+        return replace(self, figures=(*earlier, replace(last, gestures=(gesture,))))

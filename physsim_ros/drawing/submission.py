@@ -1,0 +1,52 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The submission of a reading: its answer, and its requests as one gesture."""
+
+from __future__ import annotations
+
+from physsim_ros.drawing.session import DrawingSession
+from physsim_ros.drawing.strokes.stages import Reading
+from physsim_ros.model.answer import Answer, request_count
+from physsim_ros.model.errors import values_of
+from physsim_ros.simulation.entries import Amend, Origin
+from physsim_ros.simulation.simulation import Simulation
+
+
+def submit_reading(
+    simulation: Simulation,
+    session: DrawingSession,
+    reading: Reading,
+    origin: Origin,
+) -> None:
+    """
+    Answer a stroke by its reading, and submit its requests as one gesture.
+
+    The requests of a reading that amends earlier gestures replace those.
+
+    :param session: whose last reading it is
+    :param origin: the message of the stroke
+    """
+    queue = simulation.requests
+    queue.tell(_answer(reading, origin))
+    if reading.amends:
+        amend = Amend(reading.amends, reading.requests)
+        queue.submit(amend, origin, joined=True)
+        session.note_gesture(reading.amends[0])
+        return
+    for number, request in enumerate(reading.requests):
+        queue.submit(request, origin, joined=number > 0)
+    if reading.requests:
+        session.note_gesture(queue.gesture)
+
+
+def _answer(reading: Reading, origin: Origin) -> Answer:
+    """Return the answer that reports a reading; the answers to its requests follow."""
+    values = (*values_of(reading.confidences), request_count(len(reading.requests)))
+    return Answer(
+        topic=origin.topic,
+        subject=reading.subject,
+        message=reading.message,
+        values=values,
+        asker=origin.asker,
+    )
