@@ -111,7 +111,7 @@ class Client:
 
     def catch_up(self) -> None:
         """Have the world carry out what it was asked, and hear what it tells of that."""
-        self.physsim.node.apply_requests()
+        self.physsim.node.loop.apply_requests()
         self.physsim.settle()
 
     def call(self, service: str) -> Any:

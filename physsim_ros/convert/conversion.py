@@ -18,7 +18,7 @@ from physsim_ros.files import yaml_line
 from physsim_ros.model.checks import Within
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Circle, Convex
-from physsim_ros.model.transform import local_to_world, Point, Pose
+from physsim_ros.model.transform import Point, Pose
 
 # Greatest number of bodies: that of a world where nothing else is asked for.
 MOST_BODIES = WorldSettings().max_bodies
@@ -159,12 +159,6 @@ def area_of(piece: Piece) -> float:
             following = (*points[1:], points[0])
             pairs = zip(points, following, strict=True)
             return abs(sum(x * v - u * y for (x, y), (u, v) in pairs)) / 2
-
-
-def composed(pose: Pose, other: Pose) -> Pose:
-    """Return a pose in the frame of another one in the world."""
-    x, y = local_to_world(other[:2], pose)
-    return x, y, pose[2] + other[2]
 
 
 def clamped(value: float, check: Within) -> float:

@@ -16,7 +16,6 @@ from pathlib import Path
 from physsim_ros.convert.content import BadContent, Content, load, numbers
 from physsim_ros.convert.conversion import (
     clamped,
-    composed,
     Conversion,
     Line,
     line_shape,
@@ -26,7 +25,7 @@ from physsim_ros.convert.conversion import (
 )
 from physsim_ros.model.checks import DENSITY, ELASTICITY, FRICTION
 from physsim_ros.model.shapes import Circle, Convex
-from physsim_ros.model.transform import local_to_world, Pose
+from physsim_ros.model.transform import composed, local_to_world, Pose
 
 # Names and ranges here of properties of a footprint.
 _MATERIAL = {

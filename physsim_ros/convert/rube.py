@@ -17,7 +17,6 @@ from physsim_ros.convert.content import BadContent, Content
 from physsim_ros.convert.conversion import (
     area_of,
     clamped,
-    composed,
     Conversion,
     Line,
     Piece,
@@ -25,7 +24,7 @@ from physsim_ros.convert.conversion import (
 )
 from physsim_ros.model.checks import ELASTICITY, FRICTION
 from physsim_ros.model.shapes import Circle, Convex
-from physsim_ros.model.transform import local_to_world, Point, Pose, rotated
+from physsim_ros.model.transform import composed, local_to_world, Point, Pose, rotated
 
 _STATIC, _KINEMATIC = 0, 1
 _BODY_KEYS = (

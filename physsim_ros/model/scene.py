@@ -336,6 +336,10 @@ class Scene:
                     owners[self.row_of[name]] = row
         return owners
 
+    def robot_number(self, row: int) -> int:
+        """Return the number of a robot among those of the scene, by the row of its body."""
+        return int(np.searchsorted(self.robot_rows, row))
+
     @cached_property
     def robot_rows(self) -> Ints:
         """(r,) int64: rows of the robots, in spawn order."""

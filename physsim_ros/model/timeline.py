@@ -45,6 +45,15 @@ def stamp_of(step: int, physics_rate: float) -> int:
     return round(step * 1e9 / physics_rate)
 
 
+def frames_in(seconds: float, publish_rate: float) -> int:
+    """
+    Return the number of publish periods in a time, at least 1.
+
+    :param publish_rate: frames a second at speed 1 [Hz]
+    """
+    return max(1, round(seconds * publish_rate))
+
+
 class CourseSpan(NamedTuple):
     """
     A course of events that was left, and can be returned to.

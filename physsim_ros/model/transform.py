@@ -43,6 +43,16 @@ def world_to_local(point: Point, pose: Pose) -> Point:
     return rotated((point[0] - pose[0], point[1] - pose[1]), -pose[2])
 
 
+def composed(pose: Pose, inner: Pose) -> Pose:
+    """Return a pose in the frame of another one as a pose of the world."""
+    return *local_to_world(inner[:2], pose), pose[2] + inner[2]
+
+
+def seen_from(pose: Pose, other: Pose) -> Pose:
+    """Return another pose of the world as a pose in the frame of a pose."""
+    return *world_to_local(other[:2], pose), other[2] - pose[2]
+
+
 def rotated_each(vectors: Floats, yaw: Floats | float) -> Floats:
     """
     Return vectors, each rotated counter-clockwise by its own yaw.

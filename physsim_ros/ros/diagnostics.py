@@ -28,7 +28,7 @@ from rclpy.time import Time
 _PERIOD = 1_000_000_000
 # Wait of messages above which the diagnostics warn [s].
 LONG_DELAY = 1.0
-# CPU time of a message above which they do [s]: six frames at 60 Hz.
+# CPU time of a message above which they do [s]: a pause that a person sees.
 LONG_MESSAGE = 0.1
 # Real-time factor over speed, below which late frames are an error and not a warning [1].
 FAR_BEHIND = 0.5
@@ -117,21 +117,43 @@ class Diagnostics:
 
         :param new: counts of that second, by name
         """
+        statistics, speed = self._outputs.statistics, self._simulation.speed
+        factor = statistics.factor
+        concerns = list(self._concerns(new, factor))
+        is_far_behind = new['late frames'] > 0 and abs(factor) < FAR_BEHIND * abs(speed)
+        level = DiagnosticStatus.WARN if concerns else DiagnosticStatus.OK
+        done = run_state(speed) if speed <= 0 else f'{statistics.frames} frames'
+        values = self._values(snapshot, new)
+        status = DiagnosticStatus(
+            level=DiagnosticStatus.ERROR if is_far_behind else level,
+            name='physsim: world',
+            message='; '.join(concerns) or done,
+            hardware_id=self._name,
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = Time(nanoseconds=snapshot.stamp).to_msg()
+        return array
+
+    def _values(self, snapshot: Snapshot, new: Counter[str]) -> dict[str, object]:
+        """
+        Return the values of the message, by their keys.
+
+        :param new: counts of the last second, by name
+        """
         outputs, simulation = self._outputs, self._simulation
-        statistics, events = outputs.statistics, outputs.topics.events
-        late = new['late frames']
+        statistics = outputs.statistics
         name, took = self._longest
         used, budget = simulation.past.budget.in_megabytes
         px, py = snapshot.momentum
-        frames, factor = statistics.frames, statistics.factor
-        values = {
+        return {
             'bodies': len(snapshot.scene.bodies),
             'simulation time [s]': f'{snapshot.stamp * 1e-9:.3f}',
             'speed': f'{simulation.speed:zg}',
-            'real-time factor': f'{factor:z.3f}',
-            'frames': frames,
+            'real-time factor': f'{statistics.factor:z.3f}',
+            'frames': statistics.frames,
             'late frames': self._counted['late frames'],
-            'late frames in this second': late,
+            'late frames in this second': new['late frames'],
             'step cost [ms]': f'{statistics.step_cost * 1e3:.3f}',
             'frame cost [ms]': f'{statistics.frame_cost * 1e3:.3f}',
             'wait of requests [s]': f'{self.message_delay:.3f}',
@@ -139,7 +161,7 @@ class Diagnostics:
             'longest message [ms]': f'{took * 1e3:.1f} {name}'.rstrip(),
             'undecodable messages': self._counted['undecodable messages'],
             'unexpected errors': self._counted['unexpected errors'],
-            'answers that wait': events.waiting,
+            'answers that wait': outputs.topics.events.waiting,
             'memory of the past [MB]': f'{used:.1f} of {budget:g}',
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
             'potential energy [J]': f'{snapshot.potential_energy:.6g}',
@@ -147,20 +169,6 @@ class Diagnostics:
             'momentum [kg m/s]': f'{px:.6g}, {py:.6g}',
             'viewer': outputs.viewer.state,
         }
-        concerns, speed = list(self._concerns(new, factor)), simulation.speed
-        is_far_behind = late > 0 and abs(factor) < FAR_BEHIND * abs(speed)
-        level = DiagnosticStatus.WARN if concerns else DiagnosticStatus.OK
-        status = DiagnosticStatus(
-            level=DiagnosticStatus.ERROR if is_far_behind else level,
-            name='physsim: world',
-            message='; '.join(concerns)
-            or (run_state(speed) if speed <= 0 else f'{frames} frames'),
-            hardware_id=self._name,
-            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
-        )
-        array = DiagnosticArray(status=[status])
-        array.header.stamp = Time(nanoseconds=snapshot.stamp).to_msg()
-        return array
 
     def _concerns(self, new: Counter[str], factor: float) -> Iterator[str]:
         """

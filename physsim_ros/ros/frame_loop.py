@@ -99,22 +99,8 @@ class FrameLoop:
         if not self._fleet.update_topics(tick_time.is_overdue):
             self._simulation.playback.clock.restart()
             return
-        frames: tuple[Frame, ...] = ()
-        step = self._simulation.step
-        request_time = _RequestTime(self._rest_ns)
-        # In a rewind commands are ignored, and no controller is awaited.
-        if self._simulation.speed < 0.0 or not self._fleet.waits():
-            frames = self._simulation.advance(
-                now_ns,
-                is_overdue=tick_time.is_overdue,
-                is_spent=request_time.is_spent,
-                # Controllers answer whole frames.
-                ends_frame=lambda: self._fleet.in_lockstep or tick_time.is_overdue(),
-                by_steps=self._was_overdue and not self._fleet.in_lockstep,
-            )
-        elif self._simulation.is_changed:
-            # By a service, as a reset, after which a robot may be gone, or its scan.
-            frames = (self._simulation.frame,)
+        step, request_time = self._simulation.step, _RequestTime(self._rest_ns)
+        frames = self._advance(now_ns, tick_time, request_time)
         stepped = time.perf_counter_ns()
         for frame in frames:
             self._outputs.show(frame)
@@ -135,6 +121,24 @@ class FrameLoop:
             step_ns=stepped - request_time.ended,
             frame_ns=time.perf_counter_ns() - began,
         )
+
+    def _advance(
+        self, now_ns: int, tick_time: _TickTime, request_time: _RequestTime
+    ) -> tuple[Frame, ...]:
+        """Advance the world to a steady time [ns], unless controllers are awaited."""
+        simulation, lockstep = self._simulation, self._fleet.lockstep
+        # In a rewind commands are ignored, and no controller is awaited.
+        if simulation.speed < 0.0 or not lockstep.waits():
+            return simulation.advance(
+                now_ns,
+                is_overdue=tick_time.is_overdue,
+                is_spent=request_time.is_spent,
+                # Controllers answer whole frames.
+                ends_frame=lambda: lockstep.is_on or tick_time.is_overdue(),
+                by_steps=self._was_overdue and not lockstep.is_on,
+            )
+        # By a service, as a reset, after which a robot may be gone, or its scan.
+        return (simulation.frame,) if simulation.is_changed else ()
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""

@@ -42,8 +42,8 @@ class LiveParameters:
     :ivar name: of the output
     :ivar values: of the parameters, by name
     :ivar effects: called when a parameter has been set, by its name
-    :ivar prepare: called with the value that a parameter is to have, by its name, if no other
-        check refuses it; raises a Refusal where the value cannot have its effect
+    :ivar prepare: called in this order with the value that a parameter is to have, by its name, if
+        no other check refuses it; raises a Refusal where the value cannot have its effect
     """
 
     name = 'parameters'

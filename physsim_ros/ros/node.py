@@ -17,7 +17,6 @@ import time
 from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
-from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Frame
@@ -255,19 +254,3 @@ class PhysSimNode(NodeWithoutQosEvents):
         if self.loop.started:
             self.diagnostics.publish_due(now_ns)
         self.loop.tick(now_ns)
-
-    def advance_frame(self) -> None:
-        """Advance the world by one publish period, at any time, and show the frame."""
-        self.loop.advance_frame()
-
-    def pass_frames(self, count: int) -> int:
-        """
-        Advance the world by publish periods if nobody reads their frames.
-
-        :return: count of the periods; 0 where somebody reads
-        """
-        return self.loop.pass_frames(count)
-
-    def apply_requests(self) -> tuple[Answer, ...]:
-        """Apply the waiting requests without advancing time; show and return the answers."""
-        return self.loop.apply_requests()

@@ -19,14 +19,7 @@ from typing import Any
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
-
-# Reliable, KEEP_ALL: a burst of thousands of messages loses none.
-LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
-
-# Of services, whose calls wait to be read: 50 clients with 20 calls each.
-CALLS = QoSProfile(depth=1000)
 
 
 class NodeWithoutQosEvents(Node):

@@ -15,6 +15,7 @@ from physsim_ros.sensing.gps import Fix, fix_of, read_gps
 from physsim_ros.sensing.motion import (
     InertialReading,
     joint_motion,
+    odometry_covariances,
     OdometryReading,
     read_imu,
     read_odometry,
@@ -39,6 +40,7 @@ __all__ = [
     'is_bumped',
     'is_due',
     'joint_motion',
+    'odometry_covariances',
     'read_battery',
     'read_bumper',
     'read_floor',

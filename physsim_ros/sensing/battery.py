@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
 from physsim_ros.model.robots import Battery
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.snapshot import Snapshot
@@ -42,7 +41,7 @@ def read_battery(snapshot: Snapshot, row: int) -> BatteryReading | None:
     if robot is None or robot.battery is None:
         return None
     battery = robot.battery
-    state = snapshot.robots[int(np.searchsorted(snapshot.scene.robot_rows, row))]
+    state = snapshot.robots[snapshot.scene.robot_number(row)]
     level = battery.level - float(state['drawn']) / (battery.capacity * _HOUR)
     is_docked = _is_docked(snapshot, row, battery)
     current = battery.charging if is_docked else 0.0

@@ -13,6 +13,7 @@ included, in the axes that the sensor had in the middle of that time.
 from __future__ import annotations
 
 from collections.abc import Iterator
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.robots import part_name, Robot
 from physsim_ros.model.robots.sensors import Imu
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.states import Covariance
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, rotated, Twist
 from physsim_ros.sensing.mounting import mounted_row, placed
 from physsim_ros.sensing.sampling import noise_of
@@ -46,10 +48,33 @@ def read_odometry(snapshot: Snapshot, row: int) -> OdometryReading:
     :param snapshot: of the world
     :param row: of the robot's body in the scene
     """
-    place = int(np.searchsorted(snapshot.scene.robot_rows, row))
+    number = snapshot.scene.robot_number(row)
     states = snapshot.robots
-    (x, y, yaw), twist = states['odometry'][place].tolist(), states['wheels'][place].tolist()
+    (x, y, yaw), twist = states['odometry'][number].tolist(), states['wheels'][number].tolist()
     return OdometryReading((x, y, yaw), tuple(twist))
+
+
+def odometry_covariances(snapshot: Snapshot, row: int) -> tuple[Covariance, Covariance]:
+    """
+    Return the covariances of odometry: of the pose where it began, of the twist in its own axes.
+
+    Drifts are random walks along the path. That of the twist is their mean rate from one message
+    to the next: of the velocity along it, none across.
+
+    :param snapshot: of the world
+    :param row: of the robot's body in the scene
+    """
+    robot = snapshot.scene.bodies[row].robot
+    assert robot is not None  # noqa: S101 - by the contract above
+    states, number = snapshot.robots, snapshot.scene.robot_number(row)
+    ahead, aside, turn = states['wheels'][number].tolist()
+    way, heading = (deviation**2 for deviation in robot.odometry.slip)
+    speed, rate = math.hypot(ahead, aside), robot.odometry.rate
+    share = way * rate / speed if speed > 0.0 else 0.0
+    along = ahead * ahead * share, ahead * aside * share, aside * aside * share
+    of_turn = heading * (speed + abs(turn)) * rate
+    of_pose = tuple(states['covariance'][number].tolist())
+    return of_pose, (*along, 0.0, 0.0, of_turn)
 
 
 def true_motion(snapshot: Snapshot, row: int) -> OdometryReading:
@@ -103,15 +128,15 @@ def read_wheels(snapshot: Snapshot, row: int) -> WheelReading:
 def _read_wheels(snapshot: Snapshot, row: int, robot: Robot) -> Iterator[_JointState]:
     if robot.drive is None:
         return
-    place = int(np.searchsorted(snapshot.scene.robot_rows, row))
+    number = snapshot.scene.robot_number(row)
     # The speed of each rim is the sum of these times the velocity of the drive.
     wheels = robot.drive.wheels
     rims = np.array([*wheels.values()], float) / robot.drive.wheel_radius
     states = snapshot.robots
     yield from zip(
         wheels,
-        (rims * states['travel'][place]).sum(axis=1).tolist(),
-        (rims * states['wheels'][place]).sum(axis=1).tolist(),
+        (rims * states['travel'][number]).sum(axis=1).tolist(),
+        (rims * states['wheels'][number]).sum(axis=1).tolist(),
         strict=True,
     )
 

@@ -17,7 +17,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PointStamped
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.qos_safe_node import LOSSLESS
+from physsim_ros.ros.topics import LOSSLESS
 from physsim_ros.testing.values import Refused
 from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle
@@ -166,13 +166,13 @@ class RequestClient:
         """
         # Answers to earlier requests of other nodes come first, and are skipped.
         self._executor.settle()
-        earlier = sum(answer.topic == f'~/{topic}' for answer in self._world.apply_requests())
+        earlier = sum(answer.topic == f'~/{topic}' for answer in self._world.loop.apply_requests())
         count = earlier + answers
         self._topic, self._received = f'~/{topic}', []
         self._publishers[topic].publish(message)
 
         def answered() -> bool:
-            self._world.apply_requests()
+            self._world.loop.apply_requests()
             own = self._received[earlier:count]
             # An array that is refused whole has one answer, which names no body.
             refused = any(each.level != b'\x00' and not each.hardware_id for each in own)

@@ -82,8 +82,7 @@ class Robot:
         :raises UnknownName: the robot is not there
         """
         topics, view, row = self._now()
-        rows = view.snapshot.scene.robot_rows.tolist()
-        return topics.odometry(view, row, rows.index(row))
+        return topics.odometry(view, row)
 
     def truth(self) -> Odometry:
         """

@@ -86,7 +86,7 @@ class PhysSim(ChangedWorld):
                 refused.add_note(f'A test also looks for {looked}.')
             raise
         self.node.simulation.stop_driving()
-        self.node.apply_requests()
+        self.node.loop.apply_requests()
         self.settle()
 
     def add(self, node: Node) -> None:
@@ -112,16 +112,16 @@ class PhysSim(ChangedWorld):
             else:
                 self._match_publishers()
             # The test itself reads the last frame.
-            made = self.node.pass_frames(min(frames - 1, self._frames_to_look))
+            made = self.node.loop.pass_frames(min(frames - 1, self._frames_to_look))
             if not made:
-                self.node.advance_frame()
+                self.node.loop.advance_frame()
                 made = 1
             frames -= made
             self._frames_to_look -= made
             self.settle()
-            if self.node.fleet.waits():
+            if self.node.fleet.lockstep.waits():
                 self._executor.spin_until(
-                    lambda: not self.node.fleet.waits(), 'no answer to a scan', math.inf
+                    lambda: not self.node.fleet.lockstep.waits(), 'no answer to a scan', math.inf
                 )
 
     def run(
@@ -185,7 +185,7 @@ class PhysSim(ChangedWorld):
 
         def is_true() -> object:
             self.node.fleet.match_publishers()
-            self.node.apply_requests()
+            self.node.loop.apply_requests()
             return predicate()
 
         try:
@@ -210,7 +210,7 @@ class PhysSim(ChangedWorld):
         self.node.simulation.stop_driving()
         with refusals_as_refused():
             self.node.simulation.seek(round(seconds * 1e9))
-        self.node.apply_requests()
+        self.node.loop.apply_requests()
         self.settle()
 
     def rewind(self, seconds: float) -> None:
@@ -268,10 +268,10 @@ class PhysSim(ChangedWorld):
                 with suppress(Refusal):
                     commands.take()
         simulation.seek(round(status.oldest * 1e9))
-        self.node.apply_requests()
+        self.node.loop.apply_requests()
         self.node.outputs.viewer.record(path)
         for _ in range(self._frames(status.newest - status.oldest)):
-            self.node.advance_frame()
+            self.node.loop.advance_frame()
 
     def __enter__(self) -> Self:
         return self

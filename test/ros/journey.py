@@ -64,7 +64,7 @@ class Journey:
             self._now += PERIOD
             self.physsim.node.tick(round(self._now))
             # All that is shown goes out before more wall time goes by.
-            self.physsim.node.apply_requests()
+            self.physsim.node.loop.apply_requests()
         return self.shown()
 
     def shown(self) -> list[tuple[int, str]]:

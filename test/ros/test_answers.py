@@ -128,5 +128,5 @@ def test_an_answer_goes_out_before_the_frame_that_shows_it(bench: Bench, physsim
     bench.slow.taken = False
     bench.report(EVENTS_DEPTH + 1)
     bench.slow.taken = True
-    physsim.node.advance_frame()
+    physsim.node.loop.advance_frame()
     assert len(bench.slow.sent) == EVENTS_DEPTH + 1

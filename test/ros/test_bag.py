@@ -129,7 +129,7 @@ def test_spawns_that_are_replayed_from_a_bag_make_the_same_world(
     answered = len(client.events) + 2
     for message in messages(bag, '/physsim/spawn'):
         publisher.publish(message)
-    client.spin_until(lambda: physsim.node.apply_requests() or len(client.events) == answered)
+    client.spin_until(lambda: physsim.node.loop.apply_requests() or len(client.events) == answered)
     physsim.run(1.0)
 
     assert physsim.digest() == before

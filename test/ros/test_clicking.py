@@ -154,5 +154,5 @@ def test_a_half_drawn_shape_is_shown_until_it_is_done_or_dropped(hand: Hand) -> 
     assert shown(pictures) == []
     hand.click(0, 0)
     hand.take('circle')
-    hand.client.physsim.node.apply_requests()
+    hand.client.physsim.node.loop.apply_requests()
     hand.client.spin_until(lambda: shown(pictures) == [])

@@ -89,7 +89,7 @@ def test_a_second_is_told_with_its_frames_and_the_energy_of_the_world(
                 properties=Properties(velocity=(3.0, -4.0), spin=2.0),
             )
         )
-    node.apply_requests()
+    node.loop.apply_requests()
     run(node.outputs.statistics, 60, pace=0.9)
     array = tell()
     assert stamp_of(array) == node.frame.snapshot.stamp > 0

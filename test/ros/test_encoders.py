@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
@@ -29,7 +30,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.spelling import canonical
-from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder, MOST_NEW
+from physsim_ros.ros.encoders.markers import DELETION, MarkersEncoder, MOST_NEW
 from physsim_ros.ros.encoders.streams import (
     ClockEncoder,
     ContactsEncoder,
@@ -49,6 +50,8 @@ import yaml
 
 from ..building import join, PLAIN_BODY, spawn
 
+# Frames a second [Hz].
+RATE = 60.0
 # Every shape, and the type, scale and points of the marker that spawns it.
 CORNERS = ((0.0, 0.0), (2.0, 0.0), (0.5, 0.5), (0.0, 2.0))
 SHAPES = (
@@ -222,7 +225,7 @@ def drawn(markers, action=Marker.ADD):
 ENCODERS = (
     (PosesEncoder, pose_array),
     (StatesEncoder, body_states),
-    (MarkersEncoder, marker_array),
+    (partial(MarkersEncoder, publish_rate=RATE), marker_array),
 )
 
 
@@ -292,7 +295,7 @@ def test_a_contact_turns_the_x_axis_onto_its_normal():
 def test_a_marker_spawns_the_body_that_it_draws(shape):
     body = replace(PLAIN, name='a/b/-7', shape=shape, color=(0.25, 0.5, 1.0, 0.75))
     snapshot = snapshot_of([body])
-    (marker,) = picture(MarkersEncoder('world'), snapshot)
+    (marker,) = picture(MarkersEncoder('world', RATE), snapshot)
     spawn = body_request(marker, frame_id='world')
     assert (spawn.name, spawn.frame, spawn.lifetime) == ('a/b/-7', '', 0)
     assert (spawn.shape, spawn.color) == (body.shape, body.color)
@@ -305,7 +308,7 @@ def test_a_marker_spawns_the_body_that_it_draws(shape):
 def test_the_marker_of_a_chain_whose_ends_meet_is_no_polygon():
     shape = Chain(points=((0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (0.0, 0.0)), thickness=0.1)
     body = replace(PLAIN, name='ring/0', shape=shape)
-    (marker,) = picture(MarkersEncoder('world'), snapshot_of([body]))
+    (marker,) = picture(MarkersEncoder('world', RATE), snapshot_of([body]))
     again = body_request(marker, frame_id='world').shape
     assert isinstance(again, Chain)
     assert np.array(again.points) == pytest.approx(np.array(shape.points), abs=1e-300)
@@ -344,7 +347,7 @@ def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
     if role:
         body = replace(body, **{role: True})
         expected[role] = True
-    marker, *_ = picture(MarkersEncoder('world'), snapshot_of([body]))
+    marker, *_ = picture(MarkersEncoder('world', RATE), snapshot_of([body]))
     assert body_request(marker, frame_id='world').properties.explicit() == expected
     # PyYAML by itself reads YAML 1.1, in which 1e-09 is a string.
     assert yaml.safe_load(marker.text) == expected
@@ -361,7 +364,7 @@ ACTOR = {'kind': 'path', 'points': [[0, 0], [1, 2]], 'speed': 1e5, 'start': {'ga
 def test_a_body_in_a_role_is_made_again_by_its_marker(said):
     properties = Properties(**said)
     body = replace(PLAIN, **properties.explicit())
-    marker, *_ = picture(MarkersEncoder('world'), snapshot_of([body]))
+    marker, *_ = picture(MarkersEncoder('world', RATE), snapshot_of([body]))
     again = body_request(marker, frame_id='world').properties
     assert again == replace(
         properties, density=PLAIN.density, friction=PLAIN.friction, elasticity=PLAIN.elasticity
@@ -383,7 +386,7 @@ def test_a_body_in_a_role_is_made_again_by_its_marker(said):
 def test_an_anchored_body_carries_a_cross_at_its_centre_of_mass(shape, size, color):
     body = replace(PLAIN, name='walls/7', shape=shape, color=color, anchored=True)
     snapshot = snapshot_of([PLAIN, body])
-    _, marker, symbol = picture(MarkersEncoder('world'), snapshot)
+    _, marker, symbol = picture(MarkersEncoder('world', RATE), snapshot)
     assert marker.text == '{density: 1.0, friction: 0.5, elasticity: 0.25, anchored: true}'
     assert (symbol.ns, symbol.id, symbol.type) == ('anchor:walls', 7, Marker.LINE_LIST)
     assert (symbol.pose, symbol.header) == (poses_of(snapshot)[1], header(snapshot))
@@ -400,7 +403,7 @@ def test_an_anchored_body_carries_a_cross_at_its_centre_of_mass(shape, size, col
 
 
 def test_the_walls_are_drawn_where_the_bounds_are():
-    encoder = MarkersEncoder('world')
+    encoder = MarkersEncoder('world', RATE)
     _, walls = picture(encoder, snapshot_of([PLAIN], bounds=(-1, 0, 4, 3)))
     assert (walls.ns, walls.id, walls.type) == ('physsim:bounds', 0, Marker.LINE_STRIP)
     assert walls.pose == Pose()
@@ -412,7 +415,7 @@ def test_the_walls_are_drawn_where_the_bounds_are():
 def test_of_a_scene_of_thousands_some_are_serialised_for_each_frame():
     count = 2 * MOST_NEW
     bodies = [replace(PLAIN, name=f'body/{number}') for number in range(count)]
-    encoder = MarkersEncoder('world')
+    encoder = MarkersEncoder('world', RATE)
     assert encoder.encode(frame_of(snapshot_of(bodies))) is None
     # Those of the scene before hold in another one.
     assert len(picture(encoder, snapshot_of(bodies))) == count
@@ -430,7 +433,7 @@ def test_of_a_scene_of_thousands_some_are_serialised_for_each_frame():
 
 def test_of_thousands_that_are_gone_some_are_serialised_for_each_frame():
     bodies = [replace(PLAIN, name=f'body/{number}') for number in range(2 * MOST_NEW)]
-    encoder = MarkersEncoder('world')
+    encoder = MarkersEncoder('world', RATE)
     assert encoder.encode(frame_of(snapshot_of(bodies))) is None
     picture(encoder, snapshot_of(bodies))
     assert encoder.encode(frame_of(snapshot_of([]))) is None
@@ -439,7 +442,7 @@ def test_of_thousands_that_are_gone_some_are_serialised_for_each_frame():
 
 
 def test_scenes_that_change_in_each_frame_are_drawn_as_each_was_begun():
-    encoder = MarkersEncoder('world')
+    encoder = MarkersEncoder('world', RATE)
     scenes = [
         snapshot_of(
             [replace(PLAIN, name=f'turn{turn}/{number}') for number in range(MOST_NEW + 1)]
@@ -456,16 +459,18 @@ def test_scenes_that_change_in_each_frame_are_drawn_as_each_was_begun():
 
 
 def test_a_joint_that_is_changed_is_drawn_as_if_it_were_new():
-    world, encoder = World(), MarkersEncoder('world')
+    world, encoder = World(), MarkersEncoder('world', RATE)
     spawn(world, 'a/0', Disc(radius=0.35))
     for kind in ('rod', 'spring'):
         join(world, kind, [(0.0, 0.0), (3.0, 0.0)], a='a/0', b='world')
         markers = picture(encoder, world.snapshot())
-    assert markers == picture(MarkersEncoder('world'), world.snapshot())
+    assert markers == picture(MarkersEncoder('world', RATE), world.snapshot())
 
 
-def test_what_has_gone_is_deleted_in_sixty_messages_unless_it_comes_back():
-    encoder, bodies = MarkersEncoder('world'), bodies_named('a', 'b', 'c')
+@pytest.mark.parametrize('rate', [60.0, 10.0])
+def test_what_has_gone_is_deleted_for_a_second_unless_it_comes_back(rate):
+    encoder, bodies = MarkersEncoder('world', rate), bodies_named('a', 'b', 'c')
+    repeats = round(DELETION * rate)
     encoder.encode(frame_of(snapshot_of([replace(PLAIN, anchored=True), *bodies])))
     # A released body loses its cross alone.
     markers = picture(encoder, snapshot_of([PLAIN, *bodies]))
@@ -473,8 +478,8 @@ def test_what_has_gone_is_deleted_in_sixty_messages_unless_it_comes_back():
     assert drawn(markers, Marker.DELETE) == ['anchor:body/0']
     picture(encoder, snapshot_of(bodies[1:]))
     last = snapshot_of(bodies[2:])
-    gone = [drawn(picture(encoder, last), Marker.DELETE) for _ in range(DELETE_REPEATS + 1)]
-    assert all({'body/0', 'a/0', 'b/1'} <= {*each} for each in gone[: DELETE_REPEATS - 1])
+    gone = [drawn(picture(encoder, last), Marker.DELETE) for _ in range(repeats + 1)]
+    assert all({'body/0', 'a/0', 'b/1'} <= {*each} for each in gone[: repeats - 1])
     assert gone[-2:] == [['b/1'], []]
     check_same(encoder.encode(frame_of(last)), marker_array(last))
     picture(encoder, snapshot_of(bodies[:2]))

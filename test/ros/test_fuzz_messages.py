@@ -106,7 +106,7 @@ class Fuzzed:
         self._encoders = [
             PosesEncoder('world'),
             StatesEncoder('world'),
-            MarkersEncoder('world'),
+            MarkersEncoder('world', 60.0),
         ]
         self._contacts = ContactsEncoder('world')
         for message in (box('a/0'), disc('b/0', at=(0.0, 2.0))):

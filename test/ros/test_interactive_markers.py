@@ -5,16 +5,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from physsim_ros.ros.publishers import interactive_markers
-from physsim_ros.ros.publishers.interactive_markers import FRAMES
+from physsim_ros.ros.publishers.interactive_markers import PERIOD
 from physsim_ros.testing import box, delete, disc, PhysSim
 import pytest
 from visualization_msgs.msg import InteractiveMarkerUpdate, Marker
 from visualization_msgs.srv import GetInteractiveMarkers
 
 from ..client import Client
+
+# Frames between updates of poses, at 60 Hz.
+FRAMES = round(60.0 * PERIOD)
 
 
 class Viewer:
@@ -83,11 +87,11 @@ def test_a_viewer_has_the_bodies_where_they_are(physsim: PhysSim, client: Client
 def test_each_step_of_a_paused_world_is_told(physsim: PhysSim, client: Client) -> None:
     physsim.spawn(disc('ball/0', at=(0.0, 5.0)))
     client.call('~/pause')
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     viewer = Viewer(client)
     for _ in range(3):
         client.call('~/step')
-        physsim.node.apply_requests()
+        physsim.node.loop.apply_requests()
 
         position = viewer.catch_up()['ball/0'].pose.position
         assert (position.x, position.y) == physsim.pose('ball/0')[:2]
@@ -102,7 +106,7 @@ def test_of_many_bodies_some_are_told_at_a_time_until_all_have_them(
     for number in range(count):
         physsim.spawn(box(f'box/{number}', at=(3.0 * number, 5.0)))
     client.call('~/pause')
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     first = Viewer(client)
     for now in range(count):
         physsim.node.tick(now)
@@ -129,6 +133,16 @@ def test_what_stands_is_not_told_again(physsim: PhysSim, client: Client) -> None
     viewer = Viewer(client)
     physsim.step(5 * FRAMES)
     assert viewer.updates == []
+
+
+def test_poses_are_told_as_often_at_any_rate_of_frames(start: Callable[..., PhysSim]) -> None:
+    physsim = start(publish_rate=120.0)
+    physsim.spawn(disc('ball/0', at=(0.0, 50.0)))
+    client = Client(physsim)
+    viewer = Viewer(client)
+    physsim.run(10 * PERIOD)
+    client.spin_until(lambda: len(viewer.updates) >= 10)
+    assert len(viewer.updates) == 10
 
 
 def test_nothing_is_sent_to_nobody_and_little_to_somebody(

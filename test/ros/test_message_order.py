@@ -32,7 +32,7 @@ def test_large_and_small_messages_are_carried_out_in_their_order(
     client.publish('~/spawn_array', array(1))
     client.publish('~/spawn', messages.disc('disc/7', at=(0.0, -5.0)))
     physsim.settle()
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     names = physsim.node.frame.snapshot.scene.names
     assert [name for name in names if name == 'disc/7'] == ['disc/7']
     assert (len(names), names[-1]) == (200, 'disc/7')
@@ -74,7 +74,7 @@ def test_an_array_is_one_gesture_and_keeps_its_place(physsim: PhysSim, client: C
     client.publish('~/spawn', messages.delete('disc/7'))
     client.publish('~/spawn', messages.disc('disc/99', at=(0.0, -5.0)))
     client.spin_until(lambda: len(physsim.node.simulation.requests) == 32)
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     assert len(physsim.names) == 30
     assert 'disc/7' not in physsim.names
     for left in (29, 30, 0):

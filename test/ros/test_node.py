@@ -190,7 +190,7 @@ def test_a_world_in_a_namespace_has_its_topics_there(physsim: PhysSim) -> None:
     values = {'viewer': 'none', 'world_file': 'boxes'}
     overrides = [Parameter(name, value=value) for name, value in values.items()]
     node = PhysSimNode(context=context, parameter_overrides=overrides)
-    node.advance_frame()
+    node.loop.advance_frame()
     published = {each.topic_name for each in node.publishers}
     robots = {topic for topic in published if 'robot_0' in topic}
     heard = {each.topic_name for each in node.subscriptions}

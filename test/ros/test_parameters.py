@@ -210,7 +210,7 @@ def test_attraction_among_too_many_bodies_is_refused(physsim: PhysSim) -> None:
         row, column = divmod(number, 30)
         spawn = Spawn(name=f'a/{number}', shape=Disc(radius=0.1), pose=(column, row, 0.0))
         physsim.node.simulation.requests.submit(spawn)
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     assert refuse(physsim, 'gravitation', 0.04).startswith('world_full: ')
     assert physsim.node.boundary.failures == 0
 

@@ -145,7 +145,7 @@ def test_a_service_that_needs_the_world_waits_for_the_end_of_a_seek_and_replies_
     assert not simulation.requests.apply_up_to_seek()
     client.spin_until(paused.done)
     assert not cleared.done()
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     client.spin_until(cleared.done)
     assert succeeded(cleared.result()) == 'deleted 2 bodies'
     assert simulation.world.stamp == 500_000_000
@@ -168,7 +168,7 @@ def test_a_world_that_waits_to_be_loaded_is_that_which_was_named_before(
     named = name.call_async(SetParameters.Request(parameters=[second]))
     physsim.settle()
     assert not loaded.done()
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     client.spin_until(lambda: loaded.done() and named.done())
     assert 'first.yaml' in succeeded(loaded.result())
     assert parameter(physsim, 'world_file') == 'second'
@@ -186,7 +186,7 @@ def test_a_parameter_waits_for_the_end_of_a_seek_where_the_world_has_it(
     physsim.settle()
     assert not physsim.node.simulation.requests.apply_up_to_seek()
     assert named.done() is (name == 'tool')
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     client.spin_until(named.done)
     assert parameter(physsim, name) == value
 

@@ -43,7 +43,7 @@ def test_a_reading_is_shown_until_the_next_or_until_a_tool_is_taken(client: Clie
     assert max(point.x for point in outline.points) == pytest.approx(4.5, abs=0.01)
     assert label.text.startswith('disc ')
     client.physsim.node.set_parameters([Parameter('tool', value='wall')])
-    client.physsim.node.apply_requests()
+    client.physsim.node.loop.apply_requests()
     client.spin_until(lambda: len(pictures[-1].markers) == 1)
 
 

@@ -71,7 +71,7 @@ def test_a_shorter_history_is_told_while_time_is_paused(physsim: PhysSim, client
     physsim.spawn(disc('a/0'))
     physsim.run(1.0)
     client.call('~/pause')
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     set_parameter(physsim, 'history', 0.2)
     client.catch_up()
     status = told(messages[-1])

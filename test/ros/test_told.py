@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from nav_msgs.msg import Path
+from physsim_ros.ros import topics
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.requests import request_topics
 from physsim_ros.testing import disc, PhysSim
@@ -167,6 +168,6 @@ def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
     client: Client, monkeypatch: pytest.MonkeyPatch, kind: type
 ) -> None:
     client.ask(TOPICS[kind], kind())
-    monkeypatch.setattr(request_topics, 'deserialize_message', lambda *_: pytest.fail('decoded'))
+    monkeypatch.setattr(topics, 'deserialize_message', lambda *_: pytest.fail('decoded'))
     most = request_topics.MOST_BYTES.get(kind, request_topics.MOST_BYTES_OF_ONE)
     check_malformed(client, kind, bytes(most + 1))

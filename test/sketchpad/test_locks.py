@@ -367,6 +367,6 @@ def test_what_waits_while_a_body_is_locked_is_refused_in_its_turn(
     origin = Origin('x', check=lambda: check_unchanged(Role.DRAW, before, node.control))
     node.simulation.requests.submit(requests.Delete(name='a/0'), origin)
     node.control.set_parameter('sketchpad_locked', 'a/*')
-    (answer,) = (each for each in node.apply_requests() if each.topic == 'x')
+    (answer,) = (each for each in node.loop.apply_requests() if each.topic == 'x')
     assert answer.code == 'frozen'
     assert 'a/0' in browser.physsim.names

@@ -85,7 +85,7 @@ def test_a_page_that_only_shows_gets_the_contacts_of_a_paused_world(browser: Bro
     page.until(lambda: page.frames)
     page.send('show', contacts=True)
     page.until(lambda: physsim.node.outputs.wants_contacts)
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     page.until_frame(lambda frame: frame.flags & Show.CONTACTS)
     contacts, steps = page.frames[-1].columns[6:8].view('<u4')
     assert (contacts, steps) == (1, 4)
@@ -155,7 +155,7 @@ def test_of_many_answers_in_a_frame_others_get_the_first_and_the_count_of_the_re
     for number in range(30):
         for asker in ('1:a', '2:b', ''):
             requests.tell(Answer(topic='page', message=f'{number}', asker=asker))
-    browser.physsim.node.apply_requests()
+    browser.physsim.node.loop.apply_requests()
     numbers = [f'{number}' for number in range(30)]
     for page, id_ in ((one, 'a'), (other, 'b')):
         page.until(lambda page=page: any('more' in each['message'] for each in page.answers('')))
@@ -335,7 +335,7 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     page.until(lambda: sketchpad.handle_messages() or page.answers(chosen))
     assert not simulation.requests.apply_up_to_seek()
     assert not page.answers(shared)
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     page.until(lambda: sketchpad.handle_messages() or page.answers(shared))
     assert simulation.world.stamp == 500_000_000
     text = text_of(simulation.save(), simulation.physics_rate)

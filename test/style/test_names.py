@@ -12,6 +12,7 @@ import ast
 import builtins
 from collections import defaultdict
 from importlib import import_module
+from importlib.util import find_spec
 import re
 
 import numpy as np
@@ -226,6 +227,26 @@ def test_what_docstrings_name_is_there():
                     for each in spans(ast.get_docstring(node) or '')
                     if not _is_known(each, everywhere=True)
                 ]
+
+    assert missing == []
+
+
+def _imported(tree):
+    """Yield the module and the name of each import from the package."""
+    for node in ast.walk(tree):
+        match node:
+            case ast.ImportFrom(module=str(module), level=0) if module.startswith('physsim_ros'):
+                yield from ((module, each.name) for each in node.names)
+
+
+def test_what_tools_and_examples_import_from_the_package_is_there():
+    missing = []
+    for path in sorted({*ROOT.glob('tools/**/*.py'), *ROOT.glob('examples/*.py')}):
+        for module, name in _imported(ast.parse(path.read_text(encoding='utf-8'))):
+            found = import_module(module)
+            is_module = hasattr(found, '__path__') and find_spec(f'{module}.{name}') is not None
+            if not hasattr(found, name) and not is_module:
+                missing.append(f'{path.relative_to(ROOT)}: {module}.{name}')
 
     assert missing == []
 

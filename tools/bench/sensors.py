@@ -10,7 +10,7 @@ from test.building import spawn
 import time
 
 import numpy as np
-from physsim_ros.maps import OccupancyGrid, walls_of
+from physsim_ros.maps import Grid, walls_of
 from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
@@ -81,6 +81,6 @@ def _maps() -> None:
     specks = np.random.default_rng(1).integers(0, 1000, (2, 5000))
     cells[specks[0], specks[1]] = True
     began = time.perf_counter()
-    walls = walls_of(OccupancyGrid(occupied=cells, resolution=0.05), 'map', 1_000_000)
+    walls = walls_of(Grid(occupied=cells, resolution=0.05), 'map', 1_000_000)
     cost = time.perf_counter() - began
     print(f'{len(walls)} boxes of a grid of walls with 5,000 specks: {cost:.2f}')

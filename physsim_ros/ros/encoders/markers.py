@@ -5,16 +5,17 @@
 `~/markers`: visualization_msgs/MarkerArray, all bodies, joints, walls and hands.
 
 A body is drawn with the marker that would spawn it, its material in `text`. A marker that is no
-longer drawn is deleted in each of the next `DELETE_REPEATS` messages. If thousands are new or
-gone, `MOST_NEW` are serialised for each frame, and the message comes after the last, even if the
-scene has changed meanwhile.
+longer drawn is deleted by each message for `DELETION`. If thousands are new or gone, `MOST_NEW`
+are serialised for each frame, and the message comes after the last, even if the scene has changed
+meanwhile.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, islice
+import math
 import struct
 
 import numpy as np
@@ -23,6 +24,7 @@ from physsim_ros.appearance import JointGlyphs, segment_corners
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.timeline import frames_in
 from physsim_ros.model.transform import rotated_each
 from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
 from physsim_ros.ros.encoders.marker_symbols import (
@@ -49,9 +51,9 @@ _UNMESHED = struct.pack('<i4si4six', 1, b'', 1, b'', 0)
 # From the end of a marker to the next one [bytes].
 _PADDING = -len(_UNMESHED) % 4
 
-# Number of messages in which a marker is deleted. The depth of the stream is 1, so that a slow
-# subscriber misses some; of those of one second it gets at least one.
-DELETE_REPEATS = 60
+# Time in which each message deletes a marker that is gone [s]. The depth of the stream is 1, so
+# that a slow subscriber misses some messages; of those of a second it gets at least one.
+DELETION = 1.0
 # Greatest number of bodies, joints and deletions that are serialised for a frame, 50 µs each.
 MOST_NEW = 500
 
@@ -61,29 +63,20 @@ class MarkersEncoder:
     Encodes the markers of a frame.
 
     :param frame_id: name of the world frame
+    :param publish_rate: frames a second at speed 1 [Hz]
     """
 
-    def __init__(self, frame_id: str) -> None:
+    def __init__(self, frame_id: str, publish_rate: float) -> None:
         self._frame_id = frame_id
-        self._scene: Scene | None = None
+        self._message: _Message | None = None
         # The last snapshot of the scene whose markers are being serialised.
         self._begun: Snapshot | None = None
-        # Hands in the template, and the offset of their points, in numbers of 8 bytes.
-        self._hands, self._hands_at = 0, 0
         self._bodies: dict[str, tuple[Body, tuple[_MarkerBytes, ...]]] = {}
-        self._shown: dict[Key, None] = {}
-        # The deletion of each marker that is no longer drawn, and the number of the first message
-        # without it.
-        self._gone: dict[Key, tuple[_MarkerBytes, int]] = {}
-        # Deletions of which the next template is to have some.
-        self._deletions: dict[Key, _MarkerBytes] = {}
-        self._until = -1
-        self._count = 0
-        self._glyphs: JointGlyphs | None = None
-        self._joint_columns: _JointColumns | None = None
         self._joints: dict[
             str, tuple[tuple[Joint, float, int], tuple[_MarkerBytes, _MarkerBytes]]
         ] = {}
+        self._glyphs: JointGlyphs | None = None
+        self._deletions = _Deletions(frame_id, frames_in(DELETION, publish_rate))
 
     def encode(self, frame: Frame) -> bytes | None:
         """
@@ -94,82 +87,16 @@ class MarkersEncoder:
         snapshot = frame.snapshot
         if self._begun is not None and self._begun.scene is not snapshot.scene:
             snapshot = self._begun
-        hands = len(snapshot.grips)
-        same = snapshot.scene is self._scene and hands == self._hands
-        if not same or self._count == self._until:
+        scene, hands = snapshot.scene, len(snapshot.grips)
+        message = self._message
+        if message is None or not message.is_of(scene, hands) or self._deletions.have_ended:
             self._begun = snapshot
-            if not self._serialise_some(snapshot.scene):
+            if not self._serialise_some(scene):
                 return None
             self._begun = None
-            self._build_template(snapshot.scene, hands)
-        self._count += 1
-        if self._joint_columns is not None:
-            self._joint_columns.fill(self._template, snapshot)
-        if hands:
-            ends = self._hands_at + 3 * np.arange(2 * hands)
-            for column, values in enumerate(snapshot.grip_lines.reshape(-1, 2).T):
-                self._template.doubles[ends + column] = values
-        self._template.write_poses([values[self._rows] for values in pose_columns(snapshot)])
-        return self._template.stamped(snapshot.stamp)
-
-    def _build_template(self, scene: Scene, hands: int) -> None:
-        """Build a new template, from the serialised markers of the last one where they hold."""
-        markers = self._body_markers(scene)
-        if hands:
-            markers.append((-1, self._serialise(hands_symbol(hands))))
-        before = len(markers)
-        glyphs = self._glyphs
-        self._joints = {joint.name: self._joints[joint.name] for joint in scene.joints}
-        joints = [(-1, marker) for _, pair in self._joints.values() for marker in pair]
-        markers += joints
-        shown = dict.fromkeys(marker.key for _, marker in markers)
-        until = self._count + DELETE_REPEATS
-        gone = {
-            key: (marker, last)
-            for key, (marker, last) in self._gone.items()
-            if last > self._count and key not in shown
-        }
-        gone |= {key: (self._deletion(key), until) for key in self._shown if key not in shown}
-        self._deletions.clear()
-        markers += [(-1, marker) for marker, _ in gone.values()]
-
-        writer = CdrWriter(START)
-        writer.ints(len(markers))
-        offsets: list[int] = []
-        parts: list[bytes] = []
-        size = len(writer.data)
-        for _, marker in markers:
-            writer.stamps.append(size)
-            # All begin at a multiple of 4 bytes, some of 8.
-            part = marker.at_8 if size % 8 == 0 else marker.at_4
-            parts.append(part)
-            size += len(part)
-            offsets.append(size - marker.size_of_rest)
-        writer.data += b''.join(parts)
-        if parts:
-            del writer.data[-_PADDING:]
-        rows = np.array([row for row, _ in markers], np.intp)
-        self._rows = rows[rows >= 0]
-        writer.poses = [offset for offset, row in zip(offsets, rows, strict=True) if row >= 0]
-        self._template = MessageTemplate(writer)
-        last = before + len(joints)
-        starts = offsets[before:last]
-        self._joint_columns = None if glyphs is None else _JointColumns(glyphs, starts)
-        self._hands, self._hands_at = (
-            hands,
-            (offsets[before - 1] + _POSED.size) // 8 if hands else 0,
-        )
-        self._scene, self._shown, self._gone = scene, shown, gone
-        self._until = min((last for _, last in gone.values()), default=-1)
-
-    def _body_markers(self, scene: Scene) -> list[tuple[int, _MarkerBytes]]:
-        """Return the markers of bodies and walls, each with the row of its body, or -1."""
-        self._bodies = {body.name: self._bodies[body.name] for body in scene.bodies}
-        each = enumerate(self._bodies.values())
-        markers = [(row, marker) for row, (_, serialised) in each for marker in serialised]
-        if scene.settings.bounds is not None:
-            markers.append((-1, self._serialise(wall_symbol(scene.settings.bounds))))
-        return markers
+            message = self._message = self._new_message(scene, hands)
+        self._deletions.messages += 1
+        return message.filled(snapshot)
 
     @suspended_collection()
     def _serialise_some(self, scene: Scene) -> bool:
@@ -185,8 +112,9 @@ class MarkersEncoder:
         for body in scene.bodies:
             known = self._bodies.get(body.name)
             if known is None or (known[0] is not body and known[0] != body):
-                symbols = tuple(self._serialise(symbol) for symbol in body_symbols(body))
-                self._bodies[body.name] = body, symbols
+                symbols = body_symbols(body)
+                markers = tuple(_serialised(each, self._frame_id) for each in symbols)
+                self._bodies[body.name] = body, markers
                 yield
 
     def _serialise_joints(self, scene: Scene) -> Iterator[None]:
@@ -201,7 +129,7 @@ class MarkersEncoder:
             drawn = self._joints.get(joint.name)
             if drawn is None or drawn[0] != (joint, *look):
                 points, lines = joint_symbols(joint, *look)
-                pair = self._serialise(points), self._serialise(lines)
+                pair = _serialised(points, self._frame_id), _serialised(lines, self._frame_id)
                 self._joints[joint.name] = (joint, *look), pair
                 yield
 
@@ -209,38 +137,133 @@ class MarkersEncoder:
         """Serialise deletions of markers that no body or joint has any more; yield after each."""
         bodies = (marker for body in scene.bodies for marker in self._bodies[body.name][1])
         joints = (marker for joint in scene.joints for marker in self._joints[joint.name][1])
-        kept = {marker.key for marker in chain(bodies, joints)}
-        for key in self._shown:
-            if key not in kept and key not in self._deletions:
-                self._deletions[key] = self._deletion(key)
+        yield from self._deletions.serialise({marker.key for marker in chain(bodies, joints)})
+
+    def _new_message(self, scene: Scene, hands: int) -> _Message:
+        """Return the message of a scene, of serialised markers; forget those of other bodies."""
+        self._bodies = {body.name: self._bodies[body.name] for body in scene.bodies}
+        self._joints = {joint.name: self._joints[joint.name] for joint in scene.joints}
+        each = enumerate(self._bodies.values())
+        bodies = [(row, marker) for row, (_, serialised) in each for marker in serialised]
+        symbols = []
+        if scene.settings.bounds is not None:
+            symbols.append(wall_symbol(scene.settings.bounds))
+        if hands:
+            symbols.append(hands_symbol(hands))
+        # That of the hands is the last one before those of joints.
+        others = [_serialised(symbol, self._frame_id) for symbol in symbols]
+        joints = [marker for _, pair in self._joints.values() for marker in pair]
+        drawn = [*(marker for _, marker in bodies), *others, *joints]
+        deletions = self._deletions.begin({marker.key: None for marker in drawn})
+        markers = [*bodies, *((-1, marker) for marker in (*others, *joints, *deletions))]
+        first_joint = len(drawn) - len(joints)
+        return _Message(scene, markers, self._glyphs, hands=hands, first_joint=first_joint)
+
+
+class _Deletions:
+    """
+    The deletions of markers that are no longer drawn.
+
+    :param frame_id: name of the world frame
+    :param repeats: number of messages that have each deletion
+
+    :ivar messages: number of messages so far
+    """
+
+    def __init__(self, frame_id: str, repeats: int) -> None:
+        self.messages = 0
+        self._frame_id = frame_id
+        self._repeats = repeats
+        # Keys of the markers that the last message draws.
+        self._drawn: dict[Key, None] = {}
+        # Deletions that are serialised, and those in messages, with the number of the first
+        # message without each.
+        self._serialised: dict[Key, _MarkerBytes] = {}
+        self._gone: dict[Key, tuple[_MarkerBytes, int]] = {}
+        self._first_end: float = math.inf
+
+    @property
+    def have_ended(self) -> bool:
+        """Whether the next message is to be without one of them."""
+        return self.messages >= self._first_end
+
+    def serialise(self, kept: Collection[Key]) -> Iterator[None]:
+        """Serialise the deletions of markers that are drawn, and not kept; yield after each."""
+        for key in self._drawn:
+            if key not in kept and key not in self._serialised:
+                self._serialised[key] = self._deletion(key)
                 yield
+
+    def begin(self, drawn: dict[Key, None]) -> list[_MarkerBytes]:
+        """Return the deletions in the next messages, which draw these markers."""
+        end = self.messages + self._repeats
+        gone = {
+            key: (marker, last)
+            for key, (marker, last) in self._gone.items()
+            if last > self.messages and key not in drawn
+        }
+        gone |= {key: (self._deletion(key), end) for key in self._drawn if key not in drawn}
+        self._serialised.clear()
+        self._drawn, self._gone = drawn, gone
+        self._first_end = min((last for _, last in gone.values()), default=math.inf)
+        return [marker for marker, _ in gone.values()]
 
     def _deletion(self, key: Key) -> _MarkerBytes:
         """Return the serialised deletion of a marker."""
-        known = self._deletions.get(key)
-        return self._serialise(Symbol(key, action=Marker.DELETE)) if known is None else known
+        known = self._serialised.get(key)
+        if known is not None:
+            return known
+        return _serialised(Symbol(key, action=Marker.DELETE), self._frame_id)
 
-    def _serialise(self, symbol: Symbol) -> _MarkerBytes:
-        head = CdrWriter()
-        head.header(self._frame_id)
-        head.text(symbol.key[0])
-        head.ints(symbol.key[1], symbol.kind, symbol.action)
-        count = len(symbol.points)
-        rest = CdrWriter(_POSED.pack(*_IDENTITY, *symbol.scale, *symbol.color, count))
-        rest.doubles(*(number for x, y in symbol.points for number in (x, y, symbol.height)))
-        rest.data += _UNTEXTURED
-        rest.text(symbol.text)
-        rest.align(4)
-        rest.data += _UNMESHED
-        rest.data += bytes(_PADDING)
-        head.align(4)
-        gap = -len(head.data) % 8
-        return _MarkerBytes(
-            key=symbol.key,
-            at_8=bytes(head.data + bytes(gap) + rest.data),
-            at_4=bytes(head.data + bytes(4 - gap) + rest.data),
-            size_of_rest=len(rest.data),
-        )
+
+class _Message:
+    """
+    The message of a scene, into which each frame writes its numbers.
+
+    :param scene: that it shows
+    :param markers: in their order, each with the row of its body, or -1
+    :param glyphs: of the joints; None without joints
+    :param hands: number of hands, whose marker comes before those of joints
+    :param first_joint: place of the first marker of a joint, of which each joint has two
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        markers: Sequence[tuple[int, _MarkerBytes]],
+        glyphs: JointGlyphs | None,
+        *,
+        hands: int,
+        first_joint: int,
+    ) -> None:
+        self._scene = scene
+        self._hands = hands
+        writer, offsets = _joined([marker for _, marker in markers])
+        rows = np.array([row for row, _ in markers], np.intp)
+        self._rows = rows[rows >= 0]
+        writer.poses = [offset for offset, row in zip(offsets, rows, strict=True) if row >= 0]
+        self._template = MessageTemplate(writer)
+        after_joints = first_joint + 2 * len(scene.joints)
+        starts = offsets[first_joint:after_joints]
+        self._joints = None if glyphs is None else _JointColumns(glyphs, starts)
+        # Offset of the points of hands, in numbers of 8 bytes.
+        self._hands_at = (offsets[first_joint - 1] + _POSED.size) // 8 if hands else 0
+
+    def is_of(self, scene: Scene, hands: int) -> bool:
+        """Return whether it shows a scene with a number of hands."""
+        return scene is self._scene and hands == self._hands
+
+    def filled(self, snapshot: Snapshot) -> bytes:
+        """Return the message of a snapshot of the scene."""
+        template = self._template
+        if self._joints is not None:
+            self._joints.fill(template, snapshot)
+        if self._hands:
+            ends = self._hands_at + 3 * np.arange(2 * self._hands)
+            for column, values in enumerate(snapshot.grip_lines.reshape(-1, 2).T):
+                template.doubles[ends + column] = values
+        template.write_poses([values[self._rows] for values in pose_columns(snapshot)])
+        return template.stamped(snapshot.stamp)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -258,6 +281,50 @@ class _MarkerBytes:
     at_8: bytes
     at_4: bytes
     size_of_rest: int
+
+
+def _serialised(symbol: Symbol, frame_id: str) -> _MarkerBytes:
+    """Return a symbol as a marker, whose numbers are 0."""
+    head = CdrWriter()
+    head.header(frame_id)
+    head.text(symbol.key[0])
+    head.ints(symbol.key[1], symbol.kind, symbol.action)
+    count = len(symbol.points)
+    rest = CdrWriter(_POSED.pack(*_IDENTITY, *symbol.scale, *symbol.color, count))
+    rest.doubles(*(number for x, y in symbol.points for number in (x, y, symbol.height)))
+    rest.data += _UNTEXTURED
+    rest.text(symbol.text)
+    rest.align(4)
+    rest.data += _UNMESHED
+    rest.data += bytes(_PADDING)
+    head.align(4)
+    gap = -len(head.data) % 8
+    return _MarkerBytes(
+        key=symbol.key,
+        at_8=bytes(head.data + bytes(gap) + rest.data),
+        at_4=bytes(head.data + bytes(4 - gap) + rest.data),
+        size_of_rest=len(rest.data),
+    )
+
+
+def _joined(markers: Sequence[_MarkerBytes]) -> tuple[CdrWriter, list[int]]:
+    """Return a writer with all of a message, and the offsets of the poses of markers [bytes]."""
+    writer = CdrWriter(START)
+    writer.ints(len(markers))
+    offsets: list[int] = []
+    parts: list[bytes] = []
+    size = len(writer.data)
+    for marker in markers:
+        writer.stamps.append(size)
+        # All begin at a multiple of 4 bytes, some of 8.
+        part = marker.at_8 if size % 8 == 0 else marker.at_4
+        parts.append(part)
+        size += len(part)
+        offsets.append(size - marker.size_of_rest)
+    writer.data += b''.join(parts)
+    if parts:
+        del writer.data[-_PADDING:]
+    return writer, offsets
 
 
 class _JointColumns:

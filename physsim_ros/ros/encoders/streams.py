@@ -2,27 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Encoders of the streams of numbers: states, poses, transforms, contacts, the clock; and the map.
+Encoders of the streams of numbers: states, poses, transforms, contacts, and the clock.
 
 Law: bytes are those of rclpy. A template holds as long as the scene; of each frame only numbers
-are written into it. A map is made when what is anchored changes.
+are written into it.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from array import array
-from collections.abc import Callable
 from functools import lru_cache
 
-from nav_msgs.msg import MapMetaData, OccupancyGrid
 import numpy as np
-from physsim_ros.maps import anchored_grid, Grid, is_on_map
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.shapes import Shape
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.ros.encoders.cdr import (
     CdrWriter,
@@ -31,9 +25,6 @@ from physsim_ros.ros.encoders.cdr import (
     padded_string,
     START,
 )
-from physsim_ros.ros.planar import pose_message
-from rclpy.time import Time
-from std_msgs.msg import Header
 
 
 class SceneEncoder(ABC):
@@ -174,6 +165,46 @@ class TransformsEncoder(SceneEncoder):
         return MessageTemplate(writer)
 
 
+# The type UPDATE, and no markers.
+_UPDATE, _NO_MARKERS = b'\1', 0
+
+
+class InteractivePosesEncoder(SceneEncoder):
+    """
+    Encodes the poses of all bodies as those of interactive markers.
+
+    :param frame_id: name of the world frame
+    :param server: that the update names
+
+    :ivar number: of the next update
+    """
+
+    def __init__(self, frame_id: str, server: str) -> None:
+        super().__init__(frame_id)
+        self.number = 0
+        self._server = server
+
+    def _template_of(self, scene: Scene) -> MessageTemplate:
+        writer = CdrWriter(START)
+        writer.text(self._server)
+        writer.align(8)
+        self._number_at = len(writer.data) // 8
+        writer.doubles(0.0)
+        writer.data += _UPDATE
+        writer.ints(_NO_MARKERS, len(scene.names))
+        for name in scene.names:
+            writer.header(self._frame_id)
+            writer.pose()
+            writer.text(name)
+        # No names of bodies that are gone.
+        writer.ints(0)
+        return MessageTemplate(writer)
+
+    def _fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:
+        super()._fill(template, snapshot)
+        template.doubles.view(np.int64)[self._number_at] = self.number
+
+
 class ClockEncoder:
     """
     Encodes simulation time; nothing before the first step.
@@ -193,66 +224,3 @@ class ClockEncoder:
         stamp = frame.snapshot.stamp
         self._began = self._began or stamp > 0
         return self._template.stamped(max(1, stamp)) if self._began else None
-
-
-# Occupancy of a cell that is occupied [percent].
-_OCCUPIED = 100
-
-
-class MapEncoder:
-    """
-    Encodes the map of the world; nothing while what it shows is as before.
-
-    :param frame_id: name of the world frame
-    :param resolution: returns the side of a cell [m]
-    """
-
-    def __init__(self, frame_id: str, resolution: Callable[[], float]) -> None:
-        self._frame_id = frame_id
-        self._resolution = resolution
-        self._scene: Scene | None = None
-        # Of the bodies that the scene's map shows: their rows and shapes.
-        self._rows: list[int] = []
-        self._shapes: tuple[Shape, ...] = ()
-        # Of the last map: side of a cell, bounds, and shapes; poses (a, 3).
-        self._shown: tuple[object, ...] = ()
-        self._poses: Floats = np.empty((0, 3))
-
-    def encode(self, frame: Frame) -> OccupancyGrid | None:
-        """Return the message of a frame; None where the map has not changed."""
-        snapshot, cell = frame.snapshot, self._resolution()
-        if snapshot.scene is not self._scene:
-            self._scene, bodies = snapshot.scene, snapshot.scene.bodies
-            self._rows = [row for row, body in enumerate(bodies) if is_on_map(body)]
-            self._shapes = tuple(bodies[row].shape for row in self._rows)
-        shown = cell, snapshot.scene.settings.bounds, self._shapes
-        poses = snapshot.poses[self._rows]
-        if shown == self._shown and np.array_equal(poses, self._poses):
-            return None
-        self._shown, self._poses = shown, poses
-        return _map_message(_grid_of(snapshot, cell), self._frame_id, snapshot.stamp)
-
-
-def _grid_of(snapshot: Snapshot, cell: float) -> Grid:
-    """Return the map of a world; one without cells where it would have too many."""
-    try:
-        return anchored_grid(snapshot, cell)
-    except Refusal:
-        return Grid(occupied=np.zeros((0, 0), dtype=np.bool_), resolution=cell)
-
-
-def _map_message(grid: Grid, frame_id: str, stamp: int) -> OccupancyGrid:
-    time = Time(nanoseconds=stamp).to_msg()
-    rows, columns = grid.occupied.shape
-    cells = np.where(grid.occupied, _OCCUPIED, 0).astype(np.int8)
-    return OccupancyGrid(
-        header=Header(frame_id=frame_id, stamp=time),
-        info=MapMetaData(
-            map_load_time=time,
-            resolution=grid.resolution,
-            width=columns,
-            height=rows,
-            origin=pose_message(grid.origin),
-        ),
-        data=array('b', cells.tobytes()),
-    )

@@ -9,7 +9,7 @@ It prints a line of JSON for each world: its number and its addresses.
 
 from __future__ import annotations
 
-from argparse import ArgumentParser
+from argparse import ArgumentParser, Namespace
 import json
 import os
 import sys
@@ -39,43 +39,51 @@ def main() -> None:
     parser.add_argument('--address', required=True)
     options = parser.parse_args(remove_ros_args(sys.argv)[1:])
 
-    def parameters(number: int) -> list[Parameter]:
-        """Return the parameters in which a world of a class differs from another one."""
-        values = {
-            'sketchpad': 'serve',
-            'sketchpad_address': options.address,
-            'sketchpad_port': options.port + number if options.port else 0,
-            # Nobody looks at thirty viewers, and there is one clock.
-            'viewer': 'none',
-            'publish_clock': False,
-            'history_memory': HISTORY_MEMORY,
-            # Of the teacher: a pupil's own directory has none.
-            'lesson_dir': str(user_lessons(user_worlds())),
-            'world_dir': str(user_worlds() / 'class' / f'pupil_{number}'),
-        }
-        return [Parameter(name, value=value) for name, value in values.items()]
-
     try:
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
         numbers = range(options.first, options.first + options.count)
         nodes = [
-            PhysSimNode(namespace=f'/pupil_{number}', parameter_overrides=parameters(number))
+            PhysSimNode(
+                namespace=f'/pupil_{number}', parameter_overrides=_parameters(number, options)
+            )
             for number in numbers
         ]
     except (PhysSimError, RuntimeError) as error:
         sys.exit(f'physsim_class: {error}')
     for number, node in zip(numbers, nodes, strict=True):
-        sketchpad = node.outputs.sketchpad
-        if sketchpad is not None:
-            addresses = {
-                'pupil': sketchpad.url(),
-                'teacher': sketchpad.url(Role.TEACH),
-                'results': str(results_file(node.control.world_dir)),
-            }
-            sys.stdout.write(json.dumps({'number': number, **addresses}) + '\n')
-    sys.stdout.flush()
+        _print_addresses(number, node)
     run_worlds(nodes, lambda: watch.requested or os.getppid() != parent)
     end_process()
+
+
+def _parameters(number: int, options: Namespace) -> list[Parameter]:
+    """Return the parameters in which a world of a class differs from another one."""
+    values = {
+        'sketchpad': 'serve',
+        'sketchpad_address': options.address,
+        'sketchpad_port': options.port + number if options.port else 0,
+        # Nobody looks at thirty viewers, and there is one clock.
+        'viewer': 'none',
+        'publish_clock': False,
+        'history_memory': HISTORY_MEMORY,
+        # Of the teacher: a pupil's own directory has none.
+        'lesson_dir': str(user_lessons(user_worlds())),
+        'world_dir': str(user_worlds() / 'class' / f'pupil_{number}'),
+    }
+    return [Parameter(name, value=value) for name, value in values.items()]
+
+
+def _print_addresses(number: int, node: PhysSimNode) -> None:
+    """Print the line of a world."""
+    sketchpad = node.outputs.sketchpad
+    if sketchpad is not None:
+        addresses = {
+            'pupil': sketchpad.url(),
+            'teacher': sketchpad.url(Role.TEACH),
+            'results': str(results_file(node.control.world_dir)),
+        }
+        sys.stdout.write(json.dumps({'number': number, **addresses}) + '\n')
+        sys.stdout.flush()
 
 
 if __name__ == '__main__':

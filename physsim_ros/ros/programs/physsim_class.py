@@ -10,7 +10,7 @@ each pupil to a world, and shows a teacher who is where.
 
 from __future__ import annotations
 
-from argparse import ArgumentParser
+from argparse import ArgumentParser, Namespace
 from contextlib import suppress
 from itertools import pairwise
 import json
@@ -40,6 +40,28 @@ def main() -> None:
     """Run a class until it is interrupted."""
     open_closed_streams()
     watch = TerminationWatch()
+    options, arguments = _parsed(sys.argv[1:])
+    parts = shares(options.pupils, len(os.sched_getaffinity(0)))
+    processes = [_start(part, options.address, options.port, arguments) for part in parts]
+    try:
+        worlds = [
+            world
+            for process, part in zip(processes, parts, strict=True)
+            for world in _worlds(process, len(part))
+        ]
+        if len(worlds) < options.pupils and not watch.requested:
+            sys.exit('physsim_class: a world has not started; see above')
+        _serve(worlds, processes, options, watch)
+        if not watch.requested:
+            sys.exit('physsim_class: the process of some worlds has ended; see above')
+    except PhysSimError as error:
+        sys.exit(f'physsim_class: {error}')
+    finally:
+        _end(processes)
+
+
+def _parsed(arguments: list[str]) -> tuple[Namespace, list[str]]:
+    """Return the options of the class, and the arguments of each world."""
     parser = ArgumentParser(
         prog='physsim_class',
         description='Run a physics world for each pupil of a class.',
@@ -68,39 +90,37 @@ def main() -> None:
         help='greatest number of worlds for one machine; 0 is no limit, for pupils behind one '
         f'address {default}',
     )
-    split = sys.argv.index('--ros-args') if '--ros-args' in sys.argv else len(sys.argv)
-    options = parser.parse_args(sys.argv[1:split])
+    split = arguments.index('--ros-args') if '--ros-args' in arguments else len(arguments)
+    options = parser.parse_args(arguments[:split])
     if not 1 <= options.pupils <= MOST_PUPILS:
         parser.error(f'--pupils must be 1 to {MOST_PUPILS}')
-    parts = shares(options.pupils, len(os.sched_getaffinity(0)))
-    processes = [_start(part, options.address, options.port, sys.argv[split:]) for part in parts]
-    try:
-        worlds = [
-            world
-            for process, part in zip(processes, parts, strict=True)
-            for world in _worlds(process, len(part))
-        ]
-        if len(worlds) < options.pupils and not watch.requested:
-            sys.exit('physsim_class: a world has not started; see above')
-        server = ClassServer(
-            worlds,
-            address=options.address,
-            port=options.port,
-            seats_of_machine=options.seats,
-        )
-        sys.stdout.write(
-            f'\n  {len(worlds)} worlds in {len(processes)} processes. The page of the class:\n\n'
-            f'      {server.url(Role.DRAW)}\n\n'
-            f'  and for a teacher: {server.url(Role.TEACH)}\n\n'
-        )
-        sys.stdout.flush()
-        server.run(lambda: watch.requested or any(each.poll() is not None for each in processes))
-        if not watch.requested:
-            sys.exit('physsim_class: the process of some worlds has ended; see above')
-    except PhysSimError as error:
-        sys.exit(f'physsim_class: {error}')
-    finally:
-        _end(processes)
+    return options, arguments[split:]
+
+
+def _serve(
+    worlds: list[WorldAddresses],
+    processes: list[subprocess.Popen[str]],
+    options: Namespace,
+    watch: TerminationWatch,
+) -> None:
+    """
+    Serve the page of the class until a signal comes, or a process of worlds ends.
+
+    :raises PhysSimError: it cannot listen
+    """
+    server = ClassServer(
+        worlds,
+        address=options.address,
+        port=options.port,
+        seats_of_machine=options.seats,
+    )
+    sys.stdout.write(
+        f'\n  {len(worlds)} worlds in {len(processes)} processes. The page of the class:\n\n'
+        f'      {server.url(Role.DRAW)}\n\n'
+        f'  and for a teacher: {server.url(Role.TEACH)}\n\n'
+    )
+    sys.stdout.flush()
+    server.run(lambda: watch.requested or any(each.poll() is not None for each in processes))
 
 
 def _start(part: range, address: str, port: int, arguments: list[str]) -> subprocess.Popen[str]:

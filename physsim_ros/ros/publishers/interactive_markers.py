@@ -19,13 +19,13 @@ import math
 
 from geometry_msgs.msg import Point, Quaternion
 import numpy as np
-from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
-from physsim_ros.ros.encoders.streams import SceneEncoder
+from physsim_ros.model.timeline import frames_in
+from physsim_ros.ros.encoders.streams import InteractivePosesEncoder
 from physsim_ros.ros.marker_shapes import geometry_of, THIN
 from physsim_ros.ros.planar import pose_message
-from physsim_ros.ros.qos_safe_node import CALLS
+from physsim_ros.ros.topics import CALLS
 from rclpy.node import Node
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header
@@ -37,8 +37,8 @@ from visualization_msgs.msg import (
 )
 from visualization_msgs.srv import GetInteractiveMarkers
 
-# Frames between updates of poses: RViz draws each anew.
-FRAMES = 6
+# Time between updates of poses at speed 1 [s]: RViz draws each anew.
+PERIOD = 0.1
 # Greatest number of markers in an answer or an update, 0.1 ms each.
 MOST_NEW = 200
 # The depth that the server of interactive_markers has.
@@ -55,14 +55,16 @@ class InteractiveMarkers:
 
     :param node: that owns topic and service
     :param frame_id: name of the world frame
+    :param publish_rate: frames a second at speed 1 [Hz]
 
     :ivar name: of the topic
     """
 
     name = '~/drag/update'
 
-    def __init__(self, node: Node, frame_id: str) -> None:
+    def __init__(self, node: Node, frame_id: str, publish_rate: float) -> None:
         self._frame_id = frame_id
+        self._frames = frames_in(PERIOD, publish_rate)
         self._server = node.get_fully_qualified_name()
         self._publisher = node.create_publisher(InteractiveMarkerUpdate, self.name, _DEPTH)
         service = '~/drag/get_interactive_markers'
@@ -76,6 +78,7 @@ class InteractiveMarkers:
         self._known: dict[str, Body | None] = {}
         # Whether markers are left for the next update.
         self._is_late = False
+        # Frames until the next update of poses.
         self._wait = 0
 
     @property
@@ -93,7 +96,7 @@ class InteractiveMarkers:
         same = told.scene is frame.snapshot.scene and not self._is_late
         if same and frame.passing and self._wait > 0:
             return
-        self._wait = FRAMES
+        self._wait = self._frames
         self._update(frame)
 
     def show_late(self, frame: Frame) -> None:
@@ -194,43 +197,3 @@ def _control(body: Body) -> InteractiveMarkerControl:
         always_visible=True,
         markers=[drawn],
     )
-
-
-# The type UPDATE, and no markers.
-_UPDATE, _NO_MARKERS = b'\1', 0
-
-
-class InteractivePosesEncoder(SceneEncoder):
-    """
-    Encodes the poses of all bodies as those of interactive markers.
-
-    :param frame_id: name of the world frame
-    :param server: that the update names
-
-    :ivar number: of the next update
-    """
-
-    def __init__(self, frame_id: str, server: str) -> None:
-        super().__init__(frame_id)
-        self.number = 0
-        self._server = server
-
-    def _template_of(self, scene: Scene) -> MessageTemplate:
-        writer = CdrWriter(START)
-        writer.text(self._server)
-        writer.align(8)
-        self._number_at = len(writer.data) // 8
-        writer.doubles(0.0)
-        writer.data += _UPDATE
-        writer.ints(_NO_MARKERS, len(scene.names))
-        for name in scene.names:
-            writer.header(self._frame_id)
-            writer.pose()
-            writer.text(name)
-        # No names of bodies that are gone.
-        writer.ints(0)
-        return MessageTemplate(writer)
-
-    def _fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:
-        super()._fill(template, snapshot)
-        template.doubles.view(np.int64)[self._number_at] = self.number

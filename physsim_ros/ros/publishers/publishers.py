@@ -22,12 +22,12 @@ from nav_msgs.msg import OccupancyGrid
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.ros.encoders.map import MapEncoder
 from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.preview import PreviewEncoder
 from physsim_ros.ros.encoders.streams import (
     ClockEncoder,
     ContactsEncoder,
-    MapEncoder,
     PosesEncoder,
     StatesEncoder,
     TransformsEncoder,
@@ -71,6 +71,13 @@ class LateOutput(Output, Protocol):
         """Show the last frame to who came late, or go on to show it."""
 
 
+class Encoder(Protocol):
+    """An encoder of frames."""
+
+    def encode(self, frame: Frame) -> Any:
+        """Return the message of a frame, serialised or not; None where the frame has none."""
+
+
 class Publishers:
     """
     The publishers of the world.
@@ -99,7 +106,8 @@ class Publishers:
             qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             return node.create_publisher(kind, topic, qos)
 
-        frame_id = values['frame_id']
+        frame_id, publish_rate = values['frame_id'], values['publish_rate']
+        markers = MarkersEncoder(frame_id, publish_rate)
         # Contacts are those of one frame, so a late subscriber does not receive the last ones.
         self.contacts = stream(MultiDOFJointState, '~/contacts', 5, ContactsEncoder(frame_id))
         # DDS keeps the last map, and the last preview, for late subscribers; there is another one
@@ -110,7 +118,7 @@ class Publishers:
             ClockStream(node.create_publisher(Clock, 'clock', 10), values),
             stream(PoseArray, '~/poses', 5, PosesEncoder(frame_id)),
             stream(MultiDOFJointState, '~/states', 5, StatesEncoder(frame_id)),
-            LatchedStream(latched(MarkerArray, '~/markers'), MarkersEncoder(frame_id)),
+            LatchedStream(latched(MarkerArray, '~/markers'), markers),
             Stream(latched(OccupancyGrid, '~/map'), grid),
             self.preview,
         ]
@@ -127,7 +135,7 @@ class Publishers:
             node.create_publisher(DiagnosticStatus, '~/events', EVENTS_DEPTH)
         )
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'), status)
-        self._markers = InteractiveMarkers(node, frame_id)
+        self._markers = InteractiveMarkers(node, frame_id, publish_rate)
         self.late: tuple[LateOutput, ...] = (*self.streams, self._markers)
         self.outputs: tuple[Output, ...] = (
             self.events,
@@ -142,13 +150,6 @@ class Publishers:
         """Whether a topic of frames has subscribers."""
         streams = (each.is_read for each in (*self.streams, self.contacts))
         return any((self._markers.is_read, self.timeline.is_read, *streams))
-
-
-class Encoder(Protocol):
-    """An encoder of frames."""
-
-    def encode(self, frame: Frame) -> Any:
-        """Return the message of a frame, serialised or not; None where the frame has none."""
 
 
 class Stream:

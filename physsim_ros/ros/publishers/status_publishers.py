@@ -95,7 +95,7 @@ class EventPublisher:
         self._publish_waiting()
 
     def _publish_waiting(self) -> None:
-        while self._waiting and self._has_room():
+        while self._waiting and self._take_room():
             if not self._unacknowledged:
                 self._since = time.monotonic()
             self._publisher.publish(self._waiting.popleft())
@@ -105,8 +105,8 @@ class EventPublisher:
         if self._publisher.wait_for_all_acked(Duration()):
             self._unacknowledged, self.stopped = 0, False
 
-    def _has_room(self) -> bool:
-        """Return whether the history can take an answer and lose none that may be asked for."""
+    def _take_room(self) -> bool:
+        """Take the room of an answer in the history; return False if that may be asked for."""
         if self._unacknowledged < EVENTS_DEPTH:
             return True
         self._look_up_acknowledgements()

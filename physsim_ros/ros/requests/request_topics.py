@@ -6,7 +6,7 @@ The topics of requests.
 
 Laws: a callback converts a message and submits the request, or reports the refusal; all decisions
 are taken by the simulation. No message of a burst is lost; one that is too large or cannot be
-decoded is answered. rclpy drops such messages silently, so they arrive as bytes here.
+decoded is answered.
 """
 
 from __future__ import annotations
@@ -18,16 +18,14 @@ from typing import Any
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid, Path
 from physsim_ros.model.answer import Answer
-from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
-from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests import conversions
+from physsim_ros.ros.topics import decoded, LOSSLESS, Undecodable
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Origin, Unread
 from physsim_ros.simulation.request_queue import RequestQueue
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
-from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 
@@ -103,15 +101,11 @@ class RequestTopics:
 
         :raises Malformed: it is too large, or cannot be decoded
         """
-        most = MOST_BYTES.get(kind, MOST_BYTES_OF_ONE)
-        if len(data) > most:
-            raise Malformed(f'such a message has at most {most / 2**10:g} KiB')
         try:
-            return deserialize_message(data, kind)
-        except rclpy_implementation.RMWError as error:
+            return decoded(data, kind, MOST_BYTES.get(kind, MOST_BYTES_OF_ONE))
+        except Undecodable:
             self.undecodable += 1
-            message = f'the message cannot be decoded as a {kind.__name__}'
-            raise Malformed(message) from error
+            raise
 
     def _submit(self, topic: str, convert: _Conversion, message: Any) -> None:
         """Submit the request of a message, or the refusal of the message."""

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Failed, Refusal
-from physsim_ros.ros.qos_safe_node import CALLS
+from physsim_ros.ros.topics import CALLS
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import finish, in_slices, Sliced, Slices
 from physsim_ros.simulation.entries import Wait

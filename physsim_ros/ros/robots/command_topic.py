@@ -10,15 +10,10 @@ Law: of commands that are refused for one reason in a row, the first is told.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any
 
-from physsim_ros.model.errors import Malformed
 from physsim_ros.model.requests import Request
-from rclpy.impl.implementation_singleton import rclpy_implementation
-from rclpy.serialization import deserialize_message
 
-# Bound of a message [bytes]: a trajectory of 1,000 points of 30 joints. rclpy takes seconds to
-# decode one of a million points.
+# Bound of a message [bytes]: a trajectory of 1,000 points of 30 joints.
 MOST_BYTES = 2**20
 
 # Commands in a row that are carried out before a refusal of a code that was told is told again:
@@ -52,20 +47,6 @@ class CommandTopic(ABC):
     @abstractmethod
     def close(self) -> None:
         """Unsubscribe."""
-
-    @staticmethod
-    def decoded(data: bytes, kind: type) -> Any:
-        """
-        Return a message of a type.
-
-        :raises Malformed: it is too large, or cannot be decoded
-        """
-        if len(data) > MOST_BYTES:
-            raise Malformed(f'a command has at most {MOST_BYTES / 2**10:g} KiB')
-        try:
-            return deserialize_message(data, kind)
-        except rclpy_implementation.RMWError as error:
-            raise Malformed(f'the message is not a {kind.__name__}') from error
 
     def note_refused(self, code: str) -> bool:
         """Note a refused command; return whether it is to be told: the first of its code."""

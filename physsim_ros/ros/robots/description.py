@@ -21,16 +21,14 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.robots import Link, Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
-from physsim_ros.model.transform import ORIGIN, Point, Pose, rotated
+from physsim_ros.model.transform import composed, ORIGIN, Point, Pose, rotated, seen_from
 from physsim_ros.ros.robots.frames import (
     BASE,
-    combined,
     FOOTPRINT,
     frame_of,
     mounting_of,
     origin_of,
     RobotFrames,
-    seen_from,
 )
 
 # Limit of a joint without one [m], which URDF needs.
@@ -104,8 +102,8 @@ def _join_link(urdf: ET.Element, frames: RobotFrames, robot: Robot, link: Link) 
     kind = _TYPES[above.kind]
     if kind == 'revolute' and None in limits:
         kind = 'continuous'
-    place = combined(link.at, (*origin_of(robot, link.name), 0.0))
-    parent = combined(robot.place_of(above.b), (*origin_of(robot, above.b), 0.0))
+    place = composed(link.at, (*origin_of(robot, link.name), 0.0))
+    parent = composed(robot.place_of(above.b), (*origin_of(robot, above.b), 0.0))
     joint = _add_joint(
         urdf,
         above.name,

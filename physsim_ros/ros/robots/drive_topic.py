@@ -6,8 +6,8 @@ Commands of a drive: `cmd_vel`, as `Twist`, as `TwistStamped`, or of a car as Ac
 
 The type is that of the publisher, as the graph has it. A process takes one type for a topic: where
 it has other nodes, nothing is subscribed to before a publisher is there. Of publishers of several
-types the newest is heard, as long as it speaks: one that died without a shutdown stays on the
-graph for some 20 s. Of what comes between two frames the last one counts.
+types that of the newest is subscribed to, as long as it publishes: one that died without a
+shutdown stays on the graph for some 20 s. Of what comes between two frames the last one counts.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Car, Drive
 from physsim_ros.model.transform import REST
 from physsim_ros.model.transform import Twist as Velocity
-from physsim_ros.ros.robots.command_topic import CommandTopic
-from rclpy.impl.implementation_singleton import rclpy_implementation
+from physsim_ros.ros.robots.command_topic import CommandTopic, MOST_BYTES
+from physsim_ros.ros.topics import decoded, of_one_type
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
@@ -37,13 +37,14 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 _TYPES = {'geometry_msgs/msg/Twist': Twist, 'geometry_msgs/msg/TwistStamped': TwistStamped}
 _ACKERMANN = 'ackermann_msgs/msg/AckermannDriveStamped'
 # Type and reliability of a subscription.
-_Heard = tuple[type, ReliabilityPolicy]
+_Subscribed = tuple[type, ReliabilityPolicy]
 # Of a burst the last ones count.
 _DEPTH = 10
-# Silence of the type that is heard after which another one is, where there are both [s]: twice the
-# timeout of the shipped drives, in which a command is due. It doubles with each change that brings
-# no command: on a busy machine a publisher takes seconds to find a new subscription.
-_SILENCE, _LONGEST_SILENCE = 1.0, 8.0
+# Time without a message of the subscribed type after which another type is subscribed to, where
+# there are both [s]: twice the timeout of the shipped drives, in which a command is due. It is
+# doubled by each change that brings no command: on a busy machine a publisher takes seconds to
+# find a new subscription.
+_TIMEOUT, _LONGEST_TIMEOUT = 1.0, 8.0
 
 
 class DriveTopic(CommandTopic):
@@ -54,7 +55,7 @@ class DriveTopic(CommandTopic):
     :param topic: of its commands, below its namespace
     :param body: its name
     :param drive: that obeys them
-    :param refuse: reports what publishers cannot be heard; takes the refusal and the topic
+    :param refuse: reports what publishers are ignored; takes the refusal and the topic
     :param expected: type that is subscribed to while nobody publishes; None is none
 
     :ivar velocity: of the last command [m/s, rad/s]
@@ -82,15 +83,15 @@ class DriveTopic(CommandTopic):
         if isinstance(drive, Car) and (ackermann := ackermann_type()) is not None:
             self._types[_ACKERMANN] = ackermann
         self._refuse = refuse
-        # Why some publishers are not heard; '' where all are.
-        self._deaf = ''
+        # Why some publishers are ignored; '' where none is.
+        self._ignored = ''
         # Whether the last command had a stamp of 0, which is none.
         self._unstamped = False
-        # Type that was chosen last, and steady time of that or of the last command [s].
-        self._kind: type | None = None
-        self._spoke = math.inf
-        # Silence after which the type changes [s].
-        self._silence = _SILENCE
+        # Type that was chosen last, and steady time of that or of the last message [s].
+        self._chosen: type | None = None
+        self._last_message_at = math.inf
+        # Time without a message after which the type changes [s].
+        self._timeout = _TIMEOUT
         # Identifiers of the publishers at the last look.
         self._known: set[bytes] = set()
         # Type and bytes of the last command.
@@ -100,14 +101,14 @@ class DriveTopic(CommandTopic):
         self._resolved = node.resolve_topic_name(topic)
         self._count: int | None = None
         # None while nothing is subscribed to.
-        self._heard: _Heard | None = None
+        self._subscribed: _Subscribed | None = None
         self._subscription: Subscription | None = None
         self.match_publishers()
 
     @property
     def is_awaited(self) -> bool:
         """Whether a publisher of commands that have stamps has not answered the last scan."""
-        stamped = self._heard is not None and self._heard[0] is not Twist
+        stamped = self._subscribed is not None and self._subscribed[0] is not Twist
         return stamped and not self._unstamped and self.awaited is not None
 
     @property
@@ -149,47 +150,47 @@ class DriveTopic(CommandTopic):
         :return: whether that is another subscription than before
         """
         count = self._count_publishers()
-        heard, deaf = self._choose(self._node.get_publishers_info_by_topic(self.topic))
-        changed = heard != self._heard
-        if heard is not None and heard[0] is not self._kind:
-            if self._kind is not None:
-                self._silence = min(2.0 * self._silence, _LONGEST_SILENCE)
-            self._kind, self._spoke = heard[0], monotonic()
+        wanted, ignored = self._choose(self._node.get_publishers_info_by_topic(self.topic))
+        changed = wanted != self._subscribed
+        if wanted is not None and wanted[0] is not self._chosen:
+            if self._chosen is not None:
+                self._timeout = min(2.0 * self._timeout, _LONGEST_TIMEOUT)
+            self._chosen, self._last_message_at = wanted[0], monotonic()
         if changed:
-            of_other_type = heard and self._heard and heard[0] is not self._heard[0]
+            of_other_type = wanted and self._subscribed and wanted[0] is not self._subscribed[0]
             self.close()
             # A process has one type for a topic: the executor drops the subscription only after
             # this, so that one of the other type is for the next look.
-            if heard is not None and not of_other_type and not self._subscribe(*heard):
-                deaf = f'{self.topic} is a topic of another type in this process'
-        if deaf and deaf != self._deaf:
-            self._refuse(BadProperty(deaf, field='cmd_vel'), self.topic)
-        self._deaf = deaf
-        self._count = count if self._heard == heard else None
+            if wanted is not None and not of_other_type:
+                ignored = self._subscribe(*wanted) or ignored
+        if ignored and ignored != self._ignored:
+            self._refuse(BadProperty(ignored, field='cmd_vel'), self.topic)
+        self._ignored = ignored
+        self._count = count if self._subscribed == wanted else None
         return changed
 
-    def _choose(self, publishers: Sequence[TopicEndpointInfo]) -> tuple[_Heard | None, str]:
-        """Return the subscription, and why some publishers are not heard; '' where all are."""
+    def _choose(self, publishers: Sequence[TopicEndpointInfo]) -> tuple[_Subscribed | None, str]:
+        """Return the subscription, and why some publishers are ignored; '' where none is."""
         names = {each.topic_type for each in publishers}
         types = [kind for name, kind in self._types.items() if name in names]
-        deaf = ''
-        if strange := sorted(names - self._types.keys()):
+        ignored = ''
+        if unknown := sorted(names - self._types.keys()):
             words = ' or '.join(kind.__name__ for kind in self._types.values())
-            deaf = f'{" and ".join(strange)} is published; {words} is heard'
+            ignored = f'{" and ".join(unknown)} is published; {words} is heard'
         reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         if not types:
-            return None if self._expected is None else (self._expected, reliable), deaf
+            return None if self._expected is None else (self._expected, reliable), ignored
         kind = self._choose_type(types, self._new_types(publishers))
         if len(types) > 1:
             words = ' and of '.join(sorted(each.__name__ for each in types))
-            deaf = f'publishers of {words} are there; the newest is heard, as long as it speaks'
-        # Best effort hears publishers of both reliabilities, and may lose a message.
+            ignored = f'publishers of {words} are there; the newest is heard, as long as it speaks'
+        # Best effort matches publishers of both reliabilities, and may lose a message.
         is_lossy = any(
             each.qos_profile.reliability == best_effort
             for each in publishers
             if each.topic_type in self._types
         )
-        return (kind, best_effort if is_lossy else reliable), deaf
+        return (kind, best_effort if is_lossy else reliable), ignored
 
     def _new_types(self, publishers: Sequence[TopicEndpointInfo]) -> set[type]:
         """Return the types of the publishers that have come since the last look."""
@@ -200,28 +201,29 @@ class DriveTopic(CommandTopic):
 
     def _choose_type(self, types: Sequence[type], new: set[type]) -> type:
         """
-        Return the type to hear: of a new publisher, else as before, else the next that may speak.
+        Return the type to subscribe to: of a new publisher, else as before, else the next one.
 
         :param types: that are published
         :param new: of the publishers that have come since the last look
         """
-        if self._kind not in types or (new and self._kind not in new):
+        if self._chosen not in types or (new and self._chosen not in new):
             return next((each for each in types if each in new), types[0])
-        silent = monotonic() > self._spoke + self._silence
-        return types[(types.index(self._kind) + silent) % len(types)]
+        is_over = monotonic() > self._last_message_at + self._timeout
+        return types[(types.index(self._chosen) + is_over) % len(types)]
 
-    def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> bool:
-        """Subscribe to messages of a type; return whether the middleware has let it."""
+    def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> str:
+        """Subscribe to messages of a type; return why that cannot be, '' where it can."""
         qos = QoSProfile(depth=_DEPTH, reliability=reliability)
         receive = partial(self._receive, kind)
         try:
-            self._subscription = self._node.create_subscription(
-                kind, self.topic, receive, qos, raw=True
-            )
-        except rclpy_implementation.RCLError:
-            return False
-        self._heard = kind, reliability
-        return True
+            with of_one_type(self.topic):
+                self._subscription = self._node.create_subscription(
+                    kind, self.topic, receive, qos, raw=True
+                )
+        except BadProperty as refusal:
+            return str(refusal)
+        self._subscribed = kind, reliability
+        return ''
 
     def take(self) -> DriveRobot | None:
         """
@@ -234,7 +236,7 @@ class DriveTopic(CommandTopic):
         if last is None:
             return None
         kind, data = last
-        message = self.decoded(data, kind)
+        message = decoded(data, kind, MOST_BYTES)
         request = DriveRobot(name=self._body, velocity=self._velocity_of(message))
         self.velocity = request.velocity
         return request
@@ -245,23 +247,23 @@ class DriveTopic(CommandTopic):
             twist = message if isinstance(message, Twist) else message.twist
             return twist.linear.x, twist.linear.y, twist.angular.z
         car, speed, angle = self._drive, message.drive.speed, message.drive.steering_angle
-        assert isinstance(car, Car)  # noqa: S101 - others do not hear it
+        assert isinstance(car, Car)  # noqa: S101 - others do not subscribe to it
         # A bicycle: the angle is that of a front wheel in the middle.
         angle = max(-car.steering, min(angle, car.steering)) if math.isfinite(angle) else angle
         return speed, 0.0, speed * math.tan(angle) / car.wheelbase
 
     def close(self) -> None:
         """Unsubscribe."""
-        self._heard, self._unstamped, self.awaited = None, False, None
+        self._subscribed, self._unstamped, self.awaited = None, False, None
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None
 
     def _receive(self, kind: type, data: bytes) -> None:
-        self._last, self._spoke, self._silence = (kind, data), monotonic(), _SILENCE
+        self._last, self._last_message_at, self._timeout = (kind, data), monotonic(), _TIMEOUT
         if kind is not Twist:
             with suppress(Malformed):
-                message = self.decoded(data, kind)
+                message = decoded(data, kind, MOST_BYTES)
                 stamp = Time.from_msg(message.header.stamp).nanoseconds
                 self._unstamped = stamp == 0
                 if self.awaited is not None and stamp >= self.awaited:

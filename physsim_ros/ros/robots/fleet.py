@@ -5,9 +5,8 @@
 The fleet: all robots of the world, whose topics come and go with their bodies.
 
 Laws: a command that comes while the past is shown is refused, so that a rewind repeats what was
-driven; with `lockstep` the world waits for the commands that answer a scan, so that a controller
-in another process acts at the same simulation time in every run. Topics of many robots that come
-or go at once take a second: they are made and taken back in slices, and time waits for them.
+driven. Topics of many robots that come or go at once take a second: they are made and taken back
+in slices, and time waits for them.
 """
 
 from __future__ import annotations
@@ -26,12 +25,13 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.model.transform import REST
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.frames import RobotTf
+from physsim_ros.ros.robots.lockstep import Lockstep
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
+from physsim_ros.ros.robots.timeout_notice import TimeoutNotice
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.past import Past
@@ -61,6 +61,7 @@ class Fleet:
 
     :ivar name: of the output
     :ivar robots: topics of each, by the name of its body, in the order of the scene
+    :ivar lockstep: the wait for commands that answer scans
     :ivar view: the last frame, as the sensors of all robots see it; None before the first
     """
 
@@ -77,6 +78,7 @@ class Fleet:
         expected: type | None = None,
     ) -> None:
         self.robots: dict[str, RobotTopics] = {}
+        self.lockstep = Lockstep(values, lambda: self._drive_topics)
         self.view: StampedView | None = None
         self._node = node
         self._values = values
@@ -91,12 +93,9 @@ class Fleet:
         self._lasers: dict[str, Any] = {}
         # Steady time of the next look at the graph [s].
         self._look_due = 0.0
-        # Steady time since which a command is waited for [s]; None is none.
-        self._waiting_since: float | None = None
         # Whether time went back at the last frame: messages are on their way that are of before.
         self._went_back = False
-        # Whether it was told that a robot has stopped as no command came.
-        self._has_told_timeout = False
+        self._timeout_notice = TimeoutNotice(values, self._tell_timeout)
 
     @property
     def is_read(self) -> bool:
@@ -172,36 +171,6 @@ class Fleet:
     def _refuse(self, body: str, refusal: Refusal, topic: str) -> None:
         self._requests.refuse(refusal, Origin(topic), subject=body, joined=True)
 
-    @property
-    def in_lockstep(self) -> bool:
-        """Whether time goes on by single publish periods, each of which robots may answer."""
-        return bool(self._values['lockstep'] and self.robots)
-
-    def waits(self) -> bool:
-        """
-        Return whether the world waits for commands that answer the last scans (`lockstep`).
-
-        Only robots whose commands are stamped are waited for, and no longer than `lockstep` by
-        the wall from the first time it is asked; then no answer to these scans is expected.
-        """
-        longest = self._values['lockstep']
-        if not longest or not any(topic.is_awaited for topic in self._drive_topics):
-            self._waiting_since = None
-            return False
-        now = time.monotonic()
-        if self._waiting_since is None:
-            self._waiting_since = now
-        if now < self._waiting_since + longest:
-            return True
-        self._expect_no_answers()
-        return False
-
-    def _expect_no_answers(self) -> None:
-        """End the wait for commands that answer the scans up to now."""
-        self._waiting_since = None
-        for topic in self._drive_topics:
-            topic.awaited = None
-
     # Frames
 
     def show(self, frame: Frame) -> None:
@@ -216,7 +185,7 @@ class Fleet:
         goes_back = before is not None and snapshot.stamp < before.stamp
         if frozen or goes_back:
             # The scan that was to be answered is of a time that is not shown.
-            self._expect_no_answers()
+            self.lockstep.expect_no_answers()
         self._match_scene(snapshot.scene)
         self._went_back |= goes_back
         if stands or frozen or not self.robots:
@@ -224,17 +193,16 @@ class Fleet:
         if self._went_back and not goes_back:
             self._send_again(frame, before)
             self._went_back = False
-        self._waiting_since = None
-        for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
+        self.lockstep.note_frame()
+        for row in snapshot.scene.robot_rows.tolist():
             robot = self.robots.get(snapshot.scene.names[row])
             with self._boundary.output('robots'):
                 if robot is None:
                     continue
-                scanned = robot.publish(view, row, number)
+                scanned = robot.publish(view, row)
                 if scanned is not None and robot.drive_topic is not None:
                     robot.drive_topic.expect_answer(scanned)
-            if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
-                self._tell_timeout(robot)
+                self._timeout_notice.tell_if_stopped(robot, view, row)
 
     def _send_again(self, frame: Frame, last: Snapshot | None) -> None:
         """Send the messages that were on their way at a snapshot from which time goes on again."""
@@ -244,29 +212,17 @@ class Fleet:
         step, stamp = frame.snapshot.step - last.step, frame.snapshot.stamp - last.stamp
         begin = last.step - math.ceil(longest * 1e9 * step / stamp)
         frames = self._past.frames.frames_after(begin - 1, last.step)
-        views: dict[str, list[tuple[StampedView, int, int]]] = {name: [] for name in self.robots}
+        views: dict[str, list[tuple[StampedView, int]]] = {name: [] for name in self.robots}
         for (before, _), (snapshot, contacts) in itertools.pairwise(frames):
             view = StampedView(replace(frame, snapshot=snapshot, contacts=contacts), before)
-            for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
-                views.get(snapshot.scene.names[row], []).append((view, row, number))
+            for row in snapshot.scene.robot_rows.tolist():
+                views.get(snapshot.scene.names[row], []).append((view, row))
         for name, robot in self.robots.items():
             with self._boundary.output('robots'):
                 robot.send_again(views[name], last.stamp)
 
-    def _tell_timeout(self, robot: RobotTopics) -> None:
-        """Tell once that a robot has stopped as no command came: people expect it to drive on."""
-        topic, drive = robot.drive_topic, robot.robot.drive
-        if topic is None or drive is None or topic.velocity == REST:
-            return
-        self._has_told_timeout = True
-        asked = self._values['drive_timeout']
-        timeout = drive.timeout if asked < 0.0 else asked
-        message = (
-            f'{robot.body} has stopped: no command has come for {timeout:g} s, the timeout of its '
-            'drive. Publish commands again and again, or set the parameter drive_timeout to 0'
-        )
-        self._node.get_logger().warning(message)
-        answer = Answer(topic=topic.topic, subject=robot.body, message=message)
+    def _tell_timeout(self, answer: Answer) -> None:
+        self._node.get_logger().warning(answer.message)
         self._requests.tell(answer)
 
     def update_topics(self, is_overdue: Callable[[], bool] = lambda: False) -> bool:
@@ -324,16 +280,3 @@ class Fleet:
             lasers=self._lasers,
             expected=self._expected,
         )
-
-
-def _has_stopped(view: StampedView, number: int) -> bool:
-    """
-    Return whether the command of a robot has ended since the frame before.
-
-    :param number: of the robot among those of the scene
-    """
-    now, before = view.snapshot, view.before
-    if before is None or before.scene is not now.scene:
-        return False
-    until = int(now.robots['until'][number])
-    return before.step < until <= now.step

@@ -20,7 +20,7 @@ from geometry_msgs.msg import Transform, TransformStamped, Vector3
 from physsim_ros.model.robots import BASE as ROBOT_BASE
 from physsim_ros.model.robots import part_name, Robot, Sensor
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, world_to_local
+from physsim_ros.model.transform import composed, ORIGIN, Point, Pose, seen_from, world_to_local
 from physsim_ros.ros.planar import rotation_of
 
 ODOM, FOOTPRINT, BASE = 'odom', 'base_footprint', 'base_link'
@@ -91,7 +91,7 @@ class RobotFrames:
             if all(end in rows for end in ends):
                 poses = (snapshot.poses[rows[end]].tolist() for end in ends)
                 origin, place = (
-                    combined((x, y, yaw), (*origin_of(robot, each), 0.0))
+                    composed((x, y, yaw), (*origin_of(robot, each), 0.0))
                     for (x, y, yaw), each in zip(poses, (above, link.name), strict=True)
                 )
                 pose = seen_from(origin, place)
@@ -131,13 +131,3 @@ def mounting_of(robot: Robot, sensor: Sensor) -> Pose:
     """Return the pose of a sensor in the frame of its link."""
     x, y = origin_of(robot, sensor.link)
     return sensor.at[0] - x, sensor.at[1] - y, sensor.at[2]
-
-
-def combined(pose: Pose, inner: Pose) -> Pose:
-    """Return a pose in a frame that has a pose itself."""
-    return *local_to_world(inner[:2], pose), pose[2] + inner[2]
-
-
-def seen_from(pose: Pose, other: Pose) -> Pose:
-    """Return another pose as seen from a pose."""
-    return *world_to_local(other[:2], pose), other[2] - pose[2]

@@ -32,9 +32,8 @@ from physsim_ros.model.robots.sensors import (
     WheelEncoders,
 )
 from physsim_ros.model.states import Covariance
-from physsim_ros.model.transform import Pose
 from physsim_ros.ros.planar import pose_message, rotation_of
-from physsim_ros.sensing import read_battery, read_sensor, View
+from physsim_ros.sensing import OdometryReading, read_battery, read_sensor, View
 from rclpy.time import Time
 from sensor_msgs.msg import (
     BatteryState,
@@ -76,8 +75,7 @@ class StampedView(View):
 
 def odometry_message(
     view: StampedView,
-    pose: Pose,
-    twist: Pose,
+    motion: OdometryReading,
     *,
     parent: str,
     child: str,
@@ -86,15 +84,14 @@ def odometry_message(
     """
     Return a pose and the twist there.
 
-    :param pose: x, y [m], yaw [rad] in the parent frame
-    :param twist: vx, vy [m/s], turn [rad/s] in the child frame
+    :param motion: the pose in the parent frame, the twist in the child frame
     :param covariances: of the pose in the parent frame, of the twist in the child frame
     """
     message = Odometry(child_frame_id=child)
     message.header.stamp, message.header.frame_id = view.stamp, parent
-    message.pose.pose = pose_message(pose)
+    message.pose.pose = pose_message(motion.pose)
     message.pose.covariance, message.twist.covariance = map(_covariance, covariances)
-    vx, vy, turn = twist
+    vx, vy, turn = motion.twist
     message.twist.twist.linear = Vector3(x=vx, y=vy)
     message.twist.twist.angular.z = turn
     return message

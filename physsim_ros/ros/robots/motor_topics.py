@@ -22,9 +22,9 @@ from physsim_ros.model.errors import BadProperty, Malformed, no_joint, Refusal
 from physsim_ros.model.motor_command import CommandPoint, MODES, MotorCommand
 from physsim_ros.model.requests import CommandMotors
 from physsim_ros.model.robots import part_name, Robot
-from physsim_ros.ros.robots.command_topic import CommandTopic
+from physsim_ros.ros.robots.command_topic import CommandTopic, MOST_BYTES
+from physsim_ros.ros.topics import decoded, of_one_type
 from rclpy.duration import Duration
-from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
@@ -63,7 +63,7 @@ class MotorTopic(CommandTopic):
         data, self._last = self._last, None
         if data is None:
             return None
-        commands = self._commands(self.decoded(data, self._kind))
+        commands = self._commands(decoded(data, self._kind, MOST_BYTES))
         return CommandMotors(commands=tuple(commands))
 
     def close(self) -> None:
@@ -103,10 +103,10 @@ def motor_topics(
     for name, (kind, convert) in kinds.items():
         topic = f'{below}{name}'
         try:
-            topics.append(MotorTopic(node, topic, kind, convert))
-        except rclpy_implementation.RCLError:
-            message = f'{topic} is a topic of another type already'
-            refuse(BadProperty(message, field='name'), topic)
+            with of_one_type(topic):
+                topics.append(MotorTopic(node, topic, kind, convert))
+        except BadProperty as refusal:
+            refuse(refusal, topic)
     return topics
 
 

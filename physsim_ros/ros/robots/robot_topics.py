@@ -15,7 +15,6 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-import math
 from typing import Any
 
 from builtin_interfaces.msg import Time
@@ -46,8 +45,8 @@ from physsim_ros.ros.robots.messages import (
     StampedView,
 )
 from physsim_ros.ros.robots.motor_topics import motor_topics
-from physsim_ros.sensing import is_due, true_motion
-from rclpy.impl.implementation_singleton import rclpy_implementation
+from physsim_ros.ros.topics import of_one_type
+from physsim_ros.sensing import is_due, odometry_covariances, read_odometry, true_motion
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -61,8 +60,7 @@ class _Topic:
     A topic of a robot that is published at frames, while it is read.
 
     :ivar publisher: of the topic
-    :ivar message: makes its message, of a view, the row of the robot's body in the scene, and the
-        number of the robot among those of the scene
+    :ivar message: makes its message, of a view and the row of the robot's body in the scene
     :ivar name: that sets the moments of its rate, and the latencies of its messages
     :ivar rate: [Hz]; None is each frame
     :ivar latency: least and greatest time from the frame of a message to its arrival [s]
@@ -72,7 +70,7 @@ class _Topic:
     """
 
     publisher: Publisher
-    message: Callable[[StampedView, int, int], Any]
+    message: Callable[[StampedView, int], Any]
     name: str
     rate: float | None = None
     latency: Point = (0.0, 0.0)
@@ -217,7 +215,7 @@ class RobotTopics:
         self,
         kind: type,
         name: str,
-        message: Callable[[StampedView, int, int], Any],
+        message: Callable[[StampedView, int], Any],
         *,
         rate: float | None = None,
         latency: Point = (0.0, 0.0),
@@ -250,11 +248,10 @@ class RobotTopics:
         qos = QoSProfile(depth=depth, durability=durability)
         topic = (self._below if below is None else below) + topic
         try:
-            publisher = self._node.create_publisher(kind, topic, qos)
-        except rclpy_implementation.RCLError:
-            # Within a process a topic has one type.
-            message = f'{topic} is a topic of another type already'
-            self._refuse(BadProperty(message, field='name'), topic)
+            with of_one_type(topic):
+                publisher = self._node.create_publisher(kind, topic, qos)
+        except BadProperty as refusal:
+            self._refuse(refusal, topic)
             return None
         self._publishers.append(publisher)
         return publisher
@@ -288,7 +285,7 @@ class RobotTopics:
         """Return the longest time that a message that is read can be on its way [s]."""
         return max((each.latency[1] for each in self._topics if each.is_read), default=0.0)
 
-    def publish(self, view: StampedView, row: int, number: int) -> int | None:
+    def publish(self, view: StampedView, row: int) -> int | None:
         """
         Publish what arrives at a frame and has subscribers.
 
@@ -296,7 +293,6 @@ class RobotTopics:
 
         :param view: of the frame
         :param row: of the robot's body in the scene
-        :param number: of the robot among those of the scene
         :return: stamp of the last scan of the first laser with subscribers [ns], which is the one
             that a controller answers: others may be heard by a recording alone; None without one
         """
@@ -311,7 +307,7 @@ class RobotTopics:
             if first is None and isinstance(topic.sensor, Laser):
                 first = topic
             if self._is_due(topic, view):
-                message = topic.message(view, row, number)
+                message = topic.message(view, row)
                 if goes_back:
                     topic.publisher.publish(message)
                 else:
@@ -321,7 +317,7 @@ class RobotTopics:
                 scanned = stamp if topic is first else scanned
         return scanned
 
-    def send_again(self, views: Sequence[tuple[StampedView, int, int]], now: int) -> None:
+    def send_again(self, views: Sequence[tuple[StampedView, int]], now: int) -> None:
         """
         Send the messages that were on their way at a stamp, after a jump to it.
 
@@ -331,59 +327,46 @@ class RobotTopics:
         late = [each for each in self._topics if each.latency[1] > 0.0 and each.is_read]
         for topic in late:
             topic.coming.clear()
-            for view, row, number in views:
+            for view, row in views:
                 if self._is_due(topic, view):
-                    topic.send(topic.message(view, row, number), view)
+                    topic.send(topic.message(view, row), view)
             topic.arrived(now)
 
-    def _transforms(self, kind: type, view: StampedView, _: int, number: int) -> Any:
+    def _transforms(self, kind: type, view: StampedView, row: int) -> Any:
         """Return the message of the transforms that move."""
         transforms = self._frames.of_links(view.stamp, view.snapshot, self.body, self.robot)
         if self.robot.drive is not None:
-            odometry = tuple(view.snapshot.robots['odometry'][number].tolist())
-            transforms = [self._frames.moving(view.stamp, odometry), *transforms]
+            pose = read_odometry(view.snapshot, row).pose
+            transforms = [self._frames.moving(view.stamp, pose), *transforms]
         return kind(transforms=transforms)
 
-    def odometry(self, view: StampedView, _: int, number: int) -> Odometry:
+    def odometry(self, view: StampedView, row: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
-        states = view.snapshot.robots
-        ahead, aside, turn = states['wheels'][number].tolist()
-        way, heading = (deviation**2 for deviation in self.robot.odometry.slip)
-        # Drifts are random walks along the path. That of the twist is their mean rate from one
-        # message to the next: of the velocity along it, none across.
-        speed, rate = math.hypot(ahead, aside), self.robot.odometry.rate
-        share = way * rate / speed if speed > 0.0 else 0.0
-        along = ahead * ahead * share, ahead * aside * share, aside * aside * share
-        of_turn = heading * (speed + abs(turn)) * rate
         return odometry_message(
             view,
-            tuple(states['odometry'][number].tolist()),
-            (ahead, aside, turn),
+            read_odometry(view.snapshot, row),
             parent=self._frames.name(ODOM),
             child=self._frames.name(FOOTPRINT),
-            covariances=(
-                tuple(states['covariance'][number].tolist()),
-                (*along, 0.0, 0.0, of_turn),
-            ),
+            covariances=odometry_covariances(view.snapshot, row),
         )
 
-    def truth(self, view: StampedView, row: int, _: int = 0) -> Odometry:
+    def truth(self, view: StampedView, row: int) -> Odometry:
         """Return where the robot is, and how it moves."""
         return odometry_message(
             view,
-            *true_motion(view.snapshot, row),
+            true_motion(view.snapshot, row),
             parent=self._world_frame,
             child=self._frames.name(BASE),
             covariances=(SPAWNED.covariance, SPAWNED.covariance),
         )
 
-    def _battery(self, battery: Battery, view: StampedView, row: int, _: int) -> BatteryState:
+    def _battery(self, battery: Battery, view: StampedView, row: int) -> BatteryState:
         """Return the state of the battery."""
         message = battery_message(view, row, battery)
         message.header.frame_id = self._frames.name(BASE)
         return message
 
-    def reading(self, sensor: Sensor, view: StampedView, row: int, _: int = 0) -> Any:
+    def reading(self, sensor: Sensor, view: StampedView, row: int) -> Any:
         """Return the message of a sensor of it."""
         reading = READINGS[type(sensor)]
         message = reading.message(view, row, self._lasers.get(sensor.name, sensor))

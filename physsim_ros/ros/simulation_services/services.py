@@ -12,7 +12,6 @@ from typing import Any
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.qos_safe_node import CALLS
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
 from physsim_ros.ros.simulation_services.named_poses import NamedPoses
@@ -20,6 +19,7 @@ from physsim_ros.ros.simulation_services.results import CodedRefusal, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import Worlds
+from physsim_ros.ros.topics import CALLS
 from physsim_ros.runtime.slices import in_slices, Slices
 from physsim_ros.simulation.entries import Wait
 from rclpy.action import ActionServer

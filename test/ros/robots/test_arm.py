@@ -10,7 +10,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 from builtin_interfaces.msg import Duration
-from physsim_ros.ros.robots import command_topic
+from physsim_ros.ros import topics
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.serialization import deserialize_message
@@ -163,7 +163,7 @@ def test_a_trajectory_of_megabytes_is_refused_before_it_is_decoded(
         decoded.append(len(data))
         return deserialize_message(data, kind)
 
-    monkeypatch.setattr(command_topic, 'deserialize_message', decode)
+    monkeypatch.setattr(topics, 'deserialize_message', decode)
     points = [JointTrajectoryPoint(positions=[0.0] * 1000) for _ in range(200)]
     topic = 'joint_trajectory_controller/joint_trajectory'
     arm.send(topic, JointTrajectory(joint_names=JOINTS, points=points))

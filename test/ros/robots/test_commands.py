@@ -16,9 +16,10 @@ import sys
 from typing import Any, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
+from physsim_ros.ros import topics
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.robots import command_topic, drive_topic
+from physsim_ros.ros.topics import LOSSLESS
 from physsim_ros.testing import PhysSim, shared_context
 import pytest
 from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -145,7 +146,7 @@ def test_a_command_of_a_megabyte_is_refused_before_it_is_decoded(
     flat.step(2)
     client.events.clear()
     with monkeypatch.context() as patched:
-        patched.setattr(command_topic, 'deserialize_message', lambda *_: pytest.fail('decoded'))
+        patched.setattr(topics, 'deserialize_message', lambda *_: pytest.fail('decoded'))
         long = TwistStamped()
         long.header.frame_id = 'x' * command_topic.MOST_BYTES
         driver.publisher.publish(long)

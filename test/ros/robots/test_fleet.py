@@ -145,7 +145,7 @@ def test_topics_go_with_the_robot_and_come_back_with_undo(flat: PhysSim, client:
     client.spin_until(lambda: not node.count_publishers('/robot_0/scan'))
     assert not flat.node.fleet.robots
     flat.node.simulation.undo()
-    flat.node.apply_requests()
+    flat.node.loop.apply_requests()
     client.spin_until(lambda: node.count_publishers('/robot_0/scan'))
     robot.drive(0.1)
     flat.run(0.5)

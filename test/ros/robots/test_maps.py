@@ -24,7 +24,7 @@ def test_occupied_cells_become_walls_in_place_of_earlier_ones(
     assert physsim.pose('walls/0')[:2] == pytest.approx((0.75, 0.75))
     # One message is undone at once.
     physsim.node.simulation.undo()
-    physsim.node.apply_requests()
+    physsim.node.loop.apply_requests()
     assert physsim.names == ('walls/0', 'walls/1')
 
 

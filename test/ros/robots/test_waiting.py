@@ -9,7 +9,7 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TwistStamped
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
-from physsim_ros.ros.robots import Fleet
+from physsim_ros.ros.robots.lockstep import Lockstep
 from physsim_ros.simulation.entries import Origin, TakeBack
 from physsim_ros.testing import PhysSim
 import pytest
@@ -70,15 +70,15 @@ def test_a_controller_is_not_waited_for_with_a_scan_from_before_it_came(
     assert scans
     driver = Driver(flat.context, kind=TwistStamped, looks=False)
     flat.add(driver)
-    assert not flat.node.fleet.waits()
+    assert not flat.node.fleet.lockstep.waits()
     count = len(scans)
     while len(scans) == count:
-        flat.node.advance_frame()
+        flat.node.loop.advance_frame()
         flat.settle()
-    assert flat.node.fleet.waits()
+    assert flat.node.fleet.lockstep.waits()
     driver.send(0.2, stamp=scans[-1].header.stamp)
     flat.settle()
-    assert not flat.node.fleet.waits()
+    assert not flat.node.fleet.lockstep.waits()
 
 
 @pytest.fixture
@@ -90,31 +90,31 @@ def waiting(flat: PhysSim) -> PhysSim:
     flat.add(driver)
     flat.run(1.0)
     set_parameter(flat, 'lockstep', 1e3)
-    assert flat.node.fleet.waits()
+    assert flat.node.fleet.lockstep.waits()
     return flat
 
 
 def test_a_frozen_past_does_not_wait_for_an_answer(waiting: PhysSim) -> None:
     set_parameter(waiting, 'robots_in_past', 'freeze')
     waiting.rewind(0.5)
-    assert not waiting.node.fleet.waits()
+    assert not waiting.node.fleet.lockstep.waits()
     waiting.run(0.4)
-    assert not waiting.node.fleet.waits()
+    assert not waiting.node.fleet.lockstep.waits()
 
 
 def test_each_scan_is_waited_for_once(waiting: PhysSim) -> None:
     # The wait of 1,000 s becomes a short one, which ends.
     set_parameter(waiting, 'lockstep', 1e-6)
-    waiting.wait_until(lambda: not waiting.node.fleet.waits())
+    waiting.wait_until(lambda: not waiting.node.fleet.lockstep.waits())
     set_parameter(waiting, 'lockstep', 1e3)
-    assert not waiting.node.fleet.waits()
+    assert not waiting.node.fleet.lockstep.waits()
     # A frame without a scan.
     waiting.step()
-    assert not waiting.node.fleet.waits()
+    assert not waiting.node.fleet.lockstep.waits()
     set_parameter(waiting, 'lockstep', 0.0)
     waiting.run(0.2)
     set_parameter(waiting, 'lockstep', 1e3)
-    assert waiting.node.fleet.waits()
+    assert waiting.node.fleet.lockstep.waits()
 
 
 def test_a_past_that_is_simulated_again_is_no_row_of_frames_for_controllers(
@@ -124,7 +124,7 @@ def test_a_past_that_is_simulated_again_is_no_row_of_frames_for_controllers(
     spawn = Spawn(name='a/0', shape=Disc(radius=0.1))
     simulation.requests.submit(spawn, Origin('~/spawn', author='Anna'))
     flat.run(10.0)
-    monkeypatch.setattr(Fleet, 'in_lockstep', True)
+    monkeypatch.setattr(Lockstep, 'is_on', True)
     simulation.requests.submit(TakeBack(), Origin('~/undo', author='Anna'))
     ticks = 0
     while simulation.past.cursor.is_amending or len(simulation.world):
@@ -149,7 +149,7 @@ def test_a_service_that_takes_a_scan_or_its_robot_away_ends_the_wait(
     assert client.call(f'~/{service}').success
     waiting.node.tick(SECOND // 60)
     assert waiting.names == ()
-    assert not waiting.node.fleet.waits()
+    assert not waiting.node.fleet.lockstep.waits()
     waiting.node.tick(2 * SECOND // 60)
     waiting.node.tick(3 * SECOND // 60)
     assert waiting.time == pytest.approx(1.0 * (service == 'clear'), abs=0.1)
@@ -159,8 +159,8 @@ def test_commands_without_a_stamp_are_not_waited_for(waiting: PhysSim) -> None:
     sender = Driver(waiting.context, kind=TwistStamped, looks=False)
     sender.send(0.1)
     waiting.settle()
-    assert not waiting.node.fleet.waits()
+    assert not waiting.node.fleet.lockstep.waits()
     waiting.run(1.0)
     sender.send(0.1, stamp=Time(nanosec=1))
     waiting.settle()
-    assert waiting.node.fleet.waits()
+    assert waiting.node.fleet.lockstep.waits()

@@ -11,7 +11,7 @@ from typing import Any
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.ros import frame_loop
-from physsim_ros.ros.qos_safe_node import CALLS
+from physsim_ros.ros.topics import CALLS
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rclpy.action import ActionClient
@@ -48,7 +48,7 @@ def simulate_steps(caller: Caller, steps: int) -> tuple[Any, list[tuple[int, int
 
     def is_done() -> bool:
         # The turn of the goal comes.
-        caller.physsim.node.apply_requests()
+        caller.physsim.node.loop.apply_requests()
         return bool(answered.done())
 
     caller.client.spin_until(is_done)
@@ -176,7 +176,7 @@ def test_a_step_is_made_when_it_is_told_though_a_request_waits_behind_it(
     caller.physsim.settle()
     assert not stepped.done()
     world.requests.submit(Spawn(name='a/0', shape=Disc(radius=0.5), pose=(0.0, 3.0, 0.0)))
-    caller.physsim.node.apply_requests()
+    caller.physsim.node.loop.apply_requests()
     caller.client.spin_until(stepped.done)
     assert stepped.result().result.result == OK
     assert world.step == 31 * world.frame_steps
