@@ -4,13 +4,11 @@
 """
 Cut shapes: the pieces of a shape that is cut from one point to another.
 
-A solid is the outlines of its parts: a disc, a rectangle or a polygon has one, triangles and
-compounds have several. A chord between two points where the cut crosses an outline splits it in
-two. This works for outlines that are not convex, whose pieces clipping by a half plane (Sutherland
-and Hodgman 1974) would leave connected by edges of no width. Parts that touch stay one piece,
-unless they touch only along the cut. Parts of a compound that touch no part which is cut stay on
-the largest piece. A chain is cut across its line, and loses half its thickness on either side, so
-that the round ends of the pieces do not overlap.
+A solid is the outlines of its parts, each cut by itself (`cut_outline`): a disc, a rectangle or a
+polygon has one, triangles and compounds have several. Parts that touch (`separating_axes`) stay
+one piece, unless they touch only along the cut. Parts of a compound that touch no part which is
+cut stay on the largest piece. A chain is cut across its line, and loses half its thickness on
+either side, so that the round ends of the pieces do not overlap.
 
 Law: the areas and the places of all pieces are those of the shape, those of discs to 1e-4, but for
 what a chain loses.
@@ -23,6 +21,7 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.cut_outline import across, cut_outline, ON_LINE
 from physsim_ros.drawing.geometry import connected
 from physsim_ros.drawing.separating_axes import touching
 from physsim_ros.model.arrays import Flags, Floats
@@ -43,9 +42,6 @@ from physsim_ros.model.transform import cross, dots, next_vertices, norms, Point
 
 # Corners of the polygon that a disc is cut as: its rim is off by 0.3 % of the radius.
 _CORNERS = 32
-# Distance of a corner from the line below which it lies on the line [m]; `distinct_points` takes
-# points as near as that for one.
-_ON_LINE = 1e-6
 # Share of the area of a body below which a piece is the rounding of a touch.
 _ROUNDING = 1e-9
 # Greatest number of pieces of a cut, each of which is read and made in a millisecond or two.
@@ -98,7 +94,7 @@ def _cut_solid(
     # For each piece the part that it is of.
     owners: list[int] = []
     for number, part in enumerate(parts):
-        cut = [each for each in split(part, start, end) if abs(signed_area(each)) > least]
+        cut = [each for each in cut_outline(part, start, end) if abs(signed_area(each)) > least]
         pieces += cut if len(cut) > 1 else [part]
         owners += [number] * max(len(cut), 1)
     if len(parts) == 1:
@@ -114,68 +110,6 @@ def _cut_solid(
         else _triangles([pieces[it] for it in body])
         for body in bodies
     ]
-
-
-def split(outline: Floats, start: Floats, end: Floats) -> list[Floats]:
-    """
-    Return the pieces of a simple outline that is cut from one point to another.
-
-    :param outline: (n, 2) float64: the vertices in order, in either orientation
-    :param start: (2,) float64: of the cut, outside
-    :param end: (2,) float64: of it, outside
-    :return: (m, 2) float64 each; none where the cut does not pass through
-    """
-    across, length = _across(outline, start, end), math.dist(start, end)
-    points: list[Floats] = []
-    # Crossings of the line and the edges: distances from the start, and numbers in `points`.
-    crossings: list[tuple[float, int]] = []
-    for corner, (here, after) in enumerate(zip(across, np.roll(across, -1), strict=True)):
-        points.append(outline[corner])
-        if (here >= 0.0) != (after >= 0.0):
-            following = outline[(corner + 1) % len(outline)]
-            point = outline[corner] + (following - outline[corner]) * (here / (here - after))
-            crossings.append((float(dots(point - start, end - start)) / length, len(points)))
-            points.append(point)
-    crossings.sort()
-    partners: dict[int, int] = {}
-    # From the first crossing to the second the line is within, and so on.
-    for (first, a), (second, b) in zip(crossings[::2], crossings[1::2], strict=True):
-        if first >= 0.0 and second <= length:
-            partners |= {a: b, b: a}
-    return [np.array([points[each] for each in walk]) for walk in _walks(len(points), partners)]
-
-
-def _walks(count: int, partners: dict[int, int]) -> Iterator[list[int]]:
-    """
-    Yield the numbers of the points of each piece: along the outline, and over each chord met.
-
-    :param count: of the points of the outline
-    :param partners: the two ends of each chord
-    """
-    left = set(partners)
-    while left:
-        first = at = min(left)
-        walk = []
-        while True:
-            left.discard(at)
-            walk.append(at)
-            at = (at + 1) % count
-            while at not in partners:
-                walk.append(at)
-                at = (at + 1) % count
-            walk.append(at)
-            at = partners[at]
-            if at == first:
-                break
-        yield walk
-
-
-def _across(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Return the distances of points to the left of a line [m]; 0 for those on it."""
-    along = (end - start) / math.dist(start, end)
-    across = cross(np.broadcast_to(along, points.shape), points - start)
-    across[np.abs(across) < _ON_LINE] = 0.0
-    return across
 
 
 def _outlines(shape: Disc | Box | Polygon | Triangles | Compound) -> list[Floats]:
@@ -226,18 +160,18 @@ def _kept_together(
 def _joined(pieces: list[Floats], start: Floats, end: Floats) -> Flags:
     """Return which convex pieces touch elsewhere than along a cut, (n, n) bool."""
     joined = touching(pieces)
-    across = [_across(each, start, end) for each in pieces]
-    left = np.array([each.min() >= 0.0 for each in across])
-    right = np.array([each.max() <= 0.0 for each in across])
+    sides = [across(each, start, end) for each in pieces]
+    left = np.array([each.min() >= 0.0 for each in sides])
+    right = np.array([each.max() <= 0.0 for each in sides])
     length = math.dist(start, end)
     # The corners of each on the line of the cut, as distances from its start: first and last.
     along = [dots(each - start, (end - start) / length) for each in pieces]
-    spans = [each[there == 0.0] for each, there in zip(along, across, strict=True)]
+    spans = [each[there == 0.0] for each, there in zip(along, sides, strict=True)]
     first, last = (
         np.array([f(each) if len(each) else np.nan for each in spans]) for f in (min, max)
     )
     begin, stop = np.maximum(first[:, None], first), np.minimum(last[:, None], last)
-    beside = (begin < -_ON_LINE) | (stop > length + _ON_LINE)
+    beside = (begin < -ON_LINE) | (stop > length + ON_LINE)
     apart = left[:, None] & right & ~beside
     joined[apart | apart.T] = False
     return joined
@@ -282,10 +216,10 @@ def _cut_chain(chain: Chain, start: Floats, end: Floats) -> Iterator[Chain]:
     points = np.array(chain.points)
     radius = chain.thickness / 2
     length = np.concatenate(((0.0,), norms(np.diff(points, axis=0)).cumsum()))
-    across = cross(np.broadcast_to(end - start, points.shape), points - start)
+    beside = cross(np.broadcast_to(end - start, points.shape), points - start)
     bounds = [0.0]
-    for number in np.flatnonzero((across[:-1] >= 0.0) != (across[1:] >= 0.0)).tolist():
-        share = across[number] / (across[number] - across[number + 1])
+    for number in np.flatnonzero((beside[:-1] >= 0.0) != (beside[1:] >= 0.0)).tolist():
+        share = beside[number] / (beside[number] - beside[number + 1])
         side = points[number + 1] - points[number]
         at = points[number] + share * side
         # From where the cut enters the chain to where it leaves it.

@@ -9,20 +9,18 @@ Law: queries read a snapshot, past or present, and need neither engine nor clock
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
 from functools import cached_property
-from itertools import count, islice
+from itertools import count
 import math
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadProperty, no_frame
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import Join
+from physsim_ros.model.names import split_name
 from physsim_ros.model.robots import part_name, whole_of
-from physsim_ros.model.scene import Body, Joint, seat_of
+from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import (
     contain_each,
@@ -36,10 +34,8 @@ from physsim_ros.model.transform import (
     dots,
     local_to_world,
     norms,
-    ORIGIN,
     Point,
     Pose,
-    REST,
     rotated_each,
     Twist,
     world_to_local,
@@ -237,52 +233,6 @@ class SceneQuery:
         if frame not in self._rows:
             raise no_frame(frame, self._rows)
         return self.in_world(frame, point)
-
-    def with_body(
-        self, body: Body, pose: Pose, *, without: Collection[str] = (), joints: int = 0
-    ) -> SceneQuery:
-        """
-        Return queries on a snapshot with one more body at rest, and without some others.
-
-        :param without: names of bodies that have no joints
-        :param joints: number of drawn joints of which the names are taken
-        """
-        snapshot, scene = self.snapshot, self.snapshot.scene
-        rows = [row for row, name in enumerate(self.names) if name not in without]
-        bodies = *(scene.bodies[row] for row in rows), body
-        changed = replace(
-            snapshot,
-            scene=replace(scene, bodies=bodies),
-            poses=np.vstack((snapshot.poses[rows], pose)),
-            twists=np.vstack((snapshot.twists[rows], REST)),
-        )
-        _, free = split_name(next(islice(self.new_joints(), joints, None)))
-        return SceneQuery(changed, first=self._first, first_joint=free)
-
-    def with_axles(self, axles: Iterable[Join]) -> SceneQuery:
-        """
-        Return queries on a snapshot with more axles.
-
-        :param axles: with the names of their bodies, in the frame of the world
-        """
-        scene = self.snapshot.scene
-        joints = *scene.joints, *map(self._axle, axles)
-        changed = replace(self.snapshot, scene=replace(scene, joints=joints))
-        return SceneQuery(changed, first=self._first, first_joint=self._first_joint)
-
-    def _axle(self, request: Join) -> Joint:
-        """Return the description of an axle."""
-        pose_a, pose_b = (
-            ORIGIN if name == WORLD else self.pose(name) for name in (request.a, request.b)
-        )
-        return Joint(
-            name=request.name,
-            kind=request.kind,
-            a=request.a,
-            b=request.b,
-            seat=seat_of(request.kind, request.points, pose_a, pose_b, 0.0),
-            properties=request.properties,
-        )
 
     def gravity_strength(self) -> float:
         """

@@ -126,7 +126,6 @@ class DrawingSession:
         :raises Refusal: it is not recognised, or cannot be drawn
         """
         scene = self._query(snapshot)
-        self.preview = NO_PREVIEW
         drawn = resample_stroke(_in_world(samples, frame, scene))
         stroke = Figure.read(
             classification_of(drawn),
@@ -141,14 +140,13 @@ class DrawingSession:
         sketch = self._sketch.with_stroke(stroke, self.settings, self._clock)
         figure = sketch.figures[-1]
         if figure.chosen is None:
-            self._sketch = sketch
-            self.preview = _unrecognised_preview(drawn.points)
+            self._sketch, self.preview = sketch, _unrecognised_preview(drawn.points)
             raise not_recognised(figure.guesses)
         try:
             built, reading = sketch.built(figure.chosen, self.settings)
         except Refusal:
             # A sign over nothing waits for what it is to change.
-            self._sketch = sketch
+            self._sketch, self.preview = sketch, NO_PREVIEW
             raise
         return self._keep(built, reading, check)
 

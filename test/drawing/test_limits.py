@@ -150,7 +150,7 @@ LIMITS: dict[
 # Numbers of points between which results do not differ, rounding, work, and looks.
 RESOLUTION = {
     'chains._FINE', 'chains._STEEL', 'separating_axes._AT_ONCE', 'cut_shape._CORNERS',
-    'cut_shape._ON_LINE', 'cut_shape._ROUNDING', 'knife._SAME_AREA', 'gesture._SIDES',
+    'cut_outline.ON_LINE', 'cut_shape._ROUNDING', 'knife._SAME_AREA', 'gesture._SIDES',
 }  # fmt: skip
 # Those of the geometry are tested with the strokes.
 CONSTANTS = constants(set(FOLDER.glob('*.py')) - {FOLDER / 'geometry.py'})

@@ -292,6 +292,10 @@ IN_ANY_ORDER: dict[str, tuple[Sequence[Way | Floats], str]] = {
     'hinge': ([BOARD, at(2.5, 0.0, BOARD), at(1.25, 0.0, 0.1 * OVAL)], 'Box Box, axle Box Box'),
     'weld': ([BOARD, at(2.5, 0.0, BOARD), square(1.25, 0.0, 0.1)], 'Box Box, pin Box Box'),
     'car': (CAR, 'Box Disc Disc, axle Box Disc, axle Box Disc'),
+    'motor, axle and rod of a plate': (
+        [round_arrow(0.0, 0.0, 1.0, 4.0), 0.12 * OVAL, [(3, 4), (1.8, 0.1)], BOARD * (1.4, 2.5)],
+        'Box, axle Box world, motor Box world, rod Box world',
+    ),
     'body and x': ([BOARD * (1.0, 4.0), X], 'Box!'),
     'body and x of two lines': ([BOARD * (1.0, 5.0), *CROSSED], 'Box!'),
     'ball and ramp': ([[(-2, 1.5), (2, 0)], at(-1.5, 1.68, 0.32 * OVAL)], 'Chain! Disc'),

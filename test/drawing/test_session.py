@@ -514,8 +514,10 @@ def test_a_reading_that_may_not_be_leaves_the_session_as_it_was(ways: list[Way])
         desk, readings = Desk(), []
         for way in ways:
             if with_refused:
+                preview = desk.session.preview
                 with pytest.raises(Frozen):
                     desk.draw(way, check=refuse)
+                assert desk.session.preview == preview
                 with suppress(Frozen, NotRecognised):
                     desk.session.instead(check=refuse)
             readings.append(desk.draw(way, after=0.3 - 0.8 * with_refused))

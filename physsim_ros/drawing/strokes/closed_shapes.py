@@ -12,14 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-import itertools
 import math
 
 import numpy as np
 from physsim_ros.drawing.geometry import circle_outline, point_of, size_of
-from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes import outcomes
-from physsim_ros.drawing.strokes.bodies_under import nearest_on_surface
+from physsim_ros.drawing.strokes.axles import axle_pairs, crossed_pair
 from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.stages import (
     Context,
@@ -33,8 +31,7 @@ from physsim_ros.drawing.strokes.stages import (
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.shapes import Disc
-from physsim_ros.model.transform import norms, Point
+from physsim_ros.model.transform import Point
 
 # The size of an axle or a weld, in shares of the greatest.
 _SMALL = Limit(1.0)
@@ -43,14 +40,6 @@ _SMALL = Limit(1.0)
 _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
 # The least number of corners of a polygon that may be a small circle; one of four may be a square.
 _LEAST_CORNERS = 5
-# The least share of a circle on a second body, across whose edge it was drawn.
-_ACROSS = 0.25
-# The greatest distance of a wheel's middle from the body that carries it, in radii of the wheel:
-# bodies farther apart overlap by accident.
-_CARRIED = 0.9
-# The least area of a wheel, as a share of the circle about it; a pentagon's is 0.76.
-_ROUND = 0.75
-
 # The meaning of an outline that is a body, and the function of its points that builds that.
 _Body = tuple[str, Callable[[Floats, Context], Outcome]]
 
@@ -99,7 +88,7 @@ def _axle_or_body(
 def _weld_or_body(form: Form, body: _Body, context: Context) -> Iterator[Meaning]:
     """Yield a weld of the two bodies under an outline of four corners, and a body."""
     center, share = point_of(form.points.mean(axis=0)), 0.0
-    under = _crossed_pair(center, context)
+    under = crossed_pair(center, context)
     if len(form.points) == 4 and len(under) == 2:
         side = max(map(math.dist, form.points[:2], form.points[1:3]))
         share = _SMALL.below(side / _largest_joint(center, under, context))
@@ -133,7 +122,7 @@ def _axle_share(center: Point, radius: float, context: Context) -> float:
     """
     scene = context.scene
     # In a gap, an axle joins the bodies on either side.
-    under = _crossed_pair(center, context)
+    under = crossed_pair(center, context)
     if not under or not any(scene.body(name).dynamic for name in under):
         return 0.0
     limit = _largest_joint(center, under, context)
@@ -154,7 +143,7 @@ def _largest_joint(center: Point, under: Sequence[str], context: Context) -> flo
 
 
 def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
-    point, pairs = _axle_pairs(center, context)
+    point, pairs = axle_pairs(center, context)
     names = [pairs[0][0], *('the background' if b == WORLD else b for _, b in pairs)]
     return Outcome(
         requests=tuple(outcomes.joins_at(JointKind.AXLE, point, pairs, context)),
@@ -172,93 +161,3 @@ def _weld_bodies(point: Point, under: tuple[str, ...], context: Context) -> Outc
         message=f'a pin between {a} and {b}',
         outline=context.drawn.points,
     )
-
-
-def _axle_pairs(center: Point, context: Context) -> tuple[Point, list[tuple[str, str]]]:
-    """
-    Return the pivot of an axle [m], and the pairs of bodies to be joined there, the upper first.
-
-    An axle goes through all movable bodies at its place, or through one and the body below. Where
-    these are joined already, it holds the lowest of them on the background.
-
-    :param center: of the circle that was drawn, on a body [m]
-    """
-    point, under = _axle_of_two(center, context)
-    scene, snap = context.scene, context.settings.snap
-    if len(under) == 2 and all(scene.body(name).dynamic for name in under):
-        deeper = (each for each in scene.bodies_at(point) if each not in under)
-        under = *under, *(each for each in deeper if scene.body(each).dynamic)
-    if len(under) == 1 or scene.body(under[-1]).dynamic:
-        under = *under, WORLD
-    joined = [{each.a, each.b} for each in scene.axles_at(point, snap)]
-    pairs = list(itertools.pairwise(under))
-    missing = [pair for pair in pairs if {*pair} not in joined]
-    # The background holds what nothing else is left to be joined to.
-    return point, [pair for pair in missing if pair[1] != WORLD] or missing or pairs[-1:]
-
-
-def _axle_of_two(center: Point, context: Context) -> tuple[Point, tuple[str, ...]]:
-    """Return the pivot of an axle [m], and the one or two topmost bodies there."""
-    scene, snap = context.scene, context.settings.snap
-    under = _crossed_pair(center, context)
-    if len(under) == 1 or scene.body(under[1]).anchored:
-        carrier = _carrier_of(under[0], center, snap, scene)
-        if carrier is not None:
-            return scene.centroid(under[0]), (under[0], carrier)
-    for name in under:
-        if isinstance(scene.body(name).shape, Disc):
-            x, y, _ = scene.pose(name)
-            if math.dist((x, y), center) > snap:
-                continue
-            # The middle of a wheel, where it lies on the same bodies or near the other one.
-            near = scene.bodies_at((x, y), snap)
-            if scene.bodies_at((x, y))[:2] == under or (len(under) == 2 and set(under) <= {*near}):
-                return (x, y), under
-    return center, under
-
-
-def _crossed_pair(center: Point, context: Context) -> tuple[str, ...]:
-    """
-    Return the two topmost bodies at a point, else those that the stroke overlaps, too.
-
-    In a gap between bodies, these are the two on either side of it.
-
-    :param center: of a small closed stroke [m]
-    :return: at most two names, the topmost first; () in the open
-    """
-    scene, drawn = context.scene, context.drawn.points
-    under = scene.bodies_at(center)[:2]
-    if len(under) == 2:
-        return under
-    radius = float(norms(drawn - center).max())
-    near = scene.bodies_at(center, radius)
-    shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each not in under}
-    beside = sorted(shares, key=shares.__getitem__, reverse=True)[: 2 - len(under)]
-    pair = {*under, *(each for each in beside if shares[each] >= _ACROSS)}
-    return tuple(each for each in near if each in pair) if len(pair) == 2 else under
-
-
-def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> str | None:
-    """
-    Return the movable body that a wheel overlaps and that is nearest to its middle.
-
-    A wheel may stand half below its chassis; it never turns about the road on which it stands.
-
-    :param wheel: name of the topmost body at the centre of the drawn circle
-    :return: None where there is none, where the wheel is not round, or where the circle is not
-        about its middle
-    """
-    form = scene.body(wheel).shape.form
-    x, y = scene.centroid(wheel)
-    if form.area < _ROUND * math.pi * form.outer**2:
-        return None
-    if math.dist((x, y), center) > max(snap, form.outer / 4):
-        return None
-    near = scene.bodies_at((x, y), _CARRIED * form.outer)
-    dynamic = [each for each in near if each != wheel and scene.body(each).dynamic]
-
-    def distance(name: str) -> float:
-        covered = name in scene.bodies_at((x, y))
-        return 0.0 if covered else math.dist((x, y), nearest_on_surface((x, y), name, scene))
-
-    return min(dynamic, key=distance, default=None)

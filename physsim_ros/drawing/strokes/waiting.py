@@ -33,15 +33,14 @@ from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
 from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.resampled import few_points, middle_half
+from physsim_ros.drawing.strokes.scene_after import scene_after
 from physsim_ros.drawing.strokes.stages import Classification, GRAVITY, Reading
-from physsim_ros.model.body_description import new_body
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Configure, Delete, Join, Request, Spawn
-from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import contains
-from physsim_ros.model.transform import Pose, rotated_each
+from physsim_ros.model.transform import rotated_each
 
 # Meanings that a stroke has by the bodies under it, and by an axle.
 _BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})
@@ -77,18 +76,13 @@ def _motor(
     :param requests: of bodies and axles
     :param scene: before these
     """
-    axles = [each for each in requests if isinstance(each, Join) and each.kind is JointKind.AXLE]
-    if not axles:
+    if not any(isinstance(each, Join) and each.kind is JointKind.AXLE for each in requests):
         return
-    for each in requests:
-        if isinstance(each, Spawn):
-            body, _ = new_body(each, scene.settings, None)
-            scene = scene.with_body(body, each.pose)
-    scene = scene.with_axles(axles)
+    after = scene_after(requests, scene)
     for figure in reversed(figures):
         if figure.meaning not in _BY_AXLE or figure.requests:
             continue
-        reading = _likely_reading(figure.whole, scene, settings, _BY_AXLE)
+        reading = _likely_reading(figure.whole, after, settings, _BY_AXLE)
         if reading is not None:
             yield (figure,), reading
             return
@@ -98,26 +92,24 @@ def _readings_over_body(
     solid: Figure, figures: Sequence[Figure], settings: DrawingSettings
 ) -> Iterator[tuple[tuple[Figure, ...], Reading]]:
     """Yield earlier strokes and their readings over a new body, where those are others."""
-    scene = solid.scene
     spawn = next(each for each in solid.requests if isinstance(each, Spawn))
-    body, _ = new_body(spawn, scene.settings, None)
+    requests = list(solid.requests)
     groups = list(_waiting(figures, solid, settings.snap))
     # A wall that is a rod itself is no end of another one.
     walls = _names([each for each, *more in groups if each.meaning == 'wall' and not more])
     done: set[str] = set()
-    joints = 0
     for group in groups:
         names = _names(group)
-        if names & done or not _reaches(group, body, spawn.pose, settings.snap):
+        if names & done or not _reaches(group, spawn, settings.snap):
             continue
-        over = scene.with_body(body, spawn.pose, without=names | walls | done, joints=joints)
+        over = scene_after(requests, solid.scene, without=names | walls | done)
         reading = _reading_over(spawn.name, group, over, settings)
         if reading is None and len(group) == 1 and _is_mark(group[0], solid):
             reading = mark_reading(group[0])
         if reading is None:
             continue
         done |= names
-        joints += sum(isinstance(each, Join) for each in reading.requests)
+        requests += reading.requests
         yield group, replace(reading, requests=(*_undoing(group), *reading.requests))
 
 
@@ -184,10 +176,10 @@ def _bears(wall: Figure, scene: SceneQuery, snap: float) -> bool:
     return any(scene.body(name).dynamic for name in near - held)
 
 
-def _reaches(group: Sequence[Figure], body: Body, pose: Pose, snap: float) -> bool:
-    """Return whether a stroke of some figures comes within `snap` of a body."""
+def _reaches(group: Sequence[Figure], body: Spawn, snap: float) -> bool:
+    """Return whether a stroke of some figures comes within `snap` of a new body."""
     points = np.vstack([few_points(stroke) for each in group for stroke in each.strokes])
-    x, y = rotated_each(points - pose[:2], -pose[2]).T
+    x, y = rotated_each(points - body.pose[:2], -body.pose[2]).T
     return bool(np.any(contains(body.shape.form.pieces, x, y, snap)))
 
 

@@ -298,7 +298,7 @@ LIMITS: dict[
         (4, 5), ('rectangle', 'axle world'),
     ),
     'overhang of an axle over a second body': (
-        'closed_shapes._ACROSS',
+        'axles._ACROSS',
         [spawning(f'a/{n}', Box(width=3.0, height=3.0), (3.0 * n, 0.0, 0.0)) for n in range(2)],
         lambda it: circle(1.5 - it, 0.0, 0.3), (0.219, 0.223), ('axle', 'axle world'),
     ),
@@ -394,12 +394,12 @@ LIMITS: dict[
         (0.1, 0.25), ('hatching', 'rod world'),
     ),
     'gap between a wheel and the body that carries it': (
-        'closed_shapes._CARRIED',
+        'axles._CARRIED',
         lambda it: [spawning('a/0', Box(width=3.0, height=0.6), (0.0, 0.3 + it, 0.0)), WHEEL_TOP],
         lambda _: circle(0.0, 0.0, 0.15), (0.44, 0.455), ('axle', 'axle world'),
     ),
     'aspect of a wheel under the body that carries it': (
-        'closed_shapes._ROUND',
+        'axles._ROUND',
         lambda it: [spawning('a/0', Box(width=3.0, height=0.6), (0.0, 0.6, 0.0)),
                     spawning('a/1', Polygon(outline=ring(12, 0.5, 0.5 * it)))],
         lambda _: circle(0.0, 0.0, 0.12), (0.77, 0.8), ('axle world', 'axle'),
@@ -477,7 +477,7 @@ LIMITS: dict[
         ('rectangle', 'wall'),
     ),
     'sides of a polygon that is sent by its corners': (
-        'stroke._GENTLE', [], lambda it: Corners([*ring(int(it)), (1.0, 0.0)]), (6, 7),
+        'samples._GENTLE', [], lambda it: Corners([*ring(int(it)), (1.0, 0.0)]), (6, 7),
         ('polygon', 'disc'),
     ),
     'length of a loose scribble that is no deletion any more': (
@@ -508,7 +508,7 @@ LIMITS: dict[
         (0.2177, 0.2221), ('rectangle', ''),
     ),
     'jitter of a pen that rests': (
-        'stroke.GRAIN', [], resting, (0.0148, 0.0156), ('wall', ''),
+        'samples.GRAIN', [], resting, (0.0148, 0.0156), ('wall', ''),
     ),
 }  # fmt: skip
 
@@ -537,13 +537,13 @@ BENDS: dict[
         (0.095, 0.099), (2, 5),
     ),
     'height of a spike in a line': (
-        'stroke._JUMP',
+        'samples._JUMP',
         lambda it: Corners([(0.2 * n, 0.0) for n in range(8)] + [(1.5, 0.5)]
                            + [(1.6 + 0.2 * n, 0.0) for n in range(8)] + [(3.0 + it, 0.0)]),
         (0.251, 0.258), (2, 5),
     ),
     'number of samples with a spike among them': (
-        'stroke._CLICKS',
+        'samples._CLICKS',
         lambda it: Corners([(3.0 * n / (it - 1), 2.5 * (n == it // 2)) for n in range(int(it))]),
         (11, 12), (5, 2),
     ),
@@ -812,7 +812,7 @@ STAGES: dict[
 
 # Numbers of points between which readings do not differ, and what words and work are limited to.
 RESOLUTION = {
-    'stroke._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG', 'corner_detection._ALONG',
+    'samples._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG', 'corner_detection._ALONG',
     'corner_detection._PARABOLA',
     'resampled.COUNT', 'resampled.ARM', 'resampled._FEW', 'resampled._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',

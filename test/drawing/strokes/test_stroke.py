@@ -11,7 +11,8 @@ from physsim_ros.drawing.strokes.corner_detection import corners, vertices
 from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.resampled import COUNT, smoothed, widened
-from physsim_ros.drawing.strokes.stroke import clean_samples, GRAIN, resample_stroke
+from physsim_ros.drawing.strokes.samples import clean_samples, GRAIN
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize, Malformed
 import pytest
