@@ -24,7 +24,7 @@ from physsim_ros.engine.body_table import BodyTable, check_columns, check_floor,
 from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.commands import CommandSet
 from physsim_ros.engine.core import lib
-from physsim_ros.engine.core_world import CoreWorld
+from physsim_ros.engine.core_world import CoreWorld, Table
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
@@ -157,8 +157,8 @@ class Space:
         """Have bodies wake, and begin with the fields of now, where these are others."""
         columns, settings = columns_of(scene, self.dt), scene.settings
         fields = (
-            columns.regions.tobytes(),
-            columns.attractors.tobytes(),
+            _values(columns.regions),
+            _values(columns.attractors),
             (settings.gravitation, settings.coulomb),
             (settings.attraction_power, settings.softening),
         )
@@ -492,6 +492,11 @@ class Space:
         """Drop the table, before a body or joint is added, removed or changed."""
         self._core.drop_joints()
         self._table = None
+
+
+def _values(records: Table) -> tuple[bytes, ...]:
+    """Return the numbers of records, without the bytes between the fields, which are any."""
+    return tuple(records[name].tobytes() for name in records.dtype.names or ())
 
 
 def _pressing_share(old: Point, new: Point) -> float:

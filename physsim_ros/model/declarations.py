@@ -6,9 +6,9 @@ Values whose fields are declared: name, type, check, sentence and default in one
 
     friction: Annotated[float | None, Within(0.0, 10.0), 'coefficient of friction'] = None
 
-The check of a value that is made, its docstring, the keys of markers and world files, ROS
-parameters, and the tables of `docs/interface` and `config/physsim.yaml` (`tools/tables`) follow
-from the declaration.
+Notes may follow the sentence, such as `Words`, by which people call it. The check of a value that
+is made, its docstring, the keys of markers and world files, ROS parameters, and the tables of
+`docs/interface` and `config/physsim.yaml` (`tools/tables`) follow from the declaration.
 
 Law: a value that exists has passed its checks, in the order of its fields.
 

@@ -38,11 +38,6 @@ STRONGEST = 1e4
 # Greatest number of joints on one body [1]: a new joint takes a microsecond for each joint on its
 # bodies.
 MOST_JOINTS_ON_BODY = 1000
-# Greatest number of hands that drag at once [1], each 12 µs a step: one for each page.
-MOST_HANDS = 64
-# Greatest number of topics of all robots [1]: those of 440 TurtleBots. Fast DDS takes a second to
-# make them, and 15 s for 2,000 TurtleBots.
-MOST_ROBOT_TOPICS = 4000
 # A note of a setting that protects the node, and that no world file changes.
 LIMIT = 'limit'
 # A note of a setting that is of a world alone: a world file without it has its default.

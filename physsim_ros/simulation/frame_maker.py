@@ -362,7 +362,6 @@ class FrameMaker:
         """Return the frame that is shown as sensors see it; fit the past into its budget."""
         past, playback, requests = self.past, self.playback, self.requests
         snapshot, contacts = playback.observe_frame()
-        requests.note_arrival()
         past.fit_memory(playback.moment)
         frame = Frame(
             snapshot=snapshot,

@@ -392,6 +392,7 @@ class RequestQueue:
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, and drop them."""
+        self.note_arrival()
         answers, self._answers = self._answers, []
         return tuple(answers)
 

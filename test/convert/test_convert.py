@@ -11,6 +11,7 @@ import math
 import struct
 import zlib
 
+import numpy as np
 from physsim_ros.convert import __main__ as converting
 from physsim_ros.convert import content as converted_content
 from physsim_ros.convert.__main__ import main
@@ -200,6 +201,18 @@ def test_a_world_of_irsim_has_a_robot_that_goes_and_obstacles(tmp_path, capsys):
     assert 'left out: keyboard of a robot' in printed
 
 
+def test_robots_of_irsim_on_a_circle_are_evenly_apart_and_face_its_centre(tmp_path, capsys):
+    circle = '{name: circle, center: [5, 6], radius: 4}'
+    text = f'world: {{}}\nrobot: [{{number: 5, distribution: {circle}}}]'
+    bodies, *_ = converted(tmp_path, 'robot_world.yaml', text, capsys)
+
+    poses = [each.pose for each in bodies.values()]
+    for (x, y, yaw), other in zip(poses, (*poses[1:], poses[0]), strict=True):
+        ahead = (x + 4.0 * math.cos(yaw), y + 4.0 * math.sin(yaw))
+        assert ahead == pytest.approx((5.0, 6.0))
+        assert math.dist((x, y), other[:2]) == pytest.approx(8.0 * math.sin(math.pi / 5))
+
+
 def test_a_map_of_tiled_has_tiles_and_objects_a_tile_wide_a_metre(tmp_path, capsys):
     bodies, _, printed = converted(tmp_path, 'level.tmj', json.dumps(TILED), capsys)
 
@@ -213,6 +226,16 @@ def test_a_map_of_tiled_has_tiles_and_objects_a_tile_wide_a_metre(tmp_path, caps
     assert not bodies['ball/0'].body.anchored
     assert 'left out: property hp' in printed
     assert 'left out: a point' in printed
+
+
+def test_the_offset_of_a_layer_of_tiled_moves_its_tiles_and_objects(tmp_path, capsys):
+    moved = [layer | {'offsetx': 64, 'offsety': -32} for layer in TILED['layers']]
+    before, *_ = converted(tmp_path, 'level.tmj', json.dumps(TILED), capsys)
+    (tmp_path / 'out.yaml').unlink()
+    after, *_ = converted(tmp_path, 'level.tmj', json.dumps(TILED | {'layers': moved}), capsys)
+
+    for name, each in before.items():
+        assert after[name].pose == pytest.approx(np.add(each.pose, (2.0, 1.0, 0.0)))
 
 
 def test_an_object_of_tiled_turns_about_its_corner(tmp_path, capsys):

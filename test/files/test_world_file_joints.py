@@ -52,14 +52,6 @@ def join(world: World, name: str, kind: str, *points: Point, a: str, b: str, **s
     world.apply(Join(name=name, kind=kinds, points=points, a=a, b=b, properties=properties))
 
 
-def test_joints_round_trip_to_the_bit_in_the_middle_of_motion(folder: Path) -> None:
-    world = loaded(MACHINE, folder)
-    assert len(world.save().joints) == 5
-    world.step(333)
-
-    assert_round_trip(world, folder)
-
-
 HOIST = """format: 1
 bodies:
   - {name: wheel/0, circle: {radius: 0.5}, at: [0, 5]}

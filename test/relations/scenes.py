@@ -39,7 +39,7 @@ from ..laws.test_dampers import weight_on
 from ..laws.test_floor import DRIVE, on_conveyors
 from ..laws.test_friction import on_incline
 from ..laws.test_impacts import angular_shape, pair_in_flight, round_shape, walled
-from ..laws.test_jointed_friction import fridge
+from ..laws.test_jointed_friction import car, fridge, ladder, stepladder
 from ..laws.test_joints import beam_on_joints, double_pendulum, tangle
 from ..laws.test_machines import (
     arm_on_motor,
@@ -262,13 +262,7 @@ def tips_on_incline(share):
 
 
 def leaning_ladder():
-    sim = simulation(friction=0.5, elasticity=0.0)
-    floor(sim)
-    spawn(sim, 'wall/0', Box(width=2.0, height=10.0), (-1.0, 5.0, 0.0), anchored=True)
-    angle, length, half = math.radians(115.0), 3.0, 0.025
-    foot = (-length * math.cos(angle) + 2 * half, half)
-    middle = (foot[0] + length / 2 * math.cos(angle), foot[1] + length / 2 * math.sin(angle))
-    spawn(sim, 'ladder/0', Box(width=length, height=2 * half), (*middle, angle))
+    sim, _ = ladder(0.95)
     return sim
 
 
@@ -371,32 +365,8 @@ def sled_on_rope():
     return sim
 
 
-def car(torque):
-    """Return a car of two wheels whose motor pushes it along the floor."""
-    sim = simulation(friction=1.0, elasticity=0.0)
-    floor(sim)
-    body = Box(width=2.0, height=0.4)
-    spawn(sim, 'car/0', body, (0.0, 0.6, 0.0), mass=10.0, group=1)
-    for number, x in enumerate((-0.8, 0.8)):
-        spawn(sim, f'wheel/{number}', Disc(radius=0.3), (x, 0.3, 0.0), mass=1.0, group=1)
-        said = {'rate': -50.0, 'max_torque': torque} if number == 0 else {}
-        kind = 'motor' if number == 0 else 'axle'
-        join(sim, f'axle/{number}', kind, [(x, 0.3)], a=f'wheel/{number}', b='car/0', **said)
-    return sim
-
-
-def stepladder():
-    """Return two legs on an axle that stand on the floor by friction."""
-    sim = simulation(friction=0.6, elasticity=0.0)
-    floor(sim)
-    angle, length = math.radians(70.0), 2.0
-    top = (0.0, length * math.sin(angle) + 0.03)
-    for number, side in enumerate((-1.0, 1.0)):
-        yaw = angle if side < 0 else math.pi - angle
-        foot = (side * length * math.cos(angle), 0.03)
-        middle = ((foot[0] + top[0]) / 2, (foot[1] + top[1]) / 2)
-        spawn(sim, f'leg/{number}', Box(width=length, height=0.05), (*middle, yaw), group=1)
-    join(sim, 'axle/0', 'axle', [top], a='leg/1', b='leg/0')
+def driving_car(share):
+    sim, _ = car(share)
     return sim
 
 
@@ -746,9 +716,9 @@ def _laws():
         'rod that is too weak': Scene(build=partial(weight_on, 'rod', 0.0, 20.0)),
         'four-bar linkage': Scene(build=four_bar),
         'sled on a rope': Scene(build=sled_on_rope),
-        'car': Scene(build=partial(car, 10.0)),
-        'car that lifts its front': Scene(build=partial(car, 120.0)),
-        'stepladder': Scene(build=stepladder),
+        'car': Scene(build=partial(driving_car, 0.5)),
+        'car that lifts its front': Scene(build=partial(driving_car, 1.04), seconds=0.6),
+        'stepladder': Scene(build=partial(stepladder, 0.9)),
         'seesaw': chaotic(build=seesaw),
         'bridge': Scene(build=partial(bridge_with_load, 'axle', 0.05, 10.0), seconds=1.0),
         'rope on a drum': Scene(build=partial(rope_on_drum, 2.4), seconds=0.5),

@@ -281,16 +281,6 @@ def test_contacts_follow_their_pairs_and_their_scene():
         check_contacts(encoder.encode(frame_of(snapshot, contacts)), snapshot, contacts)
 
 
-def test_a_contact_turns_the_x_axis_onto_its_normal():
-    snapshot, contacts = snapshot_of(bodies_named('a', 'b')), contacts_of([(0, 1)] * 6)
-    contacts.normals[:] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1e-9), (-1, -1e-9)]
-    data = ContactsEncoder('world').encode(frame_of(snapshot, contacts))
-    turns = [each.rotation for each in decoded(data, MultiDOFJointState).transforms]
-    axes = [(turn.w**2 - turn.z**2, 2 * turn.w * turn.z) for turn in turns]
-    # A few roundings of numbers up to 1.
-    assert axes == pytest.approx(contacts.normals, abs=1e-15)
-
-
 @pytest.mark.parametrize('shape', [shape for shape, *_ in SHAPES], ids=repr)
 def test_a_marker_spawns_the_body_that_it_draws(shape):
     body = replace(PLAIN, name='a/b/-7', shape=shape, color=(0.25, 0.5, 1.0, 0.75))

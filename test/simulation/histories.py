@@ -44,11 +44,14 @@ from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Amend, Origin, TakeBack
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.simulation import SavedMoment, Simulation
+from physsim_ros.simulation.world import beginning_of
 
 from .random_history import history_of, Operation, SETTINGS, shipped_world
 
 # The request of a saved moment from which another line has run on without it.
 NOTHING = Configure(changes={})
+# Operations for which there is no message.
+UNSAID = {'open_world', 'save_moment', 'restore'}
 # Processor time of one history that is worth a word [s].
 LONGEST = 60.0
 
@@ -238,7 +241,7 @@ class Player:
             done = any(each.gesture for each in before.made[:serial])
             self._check(self.dropped or not (done or self.resets), 'undo is refused')
             return
-        if words == 'undo reset':
+        if words in {'undo reset', 'undo open world'}:
             self.undone.append((before, self.left))
             self.line, self.left = self.resets.pop()
             self._arrive(self.line.moment)
@@ -345,14 +348,29 @@ class Player:
         self._perform('reset')
         if not (before.head or before.moment[1]):
             return
-        self.resets.append((before, self.left))
-        self.undone.clear()
         loads = [each.request.state for each in before.made if isinstance(each.request, Restore)]
-        self.courses += 1
         begun = before.state
         loads.insert(0, begun.loaded if isinstance(begun, SavedMoment) else begun)
+        self._begin_anew(before, loads[-1])
+
+    def open_world(self, built: bool) -> None:
+        """
+        Begin with the world that was saved last.
+
+        :param built: whether its beginning is built before, as on a thread
+        """
+        if self.saved is None:
+            return
+        before = self._position()
+        self.sim.open_world(beginning_of(self.saved, self.rate) if built else self.saved)
+        self._begin_anew(before, self.saved)
+
+    def _begin_anew(self, before: Line, state: WorldState) -> None:
+        self.resets.append((before, self.left))
+        self.undone.clear()
+        self.courses += 1
         # Each beginning is another one, also of the same state.
-        self.line = Line(self.courses, replace(loads[-1]))
+        self.line = Line(self.courses, replace(state))
         self.left = {}
         self._arrive((0, 0))
 
@@ -687,8 +705,7 @@ class NodePlayer(Player, ABC):
 def history_of_node(seed: int) -> list[Operation]:
     """Return the operations of a seed at the rates that a node has by default."""
     (begin, *_, contacts), *operations = history_of(seed)
-    # No message saves a moment.
-    others = [each for each in operations if each[0] not in {'save_moment', 'restore'}]
+    others = [each for each in operations if each[0] not in UNSAID]
     return [(begin, 240.0, 60.0, 3.0, contacts), *others]
 
 

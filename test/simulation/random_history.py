@@ -170,6 +170,7 @@ def operation_of(rng: Choices) -> Operation:
         (1, lambda: ('limit_history', rng.choice((0.5, 1.0, 5.0, 600.0)))),
         (2, lambda: ('save',)),
         (1, lambda: ('load',)),
+        (1, lambda: ('open_world', rng.random() < 0.5)),
         (3, lambda: ('save_moment', rng.randint(0, 12))),
         (1, lambda: ('restore',)),
         (1, lambda: ('report_contacts', rng.random() < 0.5)),

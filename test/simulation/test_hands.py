@@ -11,12 +11,13 @@ from physsim_ros.engine.core import lib
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
 from physsim_ros.model.requests import Anchor, Delete, DeleteAll, Grab, LetGo, MoveHand, Restore
-from physsim_ros.model.settings import MOST_HANDS, WorldSettings
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Shape
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world.capacity import MOST_HANDS
 import pytest
 
 from .driven import SLAB

@@ -27,7 +27,7 @@ COLOURS = """html => {
 
 # The ends of the lines of a grid at a place of the world [m], as they are asked of a canvas [px].
 GRID_LINES = """async at => {
-    const {drawGrid} = await import('/page/view/label_view.js'), lines = [];
+    const {drawGrid} = await import('/page/view/grid_view.js'), lines = [];
     const camera = Object.assign(new (await import('/page/view/camera.js')).Camera(),
         {x: at, y: 5, scale: 60, width: 1200, height: 800});
     const ctx = {beginPath() {}, moveTo() {}, stroke() {}, fillText() {},
@@ -40,7 +40,7 @@ GRID_LINES = """async at => {
 # The least space between two numbers at the lower edge of a world, at a scale [px/m], around its
 # origin and as far out as bodies are.
 SPACE = """async scale => {
-    const {drawRulers} = await import('/page/view/label_view.js');
+    const {drawRulers} = await import('/page/view/grid_view.js');
     const {Camera} = await import('/page/view/camera.js');
     const ctx = document.createElement('canvas').getContext('2d'), spaces = [];
     ctx.font = '11px system-ui, sans-serif';

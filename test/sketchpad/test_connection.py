@@ -195,6 +195,30 @@ def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_o
     assert len(sheet.names()) == len(before) + 1
 
 
+def test_what_is_drawn_without_a_socket_waits_for_one_and_is_there_once(
+    open_sheet: OpenSheet, address: str
+) -> None:
+    sheet = open_sheet('about:blank')
+    cable = Cable(sheet)
+    sheet.page.goto(address)
+    sheet.begin()
+    before = sheet.names()
+    cable.cut()
+    sheet.page.get_by_role('alert').wait_for(state='visible')
+    sheet.press('Inclined plane')
+    sheet.drag((1.0, 5.0), (3.0, 6.0))
+    # Its meaning depends on the moment.
+    sheet.press('Undo')
+    sheet.told('Not done')
+    cable.mend()
+    plane = sheet.wait_for_new(before)
+    # After its answer no other one would come.
+    sheet.press('Play')
+    sheet.wait('physsim.speed === 1')
+    assert sheet.names() == before | {plane}
+    sheet.page.get_by_label('Angle of the slope [°]').wait_for()
+
+
 def test_a_dead_socket_is_told_within_three_seconds_and_then_what_may_be_lost(
     open_sheet: OpenSheet, address: str
 ) -> None:

@@ -17,6 +17,15 @@ SLOWED = """() => {
 FOCUSED = "document.activeElement.getAttribute('aria-label')"
 ENOUGH = 8
 
+# The numbers of the elements that are found, each as the one that lies at the middle of its place.
+TOPMOST = """selector => {
+    const all = [...document.querySelectorAll(selector)];
+    return all.map((each) => {
+        const {left, right, top, bottom} = each.getBoundingClientRect();
+        return all.indexOf(document.elementFromPoint((left + right) / 2, (top + bottom) / 2));
+    });
+}"""
+
 
 def tab_to(sheet: Sheet, name: str) -> list[str]:
     """Press Tab until something has the focus, and return the names on the way."""
@@ -208,6 +217,23 @@ def test_the_reason_of_a_slow_world_is_told_once(sheet: Sheet) -> None:
     speed.wait_for()
     sheet.press('Pause')
     assert sheet.page.evaluate("heard.notes.filter((note) => note.includes('Slower')).length") == 1
+
+
+def test_each_ring_of_the_time_line_can_be_pressed(sheet: Sheet) -> None:
+    rings = sheet.page.locator('#marks button')
+    sheet.play_until(1.0)
+    sheet.press('Circle')
+    for time, x in ((0.5, 2.0), (0.8, -2.0)):
+        sheet.seek(time)
+        before = sheet.names()
+        sheet.drag((x, 5.0), (x + 0.7, 5.0))
+        sheet.wait_for_new(before)
+        sheet.play_until(1.0)
+    # Both courses have left this one at one moment.
+    rings.first.click()
+    sheet.wait('Object.keys(physsim.bodies).length === 3')
+    sheet.until(lambda: rings.count() == 2, 'two rings')
+    assert sheet.page.evaluate(TOPMOST, '#marks button') == [0, 1]
 
 
 def test_rings_of_the_time_line_end_with_their_world(sheet: Sheet) -> None:

@@ -50,6 +50,18 @@ HAS_COLOR = """([x, y, half, name]) => {
     return false;
 }"""
 
+# Whether plots have pixels of the ink of the page.
+INKED = """() => {
+    const color = getComputedStyle(document.documentElement).getPropertyValue('--ink').trim();
+    const ink = color.match(/\\w\\w/g).map((each) => parseInt(each, 16));
+    return [...document.querySelectorAll('#plot canvas, .plots canvas')].map((plot) => {
+        const {data} = plot.getContext('2d').getImageData(0, 0, plot.width, plot.height);
+        for (let i = 0; i < data.length; i += 4) {
+            if (data[i + 3] === 255 && ink.every((each, j) => data[i + j] === each)) return true;
+        }
+        return false;
+    });
+}"""
 # The width by which a list is narrower than its widest item [px].
 WIDTH_MISSING = """(select) => {
     const whole = document.body.appendChild(select.cloneNode(true));
@@ -238,6 +250,14 @@ def test_a_plot_has_the_difference_of_this_run_and_the_last_one(sheet: Sheet) ->
     assert 0.6 < time < 0.9
     # 3 m/s faster since 0.5 s; to three digits of the time and of the difference.
     assert difference == pytest.approx(3.0 * (time - 0.5), abs=0.02)
+
+
+def test_plots_follow_light_and_dark_while_time_stands(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    sheet.press('Large plot')
+    for ink in ('dark', 'light'):
+        sheet.until(lambda: sheet.page.evaluate(INKED) == [True] * 4, f'plots in {ink} ink')
+        sheet.press('Light or dark')
 
 
 def test_a_curve_that_was_drawn_first_is_compared_with_the_one_that_comes(sheet: Sheet) -> None:

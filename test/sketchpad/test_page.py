@@ -11,8 +11,29 @@ import re
 
 import pytest
 
-from .chromium import circle, OpenSheet, POINTER, Sheet, started_world
+from .chromium import circle, NOTE_TEXTS, OpenSheet, POINTER, Sheet, started_world
 from ..outside import Outside
+
+WITHOUT_GRAVITY = b"""
+format: 1
+gravity: [0, 0]
+bodies:
+  - {name: puck/0, circle: {radius: 0.5}, at: [0, 2]}
+"""
+# What is written on canvases in the next picture.
+NEXT_TEXTS = """() => new Promise((resolve) => requestAnimationFrame(() => {
+    texts.length = 0;
+    document.dispatchEvent(new Event('pointermove'));
+    requestAnimationFrame(() => requestAnimationFrame(() => resolve(texts)));
+}))"""
+# Enters two texts into fields, the second before the first is answered.
+ENTER_BOTH = """([...given]) => {
+    for (let i = 0; i < given.length; i += 2) {
+        const field = document.querySelector(`[aria-label="${given[i]}"]`);
+        field.value = given[i + 1];
+        field.dispatchEvent(new Event('change'));
+    }
+}"""
 
 
 @pytest.mark.everyday
@@ -505,6 +526,47 @@ def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
     # Right is down now: the ball falls there.
     sheet.press('Play')
     sheet.wait('physsim.bodies["ball/0"][0] > 1')
+    # A world without gravity has no direction, also after this one.
+    sheet.press('Worlds')
+    world = {'name': 'x.yaml', 'mimeType': 'text/yaml', 'buffer': WITHOUT_GRAVITY}
+    sheet.page.get_by_label('Open a file').set_input_files(world)
+    sheet.wait('"puck/0" in physsim.bodies')
+    sheet.press('Material')
+    sheet.until(lambda: gravity.input_value() == '0', 'no gravity')
+    assert direction.input_value() == '0'
+    sheet.press('Undo')
+    sheet.wait('"ball/0" in physsim.bodies')
+
+
+def test_a_material_that_is_refused_takes_no_other_back(sheet: Sheet) -> None:
+    sheet.press('Material')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    labels = ('Density [kg/m²], typed', 'Friction, typed')
+    density, friction = (panel.get_by_label(label) for label in labels)
+    friction.wait_for()
+    sheet.page.evaluate(ENTER_BOTH, [labels[0], '-1', labels[1], '0.9'])
+    sheet.told('does not lie between')
+    sheet.until(lambda: density.input_value() == '1', 'the density before')
+    assert friction.input_value() == '0.9'
+
+
+def test_a_body_that_leaves_a_resting_pointer_is_not_named_there(sheet: Sheet) -> None:
+    sheet.page.evaluate(NOTE_TEXTS)
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((2.0, 6.0), (2.5, 6.0))
+    sheet.wait_for_new(before)
+    sheet.page.mouse.move(*sheet.place(2.0, 6.0))
+    sheet.until(lambda: named(sheet), 'a name at the pointer')
+    sheet.press('Play')
+    sheet.page.mouse.move(*sheet.place(2.0, 6.0))
+    sheet.until(lambda: not named(sheet), 'no name at the pointer')
+
+
+def named(sheet: Sheet) -> bool:
+    """Return whether the next picture of the world has the name of a circle."""
+    texts = sheet.page.evaluate(NEXT_TEXTS)
+    return any(text.startswith('Circle ') for text in texts)
 
 
 @pytest.mark.parametrize('text', ['-1', 'abc', ''])

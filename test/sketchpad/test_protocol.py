@@ -17,10 +17,11 @@ import numpy as np
 from physsim_ros.files import load_world, text_of
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.snapshot import Grip
+from physsim_ros.simulation import hands
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import past, Role
+from physsim_ros.sketchpad import page_session, past, Role
 from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.message import KINDS, Message
 from physsim_ros.sketchpad.messages import worlds
@@ -199,6 +200,10 @@ def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:
     assert page.frames[-1].hand_lines[0, 2] == pytest.approx(2.0)
     assert page.ask('let_go')['ok']
     assert physsim.twist('a/0').vx > 1.0
+
+
+def test_a_resting_hand_is_kept_twice_before_it_would_let_go() -> None:
+    assert 2e9 * page_session.HAND_PERIOD < hands.LONGEST_SILENCE
 
 
 def test_a_page_that_is_closed_lets_go(browser: Browser) -> None:

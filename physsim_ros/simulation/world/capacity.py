@@ -31,13 +31,16 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import (
     check_limit,
-    MOST_HANDS,
     MOST_JOINTS_ON_BODY,
-    MOST_ROBOT_TOPICS,
     WorldSettings,
 )
 from physsim_ros.model.transform import Pose
 
+# Greatest number of hands that drag at once [1], each 12 µs a step: one for each page.
+MOST_HANDS = 64
+# Greatest number of topics of all robots [1]: those of 440 TurtleBots. Fast DDS takes a second to
+# make them, and 15 s for 2,000 TurtleBots.
+MOST_ROBOT_TOPICS = 4000
 # Pairs of pieces of one body that cost as much as one contact [1]: the engine lists them too, and
 # rejects each in a tenth of the time (measured: compounds of 1,000 discs).
 _INSIDE = 10

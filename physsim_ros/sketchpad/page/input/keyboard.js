@@ -66,7 +66,7 @@ export class Keyboard {
       const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
       if (undo || redo) parts.time.callService(undo ? 'undo' : 'redo');
       const edit = {c: () => parts.selection.keep(false), x: () => parts.selection.keep(true), d: () => parts.selection.duplicate(), a: () => parts.selection.selectAll(),
-        v: () => parts.selection.paste(parts.selection.hoveredAt ? parts.camera.toWorld(...parts.selection.hoveredAt) : null)}[key];
+        v: () => parts.selection.paste(parts.selection.pointed && parts.camera.toWorld(...parts.selection.pointed.page))}[key];
       edit?.();
       if (undo || redo || edit) event.preventDefault();
       return;

@@ -27,12 +27,11 @@ export class Selection extends Emitter {
     this.names = new Set();
     /** Bodies that were copied, or cut: pasted, those are moved. @type {{names: string[], cut: boolean}} */
     this.kept = {names: [], cut: false};
-    this.hovered = ''; // name of a body
-    /** @type {Point | undefined} [px] */
-    this.hoveredAt = undefined;
+    /** The pointer, where it is not pressed; null where it has left. @type {?Touch} */
+    this.pointed = null;
     parts.view.overlays.push((view) => this.#draw(view));
-    parts.gestures.on('press', () => this.#hover(null));
-    parts.gestures.on('point', (touch) => this.#hover(touch));
+    parts.gestures.on('press', () => { this.pointed = null; });
+    parts.gestures.on('point', (touch) => { this.pointed = touch; });
     // Of the same name, a body of another world is another body.
     parts.connection.on('world', () => { this.kept.names = []; });
     parts.connection.on('scene', ({bodies, joints}) => {
@@ -117,26 +116,19 @@ export class Selection extends Emitter {
     this.select([]);
   }
 
-  /** @param {?Touch} touch */
-  #hover(touch) {
-    const {world, view} = this.parts, row = touch ? world.bodyAt(touch.at, touch.slop) : -1;
-    const name = row < 0 ? '' : world.scene.bodies[row].name;
-    view.canvas.classList.toggle('over', row >= 0);
-    this.hovered = name;
-    this.hoveredAt = touch?.page;
-  }
-
   /** @param {SceneView} view */
   #draw(view) {
-    const {palette} = view, {world, gestures: {tool}} = this.parts;
+    const {palette} = view, {world, camera, words, gestures: {tool}} = this.parts;
     for (const name of this.names) {
       const row = world.row(name);
       if (row >= 0) view.outline(row, palette.accent);
     }
-    const row = this.hovered ? world.row(this.hovered) : -1;
-    if (row < 0 || !this.hoveredAt) return;
+    // Bodies come and go under a pointer that rests.
+    const row = this.pointed ? world.bodyAt(camera.toWorld(...this.pointed.page), this.pointed.slop) : -1;
+    view.canvas.classList.toggle('over', row >= 0);
+    if (row < 0 || !this.pointed) return;
     if (tool.aims) view.outline(row, palette[tool.aims]);
-    const [x, y] = this.hoveredAt;
-    view.write(this.parts.words.item(this.hovered), [x + 16, y - 10], palette.ink);
+    const [x, y] = this.pointed.page;
+    view.write(words.item(world.scene.bodies[row].name), [x + 16, y - 10], palette.ink);
   }
 }

@@ -2,12 +2,16 @@
 /** The canvas: grid, bodies, ghost, joints, arrows, and on top what the tool in hand draws. */
 
 import {BodyView} from './body_view.js';
+import {drawGrid, drawRulers} from './grid_view.js';
 import {JointView} from './joint_view.js';
-import {drawGrid, drawLabels, drawNumbers, drawRulers, drawScan} from './label_view.js';
+import {drawLabels} from './label_view.js';
+import {drawNumbers} from './number_view.js';
+import {drawScan} from './scan_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
-/** @import {Box, Numbered} from './label_view.js' */
+/** @import {Box} from './clearance.js' */
+/** @import {Numbered} from './number_view.js' */
 
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
 const ASIDE = 14; // px from a pointer to what is written beside it
