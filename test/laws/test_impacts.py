@@ -53,9 +53,9 @@ def angular_shape(pick):
     return Polygon(outline=tuple(tuple(turned((size, 0.0), angle)) for angle in angles))
 
 
-def pair_in_flight(pick, shapes):
+def pair_in_flight(pick, shapes, **settings):
     """Return a world in which two random bodies fly at each other, and their approach [m/s]."""
-    sim, approach = simulation(), 0.0
+    sim, approach = simulation(**settings), 0.0
     for name, side, shape in zip('ab', (-1.0, 1.0), shapes, strict=True):
         speed = pick.uniform(1.0, 20.0)
         approach += speed
@@ -125,6 +125,23 @@ def test_an_impact_in_flight_keeps_momentum_and_angular_momentum(report, kinds, 
             report.check(45, what, beside, 0.0, BESIDE[kinds], 'ways')
         hits += hit
     assert hits > 0.9 * len(seeds)
+
+
+@pytest.mark.parametrize('kinds', PAIRS.keys())
+def test_an_impact_leaves_of_momentum_and_angular_momentum_what_damping_does(report, kinds):
+    for seed in range(20):
+        pick = random.Random(seed)
+        sim, approach = pair_in_flight(pick, PAIRS[kinds], gravity=NOWHERE, damping=0.99)
+        start = sim.world.snapshot()
+        mass = start.scene.inertia[:, 0]
+        total = float(mass @ np.hypot(*start.twists[:, :2].T))
+        for number, now in enumerate(steps(sim, 120), 1):
+            kept = 0.01 ** (number * DT)
+            off = math.dist(now.momentum, np.multiply(start.momentum, kept))
+            report.check(45, f'damped {kinds}, momentum', off / total, 0.0, 1e-9, '–')
+        off = abs(angular_momentum(now) - kept * angular_momentum(start))
+        beside = off / (mass.prod() / mass.sum() * approach**2 * DT)
+        report.check(45, f'damped {kinds}, angular momentum', beside, 0.0, BESIDE[kinds], 'ways')
 
 
 def walled(inside, elasticity=1.0):

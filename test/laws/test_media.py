@@ -227,6 +227,24 @@ def test_a_region_of_any_shape_carries_by_what_lies_in_it(report, shape):
         report.check(70, 'lift in a region, in area', lifted, wet, 0.01, 'm²')
 
 
+@pytest.mark.parametrize(
+    'region', [Disc(radius=3.0), Chain(points=((-2.0, 0.0), (2.0, 0.0)), thickness=3.0)]
+)
+def test_a_round_region_carries_bodies_and_their_mirror_images_alike(report, region):
+    sim = simulation()
+    pool(sim, region)
+    places = random.Random(3)
+    for number in range(20):
+        body = places.choice([Disc(radius=0.6), Box(width=1.5, height=0.7)])
+        x, y, yaw = places.uniform(0.5, 4), places.uniform(-4, 4), places.uniform(-3, 3)
+        spawn(sim, f'right/{number}', body, (x, y, yaw), density=WATER, group=1)
+        spawn(sim, f'left/{number}', body, (-x, y, -yaw), density=WATER, group=1)
+    sim.world.step(1)
+    right, left = sim.world.snapshot().twists[1::2], sim.world.snapshot().twists[2::2]
+    off = np.abs(right - left * (-1.0, 1.0, -1.0)).max()
+    report.check(70, 'mirrored in a round region', off / (G * DT), 0.0, 1e-9, 'g dt')
+
+
 def covered(shape, points):
     """Return which points of the frame of a shape lie in it."""
     return contains(shape.form.pieces, points[:, 0], points[:, 1])
