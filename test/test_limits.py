@@ -14,6 +14,7 @@ from physsim_ros.model.shapes import validation
 from physsim_ros.ros.requests import conversions, parameter_services, request_topics
 from physsim_ros.simulation import waiting_entries
 from physsim_ros.simulation.past import amendment
+from physsim_ros.simulation.world import capacity
 from physsim_ros.sketchpad import autosave, inbox, message
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.server import (
@@ -32,8 +33,8 @@ MIB = 2**20
 PROMISES = {
     'interface/codes.md': [
         ('{:,} joints on one body', settings.MOST_JOINTS_ON_BODY),
-        ('{:,} topics of robots', settings.MOST_ROBOT_TOPICS),
-        ('{:,} hands', settings.MOST_HANDS),
+        ('{:,} topics of robots', capacity.MOST_ROBOT_TOPICS),
+        ('{:,} hands', capacity.MOST_HANDS),
         ('{:,} bodies that attract each other', attraction.MOST_ATTRACTING),
         ('more than {:,} requests', waiting_entries.MOST_WAITING),
         ('{:g} MB of requests', waiting_entries.MOST_BYTES / 1e6),

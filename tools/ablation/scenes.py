@@ -16,11 +16,11 @@ import itertools
 import math
 from test.laws.scenes import (
     bar_among_discs,
-    chain,
     DT,
     energy,
     floor,
     G,
+    hanging_chain,
     join,
     NOWHERE,
     run,
@@ -29,6 +29,7 @@ from test.laws.scenes import (
     steps,
     turned,
 )
+from test.laws.test_machines import pendulum, speeds_after_cradle
 from test.worlds import film
 import time
 from typing import Any, NamedTuple
@@ -200,19 +201,11 @@ def _removed_floor() -> float:
 
 def _cradle() -> float:
     """Swing two and three of five balls; return the worst deviation of the speeds after it."""
-    return max(_cradle_of(swung, gap) for swung in (2, 3) for gap in (0.0, 1e-3))
-
-
-def _cradle_of(swung: int, gap: float) -> float:
-    sim, radius, angle = simulation(), 0.1, math.radians(30)
-    for number in range(5):
-        x, turn = (2 * radius + gap) * number, angle if number < swung else 0.0
-        place = (x - math.sin(turn), -math.cos(turn), 0.0)
-        spawn(sim, f'ball/{number}', Disc(radius=radius), place, elasticity=1.0, friction=0.0)
-        join(sim, f'joint/{number}', 'axle', [(x, 0.0)], a=f'ball/{number}', b='world')
-    hit = np.sqrt(2 * G * (1 - math.cos(angle)) / (1 + radius**2 / 2))
-    *_, last = steps(sim, 129)
-    return float(np.abs(last.twists[:, 0] / hit - (np.arange(5) >= 5 - swung)).max())
+    return max(
+        float(np.abs(speeds_after_cradle(swung, gap) - (np.arange(5) >= 5 - swung)).max())
+        for swung in (2, 3)
+        for gap in (0.0, 1e-3)
+    )
 
 
 def _elastic_rows() -> float:
@@ -234,9 +227,7 @@ def _elastic_row_of(shape: Shape, flight: float) -> float:
 
 def _pendulum() -> float:
     """Swing a pendulum from 90 degrees for 10 s; return the greatest change of its energy."""
-    sim = simulation()
-    spawn(sim, 'bob/0', Disc(radius=0.1), (1.0, 0.0, 0.0))
-    join(sim, 'joint/0', 'axle', [(0.0, 0.0)], a='bob/0', b='world')
+    sim = pendulum(math.pi / 2)
     before = sim.world.snapshot()
     deepest = float(before.scene.inertia[0, 0]) * G
     return max(abs(energy(now) - energy(before)) / deepest for now in steps(sim, 2400))
@@ -244,10 +235,8 @@ def _pendulum() -> float:
 
 def _chain() -> float:
     """Let a chain of 50 axles swing for 5 s; return by which share it stretches."""
-    sim, count, link = simulation(), 50, 0.2
-    chain(sim, count, link)
-    ends = (now.ends[:, 0] - now.ends[:, 1] for now in steps(sim, 1200))
-    return max(float(np.hypot(*gaps.T).sum()) for gaps in ends) / (count * link)
+    ends = (now.ends[:, 0] - now.ends[:, 1] for now in steps(hanging_chain(50), 1200))
+    return max(float(np.hypot(*gaps.T).sum()) for gaps in ends) / 10.0
 
 
 def _gear_train() -> float:
