@@ -193,7 +193,7 @@ class RequestQueue:
         if self._waiting:
             self.apply_up_to_seek()
         while (self._waiting or self._calls.hold_requests) and not self._is_applying:
-            self._calls.wait()
+            self._calls.wait_for_any()
             self._playback.seek_shown()
             self._past.cursor.finish_work()
             self.apply_up_to_seek()
@@ -208,7 +208,7 @@ class RequestQueue:
         """Apply all entries, and finish the calls that have read the world, too."""
         self.apply_waiting()
         while self._calls.are_reading:
-            self._calls.wait()
+            self._calls.wait_for_any()
             self.continue_calls()
             self.apply_waiting()
 
