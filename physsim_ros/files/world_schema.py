@@ -16,10 +16,9 @@ from typing import Any
 import numpy as np
 from physsim_ros.files.yaml12 import Located
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import shown
+from physsim_ros.model.checks import AT_WORDS, shown
 from physsim_ros.model.colors import COLOR_WORDS
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal
-from physsim_ros.model.robots.sensors.sensor import AT_WORDS
 from physsim_ros.model.settings import LIMIT, WorldSettings
 from physsim_ros.model.shapes import SHAPE_WORDS
 from physsim_ros.model.texts import Words

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Occupancy grids: square cells that are occupied or not (`nav_msgs/Grid`).
+Occupancy grids: square cells that are occupied or not (`nav_msgs/OccupancyGrid`).
 
 The anchored bodies of a world become a grid; a grid becomes walls, a few boxes.
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
-from physsim_ros.model.checks import check_point, HEAVIEST, ListOf, OneOf, Vector
+from physsim_ros.model.checks import AT_WORDS, check_point, HEAVIEST, ListOf, OneOf, Vector
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.transform import NO_WRENCH, Point, rotated, Wrench
 
@@ -37,6 +37,7 @@ class AppliedForce(Checked):
         Point | None,
         check_point,
         'x, y [m] in the frame of the body, where it acts; by default the centre of mass',
+        AT_WORDS,
     ] = None
     axes: Annotated[
         str,

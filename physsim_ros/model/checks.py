@@ -261,11 +261,12 @@ class Vector:
 VELOCITY = Vector(FASTEST, 'm/s', 'faster')
 MASS, DENSITY = Within(LIGHTEST, HEAVIEST, 'kg'), Within(LIGHTEST, HEAVIEST, 'kg/m²')
 FRICTION, ELASTICITY = Within(0.0, 10.0), Within(0.0, 1.0)
-# Everyday words for them, and for greatest speeds.
+# Everyday words for them, for greatest speeds, and for places.
 MASS_WORDS, DENSITY_WORDS = Words('weight', 'heavy', 'kg'), Words('specific_weight', 'rho')
 FRICTION_WORDS = Words('rough', 'roughness', 'grip', 'slippery', 'slip', 'mu')
 ELASTICITY_WORDS = Words('bouncy', 'bounce', 'bounciness', 'restitution', 'rebound')
 MOST_SPEED_WORDS = Words('max_velocity', 'velocity_limit', 'speed_limit')
+AT_WORDS = Words('position', 'pose', 'x', 'y', 'yaw', 'angle', 'orientation')
 
 
 def flag(value: object, name: str) -> bool:

@@ -26,6 +26,7 @@ from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, WorldFull
 from physsim_ros.model.media import DRAG, FLUID_DENSITY, GUST_TIME, GUSTS, Medium, VISCOSITY
 from physsim_ros.model.shapes import LARGEST
+from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
 
 Bounds = tuple[float, float, float, float]
@@ -76,7 +77,10 @@ class WorldSettings(Checked):
         -STANDARD_GRAVITY,
     )
     damping: Annotated[
-        float, Within(0.0, 1.0), 'share of its velocity that each body loses per second'
+        float,
+        Within(0.0, 1.0),
+        'share of its velocity that each body loses per second',
+        Words('damper', 'drag'),
     ] = 0.0
     iterations: Annotated[
         int,

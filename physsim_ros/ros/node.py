@@ -35,7 +35,7 @@ from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.simulation_services import create_simulation_services
-from physsim_ros.ros.time_control import TimeControl
+from physsim_ros.ros.time_control import NodeTimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.entries import Wait
@@ -160,7 +160,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.request_topics = topics = RequestTopics(self, simulation.requests, boundary, frame_id)
         self.diagnostics = Diagnostics(self, simulation, outputs, topics, boundary)
         drawing = DrawingTopics(topics, simulation, self._session, frame_id=frame_id, loop=loop)
-        time_control = TimeControl(simulation, loop, outputs.statistics, self._values)
+        time_control = NodeTimeControl(simulation, loop, outputs.statistics, self._values)
         time_control.subscribe(topics)
         services = {
             **time_control.services,

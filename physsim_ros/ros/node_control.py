@@ -20,7 +20,7 @@ from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.services import Service
-from physsim_ros.ros.time_control import TimeControl
+from physsim_ros.ros.time_control import NodeTimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
@@ -49,7 +49,7 @@ class NodeControl:
     def __init__(
         self,
         simulation: Simulation,
-        time: TimeControl,
+        time: NodeTimeControl,
         services: Mapping[str, Service],
         *,
         loop: FrameLoop,

@@ -28,7 +28,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 
 
-class TimeControl:
+class NodeTimeControl:
     """
     The control of the time of a world; a returned text is a message about what was done.
 

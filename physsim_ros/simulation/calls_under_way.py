@@ -45,12 +45,12 @@ class CallsUnderWay:
 
     @property
     def hold_requests(self) -> bool:
-        """Return whether there is one for which requests wait."""
+        """Return whether requests wait for one of them."""
         return any(each.call.wait.holds_requests for each in self._calls)
 
     @property
     def are_reading(self) -> bool:
-        """Return whether there is one that has read the world, for which other calls wait."""
+        """Return whether one of them has read the world, for which other calls wait."""
         return any(each.call.wait is Wait.TO_READ for each in self._calls)
 
     def begin(self, call: Call) -> None:
@@ -65,7 +65,7 @@ class CallsUnderWay:
         """Do so with those for which no request waits."""
         self._go_on(each for each in self._calls if not each.call.wait.holds_requests)
 
-    def wait(self) -> None:
+    def wait_for_any(self) -> None:
         """Wait until one of them can go on."""
         wait([each.awaited for each in self._calls], return_when=FIRST_COMPLETED)
 

@@ -315,7 +315,7 @@ class FrameMaker:
     def _is_frame_due(self) -> bool:
         """Whether a frame of now is to be made, after steps."""
         view = self._view
-        is_told = self.playback.changed or self.requests.has_answers
+        is_told = self.playback.changed or self.requests.has_answers or self.past.reports
         if self.is_read or is_told or view is None:
             return True
         most = UNREAD_PERIODS * self.frame_steps * max(1.0, abs(self.speed))
@@ -366,7 +366,7 @@ class FrameMaker:
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if past.reports_contacts else None,
-            answers=requests.take_answers(),
+            answers=(*requests.take_answers(), *past.take_reports()),
             speed=playback.speed,
             stepped=playback.stepped,
             past=self.is_past,

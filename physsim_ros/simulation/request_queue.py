@@ -193,7 +193,7 @@ class RequestQueue:
         if self._waiting:
             self.apply_up_to_seek()
         while (self._waiting or self._calls.hold_requests) and not self._is_applying:
-            self._calls.wait()
+            self._calls.wait_for_any()
             self._playback.seek_shown()
             self._past.cursor.finish_work()
             self.apply_up_to_seek()
@@ -208,7 +208,7 @@ class RequestQueue:
         """Apply all entries, and finish the calls that have read the world, too."""
         self.apply_waiting()
         while self._calls.are_reading:
-            self._calls.wait()
+            self._calls.wait_for_any()
             self.continue_calls()
             self.apply_waiting()
 
@@ -387,14 +387,14 @@ class RequestQueue:
 
     @property
     def has_answers(self) -> bool:
-        """Return whether answers, or reports of the past, wait for the next frame."""
-        return bool(self._answers or self._past.reports)
+        """Return whether answers wait for the next frame."""
+        return bool(self._answers)
 
     def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that wait, then the reports of the past, and drop them."""
+        """Return the answers that wait, and drop them."""
         self.note_arrival()
         answers, self._answers = self._answers, []
-        return (*answers, *self._past.take_reports())
+        return tuple(answers)
 
     def report_oldest(self, more: str = '') -> None:
         """Add the event that the moment that is shown is the oldest."""

@@ -144,7 +144,7 @@ def _key(case: Case) -> str:
 def _identity(experiment: Experiment) -> dict[str, Any]:
     """Return every field of an experiment: the world to the bit, functions by their names."""
     values = {each.name: getattr(experiment, each.name) for each in fields(experiment)}
-    # Not the digest of the world, which leaves out what moves nothing, as how a sensor sees.
+    # A digest is of a world that runs: the text of its file stands for a state.
     text = text_of(replace(experiment.world, memory=None), experiment.physics_rate)
     values['world'] = hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
     return {

@@ -5,11 +5,14 @@
 
 from physsim_ros.files import BODY_KEYS
 from physsim_ros.model.actors import actor_from
+from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.declarations import check_key
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.joints import JOINT_KEYS, JointKind, JointProperties, kind_from
 from physsim_ros.model.robots.drives import drive_from
 from physsim_ros.model.robots.sensors import sensor_from
+from physsim_ros.model.settings import WorldSettings
 import pytest
 
 
@@ -59,6 +62,15 @@ def test_a_word_for_a_kind_of_joint_is_told_its_name(word, hint):
 def test_a_word_for_a_kind_of_sensor_drive_or_actor_is_told_its_name(check, word, hint):
     with pytest.raises(BadProperty, match=f"^there is no kind of {check.noun} '{word}'; {hint}"):
         check({'kind': word}, check.noun)
+
+
+@pytest.mark.parametrize(
+    ('declared', 'word', 'name'),
+    [(AppliedForce, 'position', 'at'), (WorldSettings, 'damper', 'damping')],
+)
+def test_an_everyday_word_for_a_field_of_a_mapping_is_told_its_name(declared, word, name):
+    with pytest.raises(UnknownProperty, match=f"; use '{name}'$"):
+        check_key(word, declared.WORDS)
 
 
 @pytest.mark.parametrize('check', [sensor_from, drive_from, actor_from])

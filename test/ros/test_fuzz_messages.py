@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections import Counter
 from functools import partial
 import math
+import random
+import sys
 from typing import Any
 
 import numpy as np
@@ -42,6 +44,11 @@ NASTY_TEXTS = [
     '{friction: 1, friction: 2}', '{anchored: true, kinematic: true}', '{"mass": "1"}', '- 1', '#',
     '{<<: {mass: 1}}', '[' * 2000, '{a: ' * 600, 'x' * 10_001, '\N{SNOWMAN}: 1', '{mass: \x85}',
 ]  # fmt: skip
+# Texts of any characters, also of unassigned ones and of halves of pairs.
+UNICODE_TEXTS = [
+    ''.join(map(chr, random.Random(seed).choices(range(sys.maxunicode + 1), k=seed % 8)))
+    for seed in range(64)
+]
 KEYS = ('kind', 'a', 'b', *Properties.FIELDS, *JointProperties.FIELDS)
 VALUES = ('0', '1', '-1', '0.5', '1e5', '1e-9', '1e12', '.nan', '.inf', 'true', 'false', '[1, 2]',
           '[-1e5, 0]', '[1]', '[]', '~', 'x', '{}', '12345678901234567890', 'a/0')  # fmt: skip
@@ -54,7 +61,7 @@ ODD: dict[str, tuple[Any, ...]] = {
     'uint32': (0, 10**9, 2**32 - 1),
     'uint8': (0, 1, 255),
     'boolean': (False, True),
-    'string': ('', 'world', 'nobody', *NAMES, *NASTY_TEXTS),
+    'string': ('', 'world', 'nobody', *NAMES, *NASTY_TEXTS, *UNICODE_TEXTS),
 }
 
 
@@ -177,5 +184,6 @@ def test_any_messages_are_answered_and_leave_a_world_that_goes_on(seeds: range) 
             fuzzed.go()
     # Not all are refused at the door, and none of the reasons is unknown.
     assert codes['ok'] > codes.total() / 4
-    assert len(done) > len(CONVERT) / 2
+    # In few messages some topics have none that is carried out.
+    assert done == set(CONVERT) or (len(seeds) < 100 and len(done) > len(CONVERT) / 2)
     assert codes.keys() <= REASONS

@@ -196,13 +196,30 @@ def test_what_others_change_in_place_stays_theirs_who_added_it():
 
 def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back():
     hung = joining('pin', [RIGHT[:2]], a='b/0', b='world', break_force=1.0)
-    move = (5, 'Ben', MoveBodies(names=('a/0',), by=(0.0, 1.0)))
-    simulation = world_after(ANNA, move, BEN, (20, 'Ben', hung))
+    move = (50, 'Ben', MoveBodies(names=('a/0',), by=(0.0, 1.0)))
+    simulation = world_after(ANNA, BEN, (20, 'Ben', hung), move)
     assert not simulation.world.scene.joints
 
     assert take_back(simulation, 'Anna').code == 'not_alone'
 
     assert [each.topic for each in simulation.advance_frame().answers] == []
+
+
+def test_what_broke_is_not_told_again_where_the_way_takes_several_ticks():
+    hung = joining('pin', [RIGHT[:2]], a='b/0', b='world', break_force=1.0)
+    move = (50, 'Ben', MoveBodies(names=('a/0',), by=(0.0, 1.0)))
+    simulation = world_after(ANNA, BEN, (20, 'Ben', hung), move)
+    simulation.requests.submit(TakeBack(), Origin('t', author='Anna'))
+
+    told, ticks = [], 0
+    while not told:
+        ticks += 1
+        frames = simulation.advance(ticks, is_overdue=lambda: True)
+        told = [answer for frame in frames for answer in frame.answers]
+        told += simulation.requests.take_answers()
+
+    assert [answer.code for answer in told] == ['not_alone']
+    assert ticks > 1
 
 
 @pytest.mark.parametrize('change', [TakeBack(), Amend((2,), (spawning('c/0', DISC),))])

@@ -219,6 +219,36 @@ def test_what_is_drawn_without_a_socket_waits_for_one_and_is_there_once(
     sheet.page.get_by_label('Angle of the slope [°]').wait_for()
 
 
+def test_what_is_drawn_without_a_socket_is_there_though_the_next_one_is_cut_too(
+    open_sheet: OpenSheet, address: str
+) -> None:
+    sheet = open_sheet('about:blank')
+    received, cut = [], set()
+
+    def out(number: int, text: str) -> str | None:
+        message = json.loads(text)
+        if message['type'] == 'stroke' and not cut:
+            cut.add(number)
+            cable.cut()
+        if number in cut:
+            return None
+        received.append(int(message['id']))
+        return text
+
+    cable = Cable(sheet, out=out)
+    sheet.page.goto(address)
+    sheet.begin()
+    before = sheet.names()
+    cable.cut()
+    sheet.page.get_by_role('alert').wait_for(state='visible')
+    sheet.drag(*circle(1.0, 5.0, 0.8))
+    cable.mend()
+    sheet.until(lambda: cut, 'a stroke that is lost')
+    cable.mend()
+    sheet.wait_for_new(before)
+    assert received == sorted(received)
+
+
 def test_a_dead_socket_is_told_within_three_seconds_and_then_what_may_be_lost(
     open_sheet: OpenSheet, address: str
 ) -> None:

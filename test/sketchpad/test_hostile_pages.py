@@ -21,6 +21,7 @@ from physsim_ros.sketchpad.server.server import MOST_BYTES
 import pytest
 from tornado.httpclient import HTTPClientError
 from tornado.httputil import HTTPHeaders
+from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 
 from .browser import Browser
@@ -330,7 +331,7 @@ def test_a_flood_closes_the_page_and_delays_no_other(
     opcodes = chain([1], repeat(0))
 
     async def flood() -> None:
-        with suppress(WebSocketClosedError):
+        with suppress(WebSocketClosedError, StreamClosedError):
             while not page.closed:
                 if kind == 'message':
                     await page.socket.write_message(CLICK)

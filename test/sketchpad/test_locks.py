@@ -325,7 +325,10 @@ OF_MACHINES = {
         requests.Rejoin(name='rope/0', a='b/0', b='b/1'),
         requests.Delete(name='b/3'),
     ),
-    'carrier/0': (requests.Unjoin(name='gear/0'),),
+    'carrier/0': (
+        requests.Unjoin(name='gear/0'),
+        requests.Rejoin(name='gear/0', a='b/0', b='b/1'),
+    ),
 }
 
 

@@ -160,7 +160,7 @@ static Twist twist_of_axle(const Body *body, Twist twist, double yaw) {
 
 // Bring a body to the velocity of the floor under it: its mean in the step, and that at its end. Below a towed body
 // these are the velocities at which its axle rolls.
-static void drag(World *world, Body *body, Twist mean, Twist end) {
+static void bring_to_floor(World *world, Body *body, Twist mean, Twist end) {
     cpBody *engine = body->engine;
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
@@ -234,7 +234,7 @@ void apply_floor(World *world) {
         if (body->braking > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_plus(driving.mean, belt, 1.0), end = twist_plus(driving.end, belt, 1.0);
-            drag(world, body, mean, end);
+            bring_to_floor(world, body, mean, end);
         }
     }
     assert(robot == world->robots + world->robot_count && actor == world->actors + world->actor_count);

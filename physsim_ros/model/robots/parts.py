@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Self
 
 from physsim_ros.model.checks import (
+    AT_WORDS,
     DENSITY,
     DENSITY_WORDS,
     ELASTICITY,
@@ -31,7 +32,7 @@ from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import JointKind, JointProperties, kind_from
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots.part_names import BASE, check_part, part_name
-from physsim_ros.model.robots.sensors.sensor import AT_WORDS, mounting
+from physsim_ros.model.robots.sensors.sensor import mounting
 from physsim_ros.model.shapes import LARGEST, Shape, SHAPE_WORDS, SHAPES, SMALLEST
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import ORIGIN, Point, Pose

@@ -2,8 +2,9 @@
 /**
  * The socket to the server: sends requests, hands on messages by type, connects again (docs/page_protocol.md).
  *
- * Law: a request that the server has not received is sent again when the page is back, or told to be lost. A socket
- * that is silent is asked whether it lives: a network that went, or a machine that slept, closes none.
+ * Laws: a request that the server has not received is sent again when the page is back, or told to be lost; the ids of
+ * what a server receives ascend, so that the last one tells what it has. A socket that is silent is asked whether it
+ * lives: a network that went, or a machine that slept, closes none.
  */
 
 import {Emitter} from './emitter.js';
@@ -40,9 +41,11 @@ export class Connection extends Emitter {
     this.number = 0;
     /** @type {Map<string, {message: {id: string, type: string}, at: number}>} not answered, by id; at: when they were made [ms] */
     this.unanswered = new Map();
+    this.expired = 0; // count of those that waited for a server too long
     this.pause = SHORTEST_PAUSE;
     this.silence = 0; // ticks since the last message
     this.opened = false; // whether the last socket was open at all
+    this.welcomed = false; // whether the server has told over the socket what it has received: nothing is sent before
     this.line = 0; // number of the line of events that the last timeline told of
     setInterval(() => this.#watch(), TICK);
     /** @type {?WebSocket} */
@@ -51,20 +54,16 @@ export class Connection extends Emitter {
     this.scene = null;
     // Only of the world of this page.
     if (path === '/ws') this.on('welcome', ({person}) => sessionStorage.setItem(PERSON, person));
-    this.on('welcome', ({received}) => this.#sendAgain(received));
   }
 
   connect() {
     const query = new URLSearchParams(location.search);
     query.set('person', sessionStorage.getItem(PERSON) ?? '');
     this.silence = 0;
-    this.opened = false;
+    this.opened = this.welcomed = false;
     this.socket = new WebSocket(`${location.protocol.replace('http', 'ws')}//${location.host}${this.path}?${query}`);
     this.socket.binaryType = 'arraybuffer';
-    this.socket.onopen = () => {
-      this.opened = true;
-      this.#tell('open', null);
-    };
+    this.socket.onopen = () => { this.opened = true; };
     this.socket.onmessage = ({data}) => this.#receive(data);
     this.socket.onclose = ({code}) => {
       if (code === REPLACED) sessionStorage.removeItem(PERSON);
@@ -83,34 +82,57 @@ export class Connection extends Emitter {
       return '';
     }
     const message = {id: String(++this.number), type, ...fields};
-    this.#sendOut(message);
+    if (!PASSING.includes(type)) this.unanswered.set(message.id, {message, at: Date.now()});
+    if (this.#isOpen) this.#sendOut(message);
+    else this.#dropExpired();
     return message.id;
   }
 
   /** @param {{id: string, type: string}} message */
   #sendOut(message) {
-    if (!PASSING.includes(message.type)) this.unanswered.set(message.id, {message, at: Date.now()});
-    if (!this.#isOpen) return;
     this.socket?.send(JSON.stringify(message));
     this.#tell('sent', message);
   }
 
+  /** Drop what has waited for a server too long. */
+  #dropExpired() {
+    for (const [id, {at}] of this.unanswered) {
+      if (Date.now() - at < LASTING) return;
+      this.#forget(id);
+      this.expired++;
+    }
+  }
+
+  /** @param {string} id */
+  #forget(id) {
+    this.unanswered.delete(id);
+    this.waiting.delete(id);
+  }
+
   /**
-   * Send again what the server has not received over the sockets before, and tell how much.
+   * Send again what the server has not received over the sockets before.
    * @param {string} received the last message that it has; '' where it does not know this page
+   * @returns {{sent: number, lost: number}} how many messages, and how many are not sent
    */
   #sendAgain(received) {
-    const missed = [...this.unanswered.values()].filter(({message: {id}}) => !received || Number(id) > Number(received));
-    this.unanswered.clear();
-    const again = missed.filter(({message: {type}, at}) => received && AGAIN.includes(type) && Date.now() - at < LASTING);
-    const kept = new Set(again.map(({message: {id}}) => id));
-    for (const id of this.waiting.keys()) if (!kept.has(id)) this.waiting.delete(id);
-    for (const {message} of again) this.#sendOut(message);
-    if (missed.length) this.#tell('again', {sent: again.length, lost: missed.length - again.length});
+    this.#dropExpired();
+    let sent = 0, lost = this.expired;
+    this.expired = 0;
+    for (const [id, {message}] of this.unanswered) {
+      const missed = !received || Number(id) > Number(received);
+      if (missed && received && AGAIN.includes(message.type)) {
+        this.#sendOut(message);
+        sent++;
+      } else {
+        this.#forget(id);
+        if (missed) lost++;
+      }
+    }
+    return {sent, lost};
   }
 
   get #isOpen() {
-    return this.socket?.readyState === WebSocket.OPEN;
+    return this.welcomed && this.socket?.readyState === WebSocket.OPEN;
   }
 
   /** Ask a silent server whether it is there, tell that it does not answer, and connect anew. */
@@ -187,6 +209,12 @@ export class Connection extends Emitter {
     if (message.type === 'scene') {
       this.scene = message;
       return;
+    }
+    if (message.type === 'welcome') {
+      this.welcomed = true;
+      const again = this.#sendAgain(message.received);
+      this.#tell('open', null);
+      if (again.sent + again.lost) this.#tell('again', again);
     }
     if (message.type === 'answer') {
       this.unanswered.delete(message.request);

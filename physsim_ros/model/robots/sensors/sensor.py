@@ -9,13 +9,12 @@ import math
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import Row, shown, text, Within
+from physsim_ros.model.checks import AT_WORDS, Row, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.latency import delays, LATENCY_WORDS
 from physsim_ros.model.robots.part_names import BASE, check_part
 from physsim_ros.model.shapes import LARGEST
-from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 # Tokens of ROS (https://design.ros2.org/articles/topic_and_service_names.html).
@@ -50,10 +49,6 @@ def topic_name(value: object, name: str) -> str:
             field=name,
         )
     return word
-
-
-# Everyday words for such a pose.
-AT_WORDS = Words('position', 'pose', 'x', 'y', 'yaw', 'angle', 'orientation')
 
 
 def mounting(value: object, name: str) -> Pose:
