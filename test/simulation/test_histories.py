@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-After any requests in any order, every step of the past is as it was, by any way, to the bit: law
-26 of `docs/laws.md`.
+After any requests in any order, every step of the past is as it was, by any way, to the bit.
 
-HISTORIES says how many histories are played, 20 where it does not; `histories` has the oracle.
+That is law 26 of `docs/laws.md`. HISTORIES says how many histories are played, 20 where it does
+not; `histories` has the oracle.
 """
 
 import os
