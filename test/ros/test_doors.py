@@ -27,7 +27,7 @@ from physsim_ros.ros.publishers import interactive_markers, status_publishers
 from physsim_ros.ros.publishers.status_publishers import TimelinePublisher
 from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.robot_topics import RobotTopics
-from physsim_ros.ros.time_control import TimeControl
+from physsim_ros.ros.time_control import NodeTimeControl
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.world import world
 from physsim_ros.testing import box, disc, PhysSim
@@ -61,11 +61,11 @@ TOPICS = {
     '~/seek': Clock,
 }
 SERVICES: dict[str, tuple[object, str]] = {
-    'play': (TimeControl, 'set_speed'),
-    'pause': (TimeControl, 'set_speed'),
-    'rewind': (TimeControl, 'set_speed'),
-    'fast_forward': (TimeControl, 'set_speed'),
-    'fast_rewind': (TimeControl, 'set_speed'),
+    'play': (NodeTimeControl, 'set_speed'),
+    'pause': (NodeTimeControl, 'set_speed'),
+    'rewind': (NodeTimeControl, 'set_speed'),
+    'fast_forward': (NodeTimeControl, 'set_speed'),
+    'fast_rewind': (NodeTimeControl, 'set_speed'),
     'step': (Past, 'fit_memory'),
     'undo': (Past, 'undo'),
     'redo': (Past, 'redo'),
