@@ -17,7 +17,9 @@ def submit_reading(
     simulation: Simulation,
     session: DrawingSession,
     reading: Reading,
-    origin: Origin,
+    origin: Origin | None = None,
+    *,
+    topic: str = '',
 ) -> None:
     """
     Answer a stroke by its reading, and submit its requests as one gesture.
@@ -25,9 +27,10 @@ def submit_reading(
     The requests of a reading that amends earlier gestures replace those.
 
     :param session: whose last reading it is
-    :param origin: the message of the stroke
+    :param origin: the message of the stroke; None is one of `topic`
+    :param topic: its source, where nothing else is known of the message
     """
-    queue = simulation.requests
+    queue, origin = simulation.requests, origin or Origin(topic)
     queue.tell(_answer(reading, origin))
     if reading.amends:
         amend = Amend(reading.amends, reading.requests)

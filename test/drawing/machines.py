@@ -14,7 +14,6 @@ from physsim_ros.files import load_drawing
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Scene
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 
 G = 9.81
@@ -32,7 +31,7 @@ class Machine:
         for stroke, began in strokes:
             reading = session.stroke(stroke, '', frame.snapshot, began=began)
             self.read.append(reading.meaning)
-            submit_reading(self.simulation, session, reading, Origin('~/stroke'))
+            submit_reading(self.simulation, session, reading, topic='~/stroke')
             frame = self.simulation.apply_requests() or frame
             assert all(answer.code == '' for answer in frame.answers), frame.answers
         self.start = frame.snapshot.poses

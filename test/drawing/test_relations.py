@@ -19,7 +19,6 @@ from physsim_ros.model.requests import Command, Delete, Join, Request, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import rotated_each
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -231,7 +230,7 @@ def drawn_into_a_world(drawn: Drawn, pause: float) -> tuple[str, Scene]:
         except Refusal:
             meaning = ''
             continue
-        submit_reading(simulation, session, reading, Origin(''))
+        submit_reading(simulation, session, reading)
         frame = simulation.apply_requests() or frame
         assert all(answer.code == '' for answer in frame.answers), frame.answers
         meaning = ' '.join((reading.meaning, *concerned(reading.requests)))

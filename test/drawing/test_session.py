@@ -23,7 +23,6 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.model.transform import rotated_each
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -79,7 +78,7 @@ class Desk:
         return self.simulation.world.snapshot().scene
 
     def _submit(self, reading: Reading) -> None:
-        submit_reading(self.simulation, self.session, reading, Origin('~/stroke'))
+        submit_reading(self.simulation, self.session, reading, topic='~/stroke')
         self._settle()
 
     def _settle(self) -> None:

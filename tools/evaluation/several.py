@@ -18,7 +18,6 @@ import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Spawn
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 
 from . import figures
@@ -56,7 +55,7 @@ class Sheet:
             reading = self.session.stroke(samples, '', self.frame.snapshot, began=began)
         except Refusal:
             return ''
-        submit_reading(self.simulation, self.session, reading, Origin('~/stroke'))
+        submit_reading(self.simulation, self.session, reading, topic='~/stroke')
         self.frame = self.simulation.apply_requests() or self.frame
         return reading.meaning
 

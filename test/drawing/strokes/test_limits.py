@@ -38,7 +38,6 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Delete, Join, Spawn
 from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
-from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -957,7 +956,7 @@ def last_meaning(bodies: Sequence[Spawn], strokes: Sequence[Way | Floats], pause
         samples = np.column_stack((points, np.linspace(0.0, 0.6, len(points))))
         began = number * (0.6 + pause)
         reading = session.stroke(samples, '', frame.snapshot, began=began)
-        submit_reading(simulation, session, reading, Origin(''))
+        submit_reading(simulation, session, reading)
     return reading.meaning if reading is not None else ''
 
 
