@@ -501,6 +501,9 @@ def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
     assert min(int(each) for each in re.findall(r'\d+', color)) > 128, color
     boss.press('Close')
     boss.page.emulate_media(color_scheme='light')
+    # In the frame after it is closed, it learns that it has no size.
+    for _ in range(2):
+        boss.page.evaluate('new Promise(requestAnimationFrame)')
     boss.page.evaluate(COUNT_PICTURES)
     boss.page.locator('#seats li').first.get_by_role('button', name='More').click()
     boss.press('Show this run to all')
