@@ -545,7 +545,8 @@ def test_a_material_that_is_refused_takes_no_other_back(sheet: Sheet) -> None:
     density, friction = (panel.get_by_label(label) for label in labels)
     friction.wait_for()
     sheet.page.evaluate(ENTER_BOTH, [labels[0], '-1', labels[1], '0.9'])
-    sheet.told('does not lie between')
+    # The status has the last of what is told: it may be of the field after it already.
+    sheet.wait("heard.refusals.some((told) => told.includes('must lie between'))")
     sheet.until(lambda: density.input_value() == '1', 'the density before')
     assert friction.input_value() == '0.9'
 
