@@ -14,6 +14,12 @@ SLOWED = """() => {
     const now = performance.now.bind(performance), begin = now();
     performance.now = () => begin + 10 * (now() - begin);
 }"""
+# Notes all that is announced: each announcement takes the place of the one before.
+ANNOUNCEMENTS = """() => {
+    const log = document.querySelector('[role=log]');
+    window.announced = '';
+    new MutationObserver(() => { announced += log.textContent; }).observe(log, {childList: true});
+}"""
 FOCUSED = "document.activeElement.getAttribute('aria-label')"
 ENOUGH = 8
 
@@ -175,25 +181,25 @@ def test_a_hint_that_was_followed_twice_is_not_given_again(sheet: Sheet) -> None
 
 
 def test_a_screen_reader_is_told_what_the_selected_body_does(sheet: Sheet) -> None:
-    log = sheet.page.get_by_role('log', name='What moves')
+    sheet.page.evaluate(ANNOUNCEMENTS)
     sheet.press('Hand')
     sheet.drag((0.0, 0.5), (0.0, 4.0))
     sheet.wait("physsim.bodies['ball/0'][1] > 3")
     sheet.tap(*sheet.pose('ball/0')[:2])
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     sheet.press('Play')
-    log.get_by_text('ball/0 touches a wall at').wait_for()
-    log.get_by_text('ball/0 rests at').wait_for()
+    for told in ('ball/0 touches a wall at', 'ball/0 rests at'):
+        sheet.wait('told => announced.includes(told)', told)
     sheet.press('Pause')
 
 
 def test_a_screen_reader_is_told_of_all_bodies_where_somebody_asks(sheet: Sheet) -> None:
-    log = sheet.page.get_by_role('log', name='What moves')
+    sheet.page.evaluate(ANNOUNCEMENTS)
     sheet.press('Help')
     sheet.page.get_by_label('Tell what moves, for screen readers').check()
     sheet.page.keyboard.press('Escape')
     sheet.press('Play')
-    log.get_by_text('box/0 touches a wall at').wait_for()
+    sheet.wait("announced.includes('box/0 touches a wall at')")
     sheet.press('Pause')
 
 
