@@ -184,7 +184,7 @@ def test_a_screen_reader_is_told_what_the_selected_body_does(sheet: Sheet) -> No
     sheet.page.evaluate(ANNOUNCEMENTS)
     sheet.press('Hand')
     sheet.drag((0.0, 0.5), (0.0, 4.0))
-    sheet.wait("physsim.bodies['ball/0'][1] > 3")
+    sheet.wait("physsim.bodies['ball/0'][1] > 3.99")
     sheet.tap(*sheet.pose('ball/0')[:2])
     sheet.page.get_by_role('complementary', name='Body').wait_for()
     sheet.press('Play')
