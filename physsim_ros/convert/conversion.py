@@ -129,8 +129,10 @@ def shape_of(pieces: Sequence[Piece], conversion: Conversion) -> tuple[dict[str,
             continue
         if isinstance(piece, Circle):
             conversion.leave_out(f'a disc of a larger body has {_CORNERS} corners')
-            piece = disc_outline((piece.radius, piece.radius), piece.center)  # noqa: PLW2901
-        first, *rest = piece.vertices
+            outline = disc_outline((piece.radius, piece.radius), piece.center)
+        else:
+            outline = piece
+        first, *rest = outline.vertices
         for second, third in itertools.pairwise(rest):
             triangles += [list(first), list(second), list(third)]
     return {'triangles': triangles}, (0.0, 0.0)

@@ -136,7 +136,7 @@ def _tiles_of(chunk: Content, compression: str) -> NDArray[np.uint32]:
 
 
 def _unpacked(data: str, compression: str, size: int) -> bytes:
-    """Return what a text in base64 has packed: bytes, of which more than a size are cut off."""
+    """Return the bytes that a text in base64 stands for; a byte beyond a size tells of more."""
     try:
         packed = base64.b64decode(data)
         if not compression:

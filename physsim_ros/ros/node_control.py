@@ -23,6 +23,7 @@ from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.time_control import NodeTimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.runtime.slices import Slices
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.parameter import Parameter
 
@@ -132,9 +133,7 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        message = await self._files.load(world)
-        self.set_parameter('world_file', world)
-        return message
+        return await self._with_file(world, self._files.load(world))
 
     async def open_world(self, world: str) -> str:
         """
@@ -142,9 +141,7 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        message = await self._files.open_world(world)
-        self.set_parameter('world_file', world)
-        return message
+        return await self._with_file(world, self._files.open_world(world))
 
     async def save_world(self, world: str) -> str:
         """
@@ -152,7 +149,11 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        message = await self._files.save(world)
+        return await self._with_file(world, self._files.save(world))
+
+    async def _with_file(self, world: str, work: Slices[str]) -> str:
+        """Carry out work on the world of a name, and have parameter `world_file` name it then."""
+        message = await work
         self.set_parameter('world_file', world)
         return message
 

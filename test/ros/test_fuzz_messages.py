@@ -184,6 +184,5 @@ def test_any_messages_are_answered_and_leave_a_world_that_goes_on(seeds: range) 
             fuzzed.go()
     # Not all are refused at the door, and none of the reasons is unknown.
     assert codes['ok'] > codes.total() / 4
-    # In few messages some topics have none that is carried out.
-    assert done == set(CONVERT) or (len(seeds) < 100 and len(done) > len(CONVERT) / 2)
+    assert done == set(CONVERT)
     assert codes.keys() <= REASONS

@@ -20,7 +20,7 @@ gravity: [0, 0]
 bodies:
   - {name: puck/0, circle: {radius: 0.5}, at: [0, 2]}
 """
-# What is written on canvases in the next picture.
+# Returns the texts that canvases show in the next picture.
 NEXT_TEXTS = """() => new Promise((resolve) => requestAnimationFrame(() => {
     texts.length = 0;
     document.dispatchEvent(new Event('pointermove'));

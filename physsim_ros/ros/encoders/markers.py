@@ -284,7 +284,7 @@ class _MarkerBytes:
 
 
 def _serialised(symbol: Symbol, frame_id: str) -> _MarkerBytes:
-    """Return a symbol as a marker, whose numbers are 0."""
+    """Return the marker of a symbol, without its time and pose, which each frame has."""
     head = CdrWriter()
     head.header(frame_id)
     head.text(symbol.key[0])

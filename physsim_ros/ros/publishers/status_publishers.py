@@ -106,7 +106,7 @@ class EventPublisher:
             self._unacknowledged, self.stopped = 0, False
 
     def _take_room(self) -> bool:
-        """Take the room of an answer in the history; return False if that may be asked for."""
+        """Return whether an answer may go out now; count it where a reader has stopped."""
         if self._unacknowledged < EVENTS_DEPTH:
             return True
         self._look_up_acknowledgements()

@@ -266,7 +266,7 @@ class LineInForce:
         """Have the line count as reached up to a step, while others act within the block."""
         reached, self.head = self.head, step
         yield
-        # Where the block was left by an exception, another line has begun.
+        # No `finally`: an exception in the block has put another line in force.
         self.head = reached
 
     def note_shown(self, step: int, serial: int) -> None:

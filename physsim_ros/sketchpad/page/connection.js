@@ -98,15 +98,9 @@ export class Connection extends Emitter {
   #dropExpired() {
     for (const [id, {at}] of this.unanswered) {
       if (Date.now() - at < LASTING) return;
-      this.#forget(id);
+      this.unanswered.delete(id);
       this.expired++;
     }
-  }
-
-  /** @param {string} id */
-  #forget(id) {
-    this.unanswered.delete(id);
-    this.waiting.delete(id);
   }
 
   /**
@@ -124,10 +118,11 @@ export class Connection extends Emitter {
         this.#sendOut(message);
         sent++;
       } else {
-        this.#forget(id);
+        this.unanswered.delete(id);
         if (missed) lost++;
       }
     }
+    for (const id of this.waiting.keys()) if (!this.unanswered.has(id)) this.waiting.delete(id);
     return {sent, lost};
   }
 
