@@ -47,13 +47,16 @@ def convert(source: Path) -> Conversion:
     if kind not in _CONVERTERS:
         raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
     try:
-        return _CONVERTERS[kind](content, source.parent)
+        conversion = _CONVERTERS[kind](content, source.parent)
     except Refusal as refusal:
         raise Refusal(f'{source.name} is no valid world of {kind}: {refusal}') from refusal
     except RecursionError:
         raise Refusal(
             f'{source.name} is no valid world of {kind}: it is nested too deep'
         ) from None
+    for place in content.unread():
+        conversion.tell(f'left out: {place}')
+    return conversion
 
 
 def main(arguments: list[str] | None = None) -> int:

@@ -6,14 +6,14 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 import itertools
 import math
 import re
 from typing import NamedTuple
 
-from physsim_ros.convert.content import BadContent
+from physsim_ros.convert.content import BadContent, Content
 from physsim_ros.files import yaml_line
 from physsim_ros.model.checks import Within
 from physsim_ros.model.settings import WorldSettings
@@ -27,6 +27,8 @@ SEEN_FROM_ABOVE: Mapping[str, object] = {'gravity': [0.0, 0.0], 'floor_friction'
 # Thickness of outlines that are lines [m], and corners of a disc that becomes a polygon.
 THICKNESS = 0.05
 _CORNERS = 24
+# Greatest distance [m] of places that count as one: a line on the screen of an editor.
+GAP = 0.01
 
 
 @dataclass
@@ -35,13 +37,13 @@ class Conversion:
     A world file in the making.
 
     :ivar settings: of the world
-    :ivar left_out: sentences about what has no like here, with the number of cases
+    :ivar sentences: about what has no like here, with the number of cases
     """
 
     settings: dict[str, object] = field(default_factory=dict)
     bodies: list[dict[str, object]] = field(default_factory=list)
     joints: list[dict[str, object]] = field(default_factory=list)
-    left_out: Counter[str] = field(default_factory=Counter)
+    sentences: Counter[str] = field(default_factory=Counter)
     # Numbers of bodies and of joints by their names without ids.
     _bodies_of: Counter[str] = field(default_factory=Counter)
     _joints_of: Counter[str] = field(default_factory=Counter)
@@ -68,19 +70,41 @@ class Conversion:
         places = [[x, y] for x, y in points]
         self.joints.append({'name': full, 'kind': kind, 'points': places, **properties})
 
-    def leave_out(self, sentence: str) -> None:
-        """Note something that is left out, or becomes something else."""
-        self.left_out[sentence] += 1
+    def tell(self, sentence: str) -> None:
+        """Note something that becomes something else, or is left out."""
+        self.sentences[sentence] += 1
 
-    def leave_out_keys(self, content: Iterable[str], known: Sequence[str], of: str) -> None:
-        """Note those keys of a mapping that are not known."""
-        for key in content:
-            if key not in known:
-                self.leave_out(f'left out: {key} of {of}')
+    def leave_out(self, content: Content, sentence: str) -> None:
+        """Note that all of a mapping is left out, with whatever is in it."""
+        content.settle()
+        self.tell(f'left out: {sentence}')
+
+    def solid_parts(
+        self, parts: Sequence[Content], is_sensor: Callable[[Content], bool]
+    ) -> list[Content]:
+        """Return the solid parts of a body; if there are any, its sensors are left out."""
+        solid = [each for each in parts if not is_sensor(each)]
+        for each in parts if solid else ():
+            if each not in solid:
+                self.leave_out(each, 'a sensor that is a part of a solid body')
+        return solid
+
+    def of_first(self, parts: Sequence[Content], key: str) -> float:
+        """Return a number of the first part of a body, which counts for all; tell others."""
+        first, *others = (each.number(key, 0.0) for each in parts)
+        if any(other != first for other in others):
+            self.tell(f'parts of a body differ in {key}: that of the first one counts')
+        return first
+
+    def common_anchor(self, first: Point, second: Point) -> Point:
+        """Return where two anchors are [m] that their joint pulls together; tell if it has to."""
+        if math.dist(first, second) > GAP:
+            self.tell('a joint whose two anchors are apart is at one of the two')
+        return first
 
     def told(self) -> Iterator[str]:
         """Yield the sentences about what is left out, each once."""
-        for sentence, count in sorted(self.left_out.items()):
+        for sentence, count in sorted(self.sentences.items()):
             yield f'{sentence} ({count} times)' if count > 1 else sentence
 
     def text(self) -> str:
@@ -125,10 +149,10 @@ def shape_of(pieces: Sequence[Piece], conversion: Conversion) -> tuple[dict[str,
     triangles: list[list[float]] = []
     for piece in pieces:
         if isinstance(piece, Line):
-            conversion.leave_out('left out: a line that is a part of a larger body')
+            conversion.tell('left out: a line that is a part of a larger body')
             continue
         if isinstance(piece, Circle):
-            conversion.leave_out(f'a disc of a larger body has {_CORNERS} corners')
+            conversion.tell(f'a disc of a larger body has {_CORNERS} corners')
             outline = disc_outline((piece.radius, piece.radius), piece.center)
         else:
             outline = piece

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 import math
 from pathlib import Path
 
-from physsim_ros.convert.content import BadContent, Content, load, numbers
+from physsim_ros.convert.content import BadContent, Content, numbers
 from physsim_ros.convert.conversion import (
     clamped,
     Conversion,
@@ -35,8 +35,6 @@ _MATERIAL = {
 }
 # Kinds of joints here.
 _JOINTS = {'revolute': 'axle', 'weld': 'pin'}
-_WORLD_KEYS = ('properties', 'layers', 'models')
-_MODEL_KEYS = ('bodies', 'footprints', 'joints', 'plugins')
 # Kinds of drives here; flatland moves models by velocities, without wheels.
 _DRIVES = {'DiffDrive': 'differential', 'TricycleDrive': 'car', 'Bicycle': 'car'}
 # Rate of a laser that has none [Hz].
@@ -47,8 +45,10 @@ _ORIGIN = (0.0, 0.0, 0.0)
 def convert(content: Content, folder: Path) -> Conversion:
     """Return the world of a file of flatland, whose other files lie in its folder."""
     conversion = Conversion(settings={**SEEN_FROM_ABOVE})
-    conversion.leave_out_keys(content, _WORLD_KEYS, 'the world')
+    # Iterations of the solver of Box2D.
+    content.skip('properties')
     for layer in content.entries('layers'):
+        layer.skip('name')
         _add_layer(conversion, layer, folder)
     for model in content.entries('models'):
         _add_model(conversion, model, folder)
@@ -58,35 +58,35 @@ def convert(content: Content, folder: Path) -> Conversion:
 def _add_layer(conversion: Conversion, layer: Content, folder: Path) -> None:
     name = layer.get('map')
     if not isinstance(name, str):
-        conversion.leave_out('left out: a layer without a map')
+        conversion.leave_out(layer, 'a layer without a map')
         return
-    image = load(folder / name)
+    image = layer.load(folder / name)
     if image.get('type') == 'line_segments':
-        scale, (x, y) = image.number('scale', 1.0), image.point('origin', (0.0, 0.0))
+        scale, origin = image.number('scale', 1.0), image.pose('origin', _ORIGIN)
         path = (folder / name).parent / image.text('data')
         for line in filter(str.strip, path.read_text('utf-8').splitlines()):
             found = numbers(line.split()[:4], path.name)
             if len(found) < 4:
                 raise BadContent(f'{path.name} must have four numbers a line')
             a, b, c, d = (scale * each for each in found)
-            shape = line_shape([(x + a, y + b), (x + c, y + d)])
-            conversion.add_body('wall', shape, (0.0, 0.0, 0.0), anchored=True)
+            conversion.add_body('wall', line_shape([(a, b), (c, d)]), origin, anchored=True)
     elif 'map' in conversion.settings:
-        conversion.leave_out('left out: a second map')
+        conversion.leave_out(image, 'a second map')
     else:
+        # The map of a world file is the same file.
+        image.settle()
         conversion.settings['map'] = name
 
 
 def _add_model(conversion: Conversion, model: Content, folder: Path) -> None:
-    content = load(folder / model.text('model'))
-    conversion.leave_out_keys(content, _MODEL_KEYS, 'a model')
+    content = model.load(folder / model.text('model'))
     pose = model.pose('pose', _ORIGIN)
     plugins, bodies = content.entries('plugins'), content.entries('bodies')
     robot = _robot_of(conversion, plugins, model) if len(bodies) == 1 else None
     if robot is None:
         for plugin in plugins:
             kind = plugin.text('type')
-            conversion.leave_out(f'left out: plugin {kind} of a model that is no robot')
+            conversion.leave_out(plugin, f'plugin {kind} of a model that is no robot')
     names: dict[str, tuple[str, Pose]] = {}
     for body in bodies:
         place = composed(pose, body.pose('pose', _ORIGIN))
@@ -104,9 +104,7 @@ def _add_body(
     robot: Mapping[str, object] | None,
 ) -> str:
     prints = body.entries('footprints')
-    solid = [each for each in prints if not _is_sensor(each)]
-    if solid and len(solid) < len(prints):
-        conversion.leave_out('left out: a footprint that is a sensor of a solid body')
+    solid = conversion.solid_parts(prints, _is_sensor)
     prints = solid or prints
     shape, origin = shape_of([_piece_of(each) for each in prints], conversion)
     properties: dict[str, object] = {}
@@ -114,14 +112,17 @@ def _add_body(
     for key, (name, check) in _MATERIAL.items():
         if key in first:
             # Box2D has no greatest friction.
-            properties[name] = clamped(first.number(key), check)
+            properties[name] = clamped(conversion.of_first(prints, key), check)
     if first.get('density') == 0:
         del properties['density']
     if not solid and robot is None:
         properties['sensor'] = True
+    kind = body.text('type', 'dynamic')
     if robot is not None:
-        properties = {**properties, 'robot': robot}
-    elif (kind := body.text('type', 'dynamic')) != 'dynamic':
+        properties['robot'] = robot
+        if kind != 'dynamic':
+            conversion.tell(f'a robot is dynamic, not {kind}')
+    elif kind != 'dynamic':
         properties['anchored' if kind == 'static' else 'kinematic'] = True
     if 'color' in body:
         properties['color'] = body.numbers('color')
@@ -145,18 +146,22 @@ def _add_joint(
 ) -> None:
     kind = _JOINTS.get(joint.text('type'))
     if kind is None:
-        conversion.leave_out(f'left out: a joint {joint.text("type")}')
+        conversion.leave_out(joint, f'a joint {joint.text("type")}')
         return
     bodies = joint.entries('bodies')
     unknown = [each.place('name') for each in bodies if each.text('name') not in names]
     if unknown or len(bodies) != 2:
         raise BadContent(f'{joint.place("bodies")} must be two bodies of the model')
     a, b = bodies
-    (name_a, pose_a), (name_b, _) = names[a.text('name')], names[b.text('name')]
+    (name_a, pose_a), (name_b, pose_b) = names[a.text('name')], names[b.text('name')]
+    at_a, at_b = (
+        local_to_world(each.point('anchor', (0.0, 0.0)), pose)
+        for each, pose in ((a, pose_a), (b, pose_b))
+    )
     conversion.add_joint(
         joint.text('name', ''),
         kind,
-        [local_to_world(a.point('anchor', (0.0, 0.0)), pose_a)],
+        [conversion.common_anchor(at_a, at_b)],
         a=name_a,
         b=name_b,
         collide=joint.is_set('collide_connected'),
@@ -174,14 +179,15 @@ def _robot_of(
     sensors: list[dict[str, object]] = []
     for kind, plugin in zip(kinds, plugins, strict=True):
         name = plugin.text('topic', plugin.text('name', '')).strip('/')
+        plugin.skip('body')
         if kind == 'Laser':
             sensors.append(_laser_of(plugin, name or 'scan'))
         elif kind == 'Bumper':
             sensors.append({'kind': 'bumper', 'name': name or 'bumper', 'sector': 2 * math.pi})
         elif kind in _DRIVES:
-            conversion.leave_out('a drive has the default track, wheels and limits: set them')
+            conversion.tell('a drive has the default track, wheels and limits: set them')
         else:
-            conversion.leave_out(f'left out: plugin {kind}')
+            conversion.leave_out(plugin, f'plugin {kind}')
     robot: dict[str, object] = {'drive': {'kind': drive}, 'sensors': sensors}
     if 'namespace' in model:
         robot['namespace'] = model.text('namespace')

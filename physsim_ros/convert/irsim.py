@@ -20,14 +20,6 @@ from physsim_ros.convert.conversion import Conversion, line_shape, MOST_BODIES, 
 from physsim_ros.model.transform import Pose
 
 _DRIVES = {'diff': 'differential', 'omni': 'omni', 'acker': 'car'}
-_GROUP_KEYS = (
-    *('number', 'distribution', 'kinematics', 'shape', 'state', 'goal', 'vel_max', 'behavior'),
-    *('sensors', 'name', 'color', 'unobstructed', 'plot'),
-)
-_WORLD_KEYS = (
-    *('name', 'width', 'height', 'offset', 'step_time', 'sample_time', 'collision_mode'),
-    *('control_mode', 'mdownsample', 'plot'),
-)
 # Greatest speed and turn rate, where a group does not set them.
 _SPEEDS = (1.0, 1.0)
 # Greatest steering angle [rad].
@@ -38,14 +30,14 @@ def convert(content: Content, _folder: Path) -> Conversion:
     """Return the world of a file of ir-sim."""
     world = content.entry('world')
     conversion = Conversion(settings={**SEEN_FROM_ABOVE})
-    conversion.leave_out_keys(world, _WORLD_KEYS, 'the world')
+    world.skip('name', 'step_time', 'sample_time', 'plot')
     x, y = world.point('offset', (0.0, 0.0))
     width, height = world.number('width', 10.0), world.number('height', 10.0)
     conversion.settings['bounds'] = [x, y, x + width, y + height]
     for kind in ('robot', 'obstacle'):
         is_one = isinstance(content.get(kind), Mapping)
         for group in [content.entry(kind)] if is_one else content.entries(kind):
-            conversion.leave_out_keys(group, _GROUP_KEYS, f'a {kind}')
+            group.skip('plot')
             _add_group(conversion, group, kind)
     return conversion
 
@@ -56,13 +48,13 @@ def _add_group(conversion: Conversion, group: Content, kind: str) -> None:
         raise BadContent(f'there are more than {MOST_BODIES:,} bodies')
     for i, pose in enumerate(_poses(conversion, group, number)):
         described = _shape_entry(group, i)
-        if described.is_set('random_shape'):
-            conversion.leave_out(f'left out: a {kind} with a random shape')
-            continue
-        shape, radius = _shape_of(described)
         properties: dict[str, object] = {'sensor': True} if group.is_set('unobstructed') else {}
         kinematics = _kinematics_of(group)
         actor = _actor_of(conversion, group, i, pose) if kinematics else None
+        if described.is_set('random_shape'):
+            conversion.leave_out(described, f'{kind} with a random shape')
+            continue
+        shape, radius = _shape_of(described)
         if kind == 'robot':
             properties['robot'] = _robot_of(conversion, group, kinematics or 'diff', radius)
             if actor is not None:
@@ -77,7 +69,7 @@ def _add_group(conversion: Conversion, group: Content, kind: str) -> None:
 
 
 def _poses(conversion: Conversion, group: Content, number: int) -> list[Pose]:
-    distribution = Content(group.get('distribution') or {}, group.place('distribution'))
+    distribution = group.part(group.get('distribution') or {}, group.place('distribution'))
     match distribution.get('name', 'manual'):
         case 'circle':
             x, y = distribution.point('center', (5.0, 5.0))
@@ -87,7 +79,7 @@ def _poses(conversion: Conversion, group: Content, number: int) -> list[Pose]:
                 (x + radius * math.cos(a), y + radius * math.sin(a), a + math.pi) for a in angles
             ]
         case 'random':
-            conversion.leave_out('random places are drawn once, with seed 0')
+            conversion.tell('random places are drawn once, with seed 0')
             low = distribution.pose('range_low', (0.0, 0.0, -math.pi))
             high = distribution.pose('range_high', (10.0, 10.0, math.pi))
             places = np.random.default_rng(0).uniform(
@@ -101,7 +93,7 @@ def _poses(conversion: Conversion, group: Content, number: int) -> list[Pose]:
 def _shape_entry(group: Content, i: int) -> Content:
     """Return the entry of the shape of a body of a group."""
     shapes = group.get('shape', {'name': 'circle', 'radius': 0.2})
-    return Content(_nth(shapes, i), group.place('shape'))
+    return group.part(_nth(shapes, i), group.place('shape'))
 
 
 def _kinematics_of(group: Content) -> str:
@@ -141,13 +133,13 @@ def _actor_of(
     goal, behaviors = group.get('goal'), _nth(group.get('behavior'), i)
     if not goal or not behaviors:
         if goal or behaviors:
-            conversion.leave_out('left out: a goal without a behaviour, or one without a goal')
+            conversion.tell('left out: a goal without a behaviour, or one without a goal')
         return None
     x, y, _ = pose_of(_nth(goal, i), group.place('goal'))
-    behavior = Content(behaviors, group.place('behavior'))
+    behavior = group.part(behaviors, group.place('behavior'))
     name = behavior.text('name', 'dash')
     if name not in ('dash', 'rvo', 'orca'):
-        conversion.leave_out(f'behaviour {name} becomes a straight path')
+        conversion.tell(f'behaviour {name} becomes a straight path')
     speed, _ = _greatest_speeds(group)
     repeat = 'to_and_fro' if behavior.is_set('loop') else 'once'
     here, there = [pose[0], pose[1]], [x, y]
@@ -177,7 +169,7 @@ def _robot_of(
             name = 'scan' if not lasers else f'scan_{len(lasers)}'
             lasers.append(_laser_of(sensor, name))
         else:
-            conversion.leave_out(f'left out: sensor {kind}')
+            conversion.leave_out(sensor, f'sensor {kind}')
     return {'drive': drive, 'sensors': lasers}
 
 

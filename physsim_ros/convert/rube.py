@@ -9,7 +9,7 @@ Restitution of a pair is the greater one in Box2D and the geometric mean here.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 import math
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from physsim_ros.convert.conversion import (
     area_of,
     clamped,
     Conversion,
+    GAP,
     Line,
     Piece,
     shape_of,
@@ -27,20 +28,17 @@ from physsim_ros.model.shapes import Circle, Convex
 from physsim_ros.model.transform import composed, local_to_world, Point, Pose, rotated
 
 _STATIC, _KINEMATIC = 0, 1
-_BODY_KEYS = (
-    *('name', 'type', 'position', 'angle', 'linearVelocity', 'angularVelocity', 'fixture'),
-    *('awake', 'bullet', 'allowSleep', 'massData-mass', 'massData-I', 'massData-center'),
-)
-_WORLD_KEYS = (
-    *('gravity', 'body', 'joint', 'allowSleep', 'autoClearForces', 'continuousPhysics'),
-    *('positionIterations', 'velocityIterations', 'stepsPerSecond', 'subStepping', 'warmStarting'),
+# Keys of the solver of Box2D, and of bodies at rest: here every body may sleep, and none tunnels.
+_OF_THE_SOLVER = (
+    *('allowSleep', 'autoClearForces', 'continuousPhysics', 'subStepping', 'warmStarting'),
+    *('positionIterations', 'velocityIterations', 'stepsPerSecond', 'awake', 'bullet'),
 )
 
 
 def convert(content: Content, _folder: Path) -> Conversion:
     """Return the world of a scene of R.U.B.E."""
     conversion = Conversion(settings={'gravity': [*_vector(content, 'gravity')]})
-    conversion.leave_out_keys(content, _WORLD_KEYS, 'the scene')
+    content.skip(*_OF_THE_SOLVER)
     bodies = [_add_body(conversion, body) for body in content.entries('body')]
     for joint in content.entries('joint'):
         _Joint(conversion, joint, bodies).add()
@@ -55,44 +53,45 @@ class _Placed:
 
 
 def _add_body(conversion: Conversion, body: Content) -> _Placed:
-    conversion.leave_out_keys(body, _BODY_KEYS, 'a body')
+    body.skip(*_OF_THE_SOLVER)
     fixtures = body.entries('fixture')
-    solid = [each for each in fixtures if not each.is_set('sensor')]
-    if solid and len(solid) < len(fixtures):
-        conversion.leave_out('left out: a fixture that is a sensor of a solid body')
+    solid = conversion.solid_parts(fixtures, lambda each: each.is_set('sensor'))
     used = solid or fixtures
     pose = *_vector(body, 'position'), body.number('angle', 0.0)
     if not used:
-        conversion.leave_out('left out: a body without fixtures; its joints are to the background')
+        conversion.leave_out(body, 'a body without fixtures; its joints are to the background')
         return _Placed('world', pose, math.inf)
     pieces = [_piece_of(each) for each in used]
     shape, origin = shape_of(pieces, conversion)
+    densities = [max(each.number('density', 0.0), 0.0) for each in used]
+    weight = sum(a * area_of(piece) for a, piece in zip(densities, pieces, strict=True))
+    # The mass that was set by hand counts, and Box2D gives a dynamic body without mass 1 kg.
+    mass = max(body.number('massData-mass', 0.0), 0.0) or weight or 1.0
     properties: dict[str, object] = {
-        'friction': clamped(used[0].number('friction', 0.0), FRICTION),
-        'elasticity': clamped(used[0].number('restitution', 0.0), ELASTICITY),
+        'mass': mass,
+        'friction': clamped(conversion.of_first(used, 'friction'), FRICTION),
+        'elasticity': clamped(conversion.of_first(used, 'restitution'), ELASTICITY),
+        'velocity': [*_vector(body, 'linearVelocity')],
+        'spin': body.number('angularVelocity', 0.0),
     }
     if not solid:
         properties['sensor'] = True
-    if (group := used[0].whole('filter-groupIndex', 0)) < 0:
-        properties['group'] = -group
-    kind, mass = body.whole('type', _STATIC), math.inf
+    if (group := conversion.of_first(used, 'filter-groupIndex')) > 0.0:
+        conversion.tell('left out: a group whose bodies always collide')
+    elif group:
+        properties['group'] = -round(group)
+    kind = body.whole('type', _STATIC)
     if kind == _STATIC:
         properties['anchored'] = True
+        del properties['mass'], properties['velocity'], properties['spin']
+    elif kind == _KINEMATIC:
+        properties['kinematic'] = True
     else:
-        densities = [max(each.number('density', 0.0), 0.0) for each in used]
-        pairs = zip(densities, pieces, strict=True)
-        weight = sum(density * area_of(piece) for density, piece in pairs)
-        # Box2D gives a dynamic body without mass 1 kg.
-        properties['mass'] = weight or 1.0
-        properties['velocity'] = [*_vector(body, 'linearVelocity')]
-        properties['spin'] = body.number('angularVelocity', 0.0)
-        if kind == _KINEMATIC:
-            properties['kinematic'] = True
-        else:
-            mass = weight or 1.0
+        # Mass is spread evenly over a shape.
+        conversion.of_first(used, 'density')
     at = composed(pose, (*origin, 0.0))
     name = conversion.add_body(body.text('name', 'body'), shape, at, **properties)
-    return _Placed(name, pose, mass)
+    return _Placed(name, pose, math.inf if kind in {_STATIC, _KINEMATIC} else mass)
 
 
 def _piece_of(fixture: Content) -> Piece:
@@ -111,7 +110,7 @@ def _piece_of(fixture: Content) -> Piece:
 
 def _vector(content: Content, key: str) -> Point:
     """Return a vector, for which R.U.B.E. writes 0, or nothing, where both of its numbers are."""
-    if not isinstance(content.get(key), Mapping):
+    if not content.get(key):
         return 0.0, 0.0
     vector = content.entry(key)
     return vector.number('x'), vector.number('y')
@@ -142,13 +141,14 @@ class _Joint:
     def add(self) -> None:
         """Add the joint, if it has a like here."""
         if math.isinf(self.first.mass + self.second.mass) and self.first.mass == self.second.mass:
-            self.conversion.leave_out('left out: a joint of two bodies that forces do not move')
+            sentence = 'a joint of two bodies that forces do not move'
+            self.conversion.leave_out(self.joint, sentence)
             return
         match self.joint.text('type'):
             case 'revolute':
                 self._add_revolute()
             case 'weld':
-                self._add('pin', [self.at_first])
+                self._add('pin', [self.conversion.common_anchor(self.at_first, self.at_second)])
             case 'distance':
                 self._add_distance()
             case 'rope':
@@ -157,7 +157,7 @@ class _Joint:
             case 'prismatic':
                 self._add_prismatic()
             case other:
-                self.conversion.leave_out(f'left out: a joint {other}')
+                self.conversion.leave_out(self.joint, f'a joint {other}')
 
     def _add(self, kind: str, points: Sequence[Point], **properties: object) -> None:
         name = self.joint.text('name', '')
@@ -167,35 +167,36 @@ class _Joint:
 
     def _limits(self, now: float, low: str, high: str) -> dict[str, object]:
         """Return the limits from where the joint is now."""
-        if not self.joint.is_set('enableLimit'):
-            return {}
         # A limit that the joint is beyond is moved to where the joint is.
         lower, upper = (self.joint.number(key, 0.0) - now for key in (low, high))
+        if not self.joint.is_set('enableLimit'):
+            return {}
         return {'lower': min(lower, 0.0), 'upper': max(upper, 0.0)}
 
     def _add_revolute(self) -> None:
         joint = self.joint
         now = self.second.pose[2] - self.first.pose[2] - joint.number('refAngle', 0.0)
         limits = self._limits(now, 'lowerLimit', 'upperLimit')
+        at = self.conversion.common_anchor(self.at_first, self.at_second)
+        torque, rate = joint.number('maxMotorTorque', 0.0), joint.number('motorSpeed', 0.0)
         if limits or not joint.is_set('enableMotor'):
-            self._add('axle', [self.at_first], **limits)
+            self._add('axle', [at], **limits)
         if joint.is_set('enableMotor'):
-            torque = joint.number('maxMotorTorque', 0.0)
-            rate = joint.number('motorSpeed', 0.0)
-            self._add('motor', [self.at_first], rate=rate, max_torque=torque)
+            self._add('motor', [at], rate=rate, max_torque=torque)
 
     def _add_distance(self) -> None:
         joint, points = self.joint, [self.at_second, self.at_first]
         length, frequency = joint.number('length'), joint.number('frequency', 0.0)
+        ratio = joint.number('dampingRatio', 0.0)
         if frequency == 0.0:
-            if not math.isclose(length, math.dist(*points), abs_tol=0.01):
-                self.conversion.leave_out('a rod has the length that is drawn')
+            if not math.isclose(length, math.dist(*points), abs_tol=GAP):
+                self.conversion.tell('a rod has the length that is drawn')
             self._add('rod', points)
             return
         # Frequency and damping ratio are those of the reduced mass.
         inverse = 1.0 / self.first.mass + 1.0 / self.second.mass
         turning = math.tau * frequency
-        damping = 2.0 * joint.number('dampingRatio', 0.0) * turning / inverse
+        damping = 2.0 * ratio * turning / inverse
         stiffness = turning**2 / inverse
         self._add('spring', points, rest_length=length, stiffness=stiffness, damping=damping)
 
@@ -207,7 +208,10 @@ class _Joint:
         axis = rotated((x / size, y / size), self.first.pose[2])
         (ax, ay), (bx, by) = self.at_first, self.at_second
         now = (bx - ax) * axis[0] + (by - ay) * axis[1]
-        if self.joint.is_set('enableMotor'):
-            self.conversion.leave_out('left out: the motor of a slider')
+        on_line = ax + now * axis[0], ay + now * axis[1]
+        self.conversion.common_anchor(self.at_second, on_line)
+        force, rate = self.joint.number('maxMotorForce', 0.0), self.joint.number('motorSpeed', 0.0)
+        is_driven = self.joint.is_set('enableMotor')
+        drive = {'rate': rate, 'max_force': force} if is_driven else {}
         limits = self._limits(now, 'lowerLimit', 'upperLimit')
-        self._add('slider', [self.at_second, (bx + axis[0], by + axis[1])], **limits)
+        self._add('slider', [self.at_second, (bx + axis[0], by + axis[1])], **limits, **drive)

@@ -24,6 +24,12 @@ from physsim_ros.files import PROPERTIES
 from physsim_ros.maps import MOST_CELLS, rectangles_of
 from physsim_ros.model.transform import local_to_world, Point
 
+# Keys of a map, a layer, an object and a property that only the editor needs.
+_OF_THE_EDITOR = (
+    *('version', 'tiledversion', 'type', 'propertytype', 'id', 'nextlayerid', 'nextobjectid'),
+    *('renderorder', 'draworder', 'compressionlevel', 'infinite', 'encoding', 'opacity'),
+    *('x', 'y', 'width', 'height', 'startx', 'starty', 'visible', 'name'),
+)
 # Window bits of zlib for data with the header of gzip or of zlib (zlib.h, `inflateInit2`).
 _ANY_HEADER = zlib.MAX_WBITS | 32
 
@@ -33,6 +39,7 @@ def convert(content: Content, _folder: Path) -> Conversion:
     if (orientation := content.text('orientation', 'orthogonal')) != 'orthogonal':
         raise BadContent(f'orientation {orientation} has no like here')
     conversion = Conversion()
+    content.skip(*_OF_THE_EDITOR)
     _add_layers(conversion, content, content.entries('layers'), (0.0, 0.0))
     return conversion
 
@@ -44,8 +51,9 @@ def _add_layers(
         x, y = layer.number('offsetx', 0.0), layer.number('offsety', 0.0)
         place = offset[0] + x, offset[1] + y
         if 'visible' in layer and not layer.is_set('visible'):
-            conversion.leave_out('left out: a hidden layer')
+            conversion.leave_out(layer, 'a hidden layer')
             continue
+        layer.skip(*_OF_THE_EDITOR)
         match layer.text('type'):
             case 'group':
                 _add_layers(conversion, tiled, layer.entries('layers'), place)
@@ -55,14 +63,15 @@ def _add_layers(
             case 'tilelayer':
                 _add_tiles(conversion, tiled, layer, place)
             case other:
-                conversion.leave_out(f'left out: a layer of type {other}')
+                conversion.leave_out(layer, f'a layer of type {other}')
 
 
 def _add_object(conversion: Conversion, tiled: Content, each: Content, offset: Point) -> None:
     scale = 1.0 / tiled.divisor('tilewidth')
     if each.is_set('point') or 'text' in each:
-        conversion.leave_out(f'left out: a {"text" if "text" in each else "point"}')
+        conversion.leave_out(each, f'a {"text" if "text" in each else "point"}')
         return
+    each.skip(*_OF_THE_EDITOR)
     # Tiled has y down, the origin of an object at its upper left corner, of a tile at its lower.
     corner = (each.number('x') + offset[0]) * scale, _up(tiled, each.number('y') + offset[1])
     pose = *corner, -math.radians(each.number('rotation', 0.0))
@@ -71,8 +80,9 @@ def _add_object(conversion: Conversion, tiled: Content, each: Content, offset: P
     for own in each.entries('properties'):
         if (key := own.text('name')) in PROPERTIES:
             properties[key] = own.get('value')
+            own.skip(*_OF_THE_EDITOR)
         else:
-            conversion.leave_out(f'left out: property {key}')
+            conversion.leave_out(own, f'property {key}')
     if not properties.keys() & {'anchored', 'kinematic', 'mass', 'density', 'velocity', 'spin'}:
         properties['anchored'] = True
     name = next((key for key in ('name', 'class', 'type') if each.is_set(key)), '')

@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import json
 import math
+import re
 import struct
 import zlib
 
@@ -15,6 +16,7 @@ import numpy as np
 from physsim_ros.convert import __main__ as converting
 from physsim_ros.convert import content as converted_content
 from physsim_ros.convert.__main__ import main
+from physsim_ros.convert.content import Content
 from physsim_ros.files import load_world
 from physsim_ros.model.errors import BadWorldFile, Refusal, WorldFull
 import pytest
@@ -123,8 +125,14 @@ RUBE = {
          'linearVelocity': {'x': 2, 'y': 0}, 'linearDamping': 0.1, 'fixture': [
             {'density': 1, 'circle': {'radius': 0.5, 'center': 0}}]},
         {'name': 'cup', 'type': 2, 'position': {'x': -2, 'y': 4}, 'angle': 0, 'fixture': [
-            {'density': 2, 'polygon': {'vertices': {'x': [0, 1, 1, 0], 'y': [0, 0, 1, 1]}}},
-            {'density': 2, 'polygon': {'vertices': {'x': [1, 2, 2, 1], 'y': [0, 0, 1, 1]}}}]},
+            {'density': 2, 'friction': 0.3, 'restitution': 0.2, 'filter-groupIndex': -4,
+             'polygon': {'vertices': {'x': [0, 1, 1, 0], 'y': [0, 0, 1, 1]}}},
+            {'density': 2, 'friction': 0.5, 'restitution': 0.1, 'filter-maskBits': 6,
+             'polygon': {'vertices': {'x': [1, 2, 2, 1], 'y': [0, 0, 1, 1]}}}]},
+        {'name': 'cart', 'type': 2, 'position': {'x': 3, 'y': 3}, 'angle': 0, 'bullet': True,
+         'massData-mass': 7, 'massData-I': 2, 'massData-center': {'x': 0.1, 'y': 0}, 'fixture': [
+            {'density': 1, 'circle': {'radius': 0.5, 'center': {'x': 0.1, 'y': 0}}},
+            {'sensor': True, 'density': 3, 'circle': {'radius': 0.7, 'center': 0}}]},
     ],
     'joint': [
         {'type': 'distance', 'name': 'string', 'bodyA': 0, 'bodyB': 1, 'anchorA': {'x': 1, 'y': 6},
@@ -132,6 +140,9 @@ RUBE = {
         {'type': 'revolute', 'bodyA': 1, 'bodyB': 2, 'anchorA': 0, 'anchorB': 0,
          'enableMotor': True, 'motorSpeed': 3, 'maxMotorTorque': 40},
         {'type': 'wheel', 'bodyA': 1, 'bodyB': 2, 'anchorA': 0, 'anchorB': 0},
+        {'type': 'prismatic', 'bodyA': 0, 'bodyB': 3, 'anchorA': {'x': 3, 'y': 3}, 'anchorB': 0,
+         'localAxisA': {'x': 3, 'y': 4}, 'enableLimit': True, 'lowerLimit': -1, 'upperLimit': 2,
+         'enableMotor': True, 'motorSpeed': 0.5, 'maxMotorForce': 30, 'refAngle': 0.1},
     ],
 }  # fmt: skip
 
@@ -198,7 +209,7 @@ def test_a_world_of_irsim_has_a_robot_that_goes_and_obstacles(tmp_path, capsys):
     assert bodies['obstacle/2'].body.anchored
     assert bodies['obstacle/0'].body.sensor
     assert bodies['obstacle/2'].pose == (6.0, 8.0, 0.5)
-    assert 'left out: keyboard of a robot' in printed
+    assert 'left out: robot[].keyboard' in printed
 
 
 def test_robots_of_irsim_on_a_circle_are_evenly_apart_and_face_its_centre(tmp_path, capsys):
@@ -263,8 +274,15 @@ def test_a_scene_of_rube_has_masses_motion_and_joints(tmp_path, capsys):
     assert spring.number('damping') == pytest.approx(mass * 4.0 * math.pi)
     assert joints['motor/0'].number('rate') == 3.0
     assert (joints['motor/0'].a, joints['motor/0'].b) == ('cup/0', 'bob/0')
+    rail = joints['slider/0']
+    assert [rail.number(key) for key in ('rate', 'max_force', 'upper')] == [0.5, 30.0, 2.0]
+    assert bodies['cart/0'].body.mass == 7.0
+    assert 'left out: body[].massData-I' in printed
+    assert 'left out: body[].fixture[].filter-maskBits' in printed
+    for key in ('friction', 'restitution', 'filter-groupIndex'):
+        assert f'parts of a body differ in {key}: that of the first one counts' in printed
     assert 'left out: a joint wheel' in printed
-    assert 'left out: linearDamping of a body' in printed
+    assert 'left out: body[].linearDamping' in printed
 
 
 def turned(scene, angle):
@@ -371,18 +389,17 @@ SAMPLES = {
 }
 
 
-def places_in(content):
-    """Yield the mapping or list, and the key or index, of each value at any depth."""
+def places_in(content, place=''):
+    """Yield the mapping or list, the key or index, and the place of each value at any depth."""
     for key in list(content) if isinstance(content, dict) else range(len(content)):
-        yield content, key
+        here = f'{place}.{key}'.strip('.') if isinstance(content, dict) else f'{place}[]'
+        yield content, key, here
         if isinstance(content[key], dict | list):
-            yield from places_in(content[key])
+            yield from places_in(content[key], here)
 
 
-@pytest.mark.parametrize('sample', SAMPLES)
-def test_a_value_that_is_wrong_is_a_mistake_of_the_file_and_no_error_of_ours(
-    tmp_path, monkeypatch, sample
-):
+def contents_of(tmp_path, monkeypatch, sample):
+    """Return the content of a sample, which `converting.convert` reads as it is then."""
     world = FLATLAND if sample in FILES else SAMPLES[sample]
     texts = {**FILES, 'room.dat': '0 0 5 0\n', 'world.yaml': world}
     for name, text in texts.items():
@@ -390,14 +407,57 @@ def test_a_value_that_is_wrong_is_a_mistake_of_the_file_and_no_error_of_ours(
     contents = {name: yaml.safe_load(text) for name, text in texts.items()}
     for module in (converting, converted_content):
         monkeypatch.setattr(module, 'parsed', lambda _, name: contents[name])
+    return contents[sample if sample in FILES else 'world.yaml']
+
+
+def outcome_of(path):
+    """Return the world file that a file becomes, with what is told; or why it is refused."""
+    try:
+        conversion = converting.convert(path)
+    except Refusal as refusal:
+        return str(refusal)
+    return conversion.text(), *conversion.told()
+
+
+@pytest.mark.parametrize('sample', SAMPLES)
+def test_each_key_of_a_file_is_carried_over_or_told(tmp_path, monkeypatch, sample):
+    content, path = contents_of(tmp_path, monkeypatch, sample), tmp_path / 'world.yaml'
+    content['unheard_of'] = 1
+    # Keys without effect, and those of a thing that is left out whole, are told as any other.
+    monkeypatch.setattr(Content, 'skip', lambda *_: None)
+    monkeypatch.setattr(Content, 'settle', lambda _: None)
+    before = outcome_of(path)
+    silent = []
+    for holder, key, place in [*places_in(content, sample if sample in FILES else '')]:
+        kept = holder[key]
+        if isinstance(kept, dict):
+            holder[key] = kept | {'unheard_of': 1}
+        elif isinstance(kept, bool):
+            holder[key] = not kept
+        elif isinstance(kept, int | float):
+            holder[key] = 1.25 * kept + 1.0
+        if holder[key] is not kept and outcome_of(path) == before:
+            silent.append(place)
+        holder[key] = kept
+    told = [re.sub(r'left out: | \(.*', '', sentence) for sentence in before[1:]]
+    # A path ends at a goal, at whatever heading. Of what differs, the name is told.
+    known = (*told, 'robot[].goal', *re.findall(r'differ in ([\w-]+)', ''.join(told)))
+    assert [each for each in silent if not any(key in each for key in known)] == []
+
+
+@pytest.mark.parametrize('sample', SAMPLES)
+def test_a_value_that_is_wrong_is_a_mistake_of_the_file_and_no_error_of_ours(
+    tmp_path, monkeypatch, sample
+):
+    content, path = contents_of(tmp_path, monkeypatch, sample), tmp_path / 'world.yaml'
     refused = 0
-    converting.convert(tmp_path / 'world.yaml')
-    for holder, key in [*places_in(contents[sample if sample in FILES else 'world.yaml'])]:
+    converting.convert(path)
+    for holder, key, _ in [*places_in(content)]:
         kept = holder[key]
         for odd in ODD:
             holder[key] = odd
             try:
-                converting.convert(tmp_path / 'world.yaml')
+                converting.convert(path)
             except (Refusal, OSError):
                 refused += 1
         holder[key] = kept
