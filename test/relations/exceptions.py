@@ -33,7 +33,7 @@ EXCEPTIONS = {
 # that other parts of the step move as well.
 MARGIN = 3.0
 # Number of the first scenes, of flight, impacts, friction and pendulums: each is played in 20 ms.
-CHEAP = 35
+CHEAP = 36
 # How far two worlds may part that differ by rounding, in ways that two part of which one is shaken
 # by a picometre [1]: places of a few metres are rounded to less, but in each sub-step.
 SENSITIVITY = 30.0

@@ -170,6 +170,21 @@ def bounce(shape, elasticity, turn=0.0):
     return sim
 
 
+def flat_polygons():
+    """Drop polygons flat, each onto a side of its own."""
+    sim = simulation(elasticity=0.7)
+    floor(sim)
+    outlines = (
+        ((-0.5, 0.0), (0.5, 0.0), (0.0, 0.8)),
+        ((-0.3, 0.0), (0.5, 0.0), (0.3, 0.4), (-0.2, 0.4)),
+        ((-0.2, 0.0), (0.2, 0.0), (0.4, 0.35), (0.2, 0.7), (-0.2, 0.7), (-0.4, 0.35)),
+    )
+    for number, outline in enumerate(outlines):
+        at = (2.0 * number, 1.0 + 0.3 * number, 0.0)
+        spawn(sim, f'polygon/{number}', Polygon(outline=outline), at)
+    return sim
+
+
 def bounces():
     sim = simulation(elasticity=0.9)
     floor(sim)
@@ -675,6 +690,7 @@ def _laws():
         'walls, thin ones too': Scene(build=on_walls, seconds=0.75),
         'disc bounces': Scene(build=partial(bounce, disc, 0.8)),
         'box falls flat': Scene(build=partial(bounce, box, 0.5)),
+        'polygons fall flat': Scene(build=flat_polygons),
         'box falls on a corner': Scene(build=partial(bounce, box, 0.5, 0.4)),
         'nine bounce': Scene(build=bounces, seconds=0.75),
         'disc with spin bounces': Scene(build=bouncing_disc),

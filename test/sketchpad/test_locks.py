@@ -312,6 +312,7 @@ SHOULDER = MotorCommand(joint='a/1/shoulder/0', mode='effort', points=(CommandPo
 OF_MACHINES = {
     'a/1': (
         requests.MoveBodies(names=('a/1/upper/0',), by=(1.0, 0.0)),
+        requests.Command(names=('a/1/upper/0',), poses=[[1.0, 0.0, 0.0]]),
         requests.Delete(name='a/1/upper/0'),
     ),
     'a/1/upper/0': (
@@ -326,6 +327,7 @@ OF_MACHINES = {
         requests.Delete(name='b/3'),
     ),
     'carrier/0': (
+        requests.Command(names=('carrier/0',), poses=[[11.0, 21.0, 0.0]]),
         requests.Unjoin(name='gear/0'),
         requests.Rejoin(name='gear/0', a='b/0', b='b/1'),
     ),
