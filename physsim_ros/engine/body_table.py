@@ -24,9 +24,8 @@ from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.odometry_noise import OdometryNoise
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.actors import Pedestrian
-from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.arrays import Flags, Floats, no_rows
 from physsim_ros.model.attraction import attracts
-from physsim_ros.model.checkpoint import NO_FIELDS
 from physsim_ros.model.media import gust_waves
 from physsim_ros.model.robots import Battery, MOST_DOCKS
 from physsim_ros.model.scene import Body, Scene
@@ -113,7 +112,7 @@ class BodyTable:
         :return: (n, 3) float64, NaN where a lead is to be found; none where there are no fields
         """
         if not self.has_fields:
-            return NO_FIELDS
+            return no_rows()
         own = self.records['state'][:-1]
         return np.where(own['fresh'][:, None], np.nan, own['field'])
 

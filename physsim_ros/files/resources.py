@@ -20,15 +20,11 @@ def shipped(folder: str) -> Path:
 
     :param folder: name of the directory below `config`
     """
-    return _shipped(Path('config') / folder)
-
-
-def _shipped(folder: Path) -> Path:
-    source = Path(__file__).resolve().parents[2] / folder
+    source = Path(__file__).resolve().parents[2] / 'config' / folder
     if source.is_dir():
         return source
     for prefix in (*os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep), sys.prefix):
-        installed = Path(prefix) / 'share' / 'physsim_ros' / folder
+        installed = Path(prefix) / 'share' / 'physsim_ros' / 'config' / folder
         if prefix and installed.is_dir():
             return installed
     return source

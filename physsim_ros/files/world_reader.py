@@ -39,7 +39,7 @@ from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.requests import parts_of, Spawn
 from physsim_ros.model.settings import check_limit, OF_WORLD, WorldSettings
-from physsim_ros.model.shapes import Shape, SHAPES
+from physsim_ros.model.shapes import shape_in, SHAPES
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import steps_covering
@@ -223,7 +223,7 @@ def spawn_from(entry: Mapping[Any, Any]) -> Spawn:
         raise BadProperty('a body needs a name', field='name')
     return Spawn(
         name=name,
-        shape=_shape(entry),
+        shape=shape_in(entry, 'a body', SHAPES),
         pose=_pose(entry),
         color=color_value(entry['color'], 'color') if 'color' in entry else None,
         lifetime=number(entry.get('lifetime', 0.0), 'lifetime'),
@@ -245,13 +245,6 @@ def robot_spawn(
     :raises Refusal: there is no such robot, or a value is out of range
     """
     return spawn_from({'name': name, 'robot': robot, 'at': [*at]})
-
-
-def _shape(entry: Mapping[Any, Any]) -> Shape:
-    named = [key for key in SHAPES if key in entry]
-    if len(named) != 1:
-        raise BadProperty(f'a body has one of {", ".join(SHAPES)}', field='shape')
-    return SHAPES[named[0]].from_value(entry[named[0]], named[0])
 
 
 def _pose(entry: Mapping[Any, Any]) -> Pose:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Floats, Ints, no_rows
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.motor_command import TimedCommand
 from physsim_ros.model.scene import Body, Joint, Scene
@@ -156,10 +156,8 @@ class WorldState:
         )
 
 
-# The pushes of a world without a floor, and the leads of one without fields, in memory once.
-NO_PUSHES: Floats = np.empty((0, 3))
-NO_FIELDS: Floats = np.empty((0, 3))
-NO_TOTALS: Floats = np.empty((0, 2))
+# In memory once.
+_NO_TOTALS: Floats = np.empty((0, 2))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -187,8 +185,8 @@ class ImpulseCache:
     hashes: NDArray[np.uint64]
     impulses: Floats
     joints: Floats
-    totals: Floats = field(default_factory=lambda: NO_TOTALS)
-    pushes: Floats = field(default_factory=lambda: NO_PUSHES)
+    totals: Floats = field(default_factory=lambda: _NO_TOTALS)
+    pushes: Floats = field(default_factory=no_rows)
 
     @property
     def nbytes(self) -> int:
@@ -227,7 +225,7 @@ class Checkpoint:
     thrown: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Wrench, int | None], ...]
     memory: ImpulseCache
-    field_leads: Floats = field(default_factory=lambda: NO_FIELDS)
+    field_leads: Floats = field(default_factory=no_rows)
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
     commands: TimedCommands = ()

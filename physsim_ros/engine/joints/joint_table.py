@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 import math
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +27,8 @@ _MOTOR, _POINT = dtype_of('Motor'), dtype_of('CommandPoint')
 _PRESSING = {JointKind.ROD, JointKind.SPRING}
 # Constraints whose records are made at once [1]: some 10 ms.
 _SLICE = 1000
-# The first fields of the rows of a joint, in their order, each with its guides.
-_Rows: TypeAlias = list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]]
+# Values of the fields of a record, by name.
+_Fields: TypeAlias = dict[str, Any]
 
 
 class _Slice(NamedTuple):
@@ -74,15 +74,15 @@ def slices_of_records(
 
 
 def _slice_of(
-    joints: Sequence[EngineJoint], known: Sequence[tuple[object, ...]], rows: Sequence[_Rows]
+    joints: Sequence[EngineJoint], known: Sequence[_Fields], rows: Sequence[Sequence[_Fields]]
 ) -> _Slice:
     """
     Return the records of some joints, with numbers that count from the first of them.
 
-    :param known: first fields of each joint
+    :param known: of each joint
     :param rows: of each joint
     """
-    parts = [(part.kind, address_of(part.constraint)) for each in joints for part in each.parts]
+    parts = [part for each in joints for part in each.parts]
     all_rows = [row for each in rows for row in each]
     motors = [
         _motor_fields(each.joint, number, begin + row)
@@ -90,20 +90,21 @@ def _slice_of(
             zip(joints, rows, _begins([len(own) for own in rows]), strict=True)
         )
         if each.joint.properties.effort
-        for row, (fields, _) in enumerate(own)
-        if fields[1] == lib.LAW_DRIVE
+        for row, fields in enumerate(own)
+        if fields['law'] == lib.LAW_DRIVE
     ]
     of_joints, of_rows = np.zeros(len(joints), _JOINT), np.zeros(len(all_rows), _ROW)
     of_parts, of_motors = np.zeros(len(parts), _PART), np.zeros(len(motors), _MOTOR)
     _fill(of_joints, known)
-    _fill(of_parts, parts)
-    _fill(of_rows, [fields for fields, _ in all_rows])
+    of_parts['kind'] = [part.kind for part in parts]
+    of_parts['constraint'] = [address_of(part.constraint) for part in parts]
+    _fill(of_rows, all_rows)
     _fill(of_motors, motors)
     of_joints['part_count'] = counts = [len(each.parts) for each in joints]
     of_joints['row_count'] = [len(each) for each in rows]
     of_rows['part'] += np.repeat(_begins(counts), [len(each) for each in rows])
-    of_rows['guide_count'] = [len(guides) for _, guides in all_rows]
-    guides = tuple(guide for _, own in all_rows for guide in own)
+    of_rows['guide_count'] = [len(each['guides']) for each in all_rows]
+    guides = tuple(guide for each in all_rows for guide in each['guides'])
     return _Slice(of_joints, of_parts, of_rows, of_motors, guides)
 
 
@@ -151,7 +152,7 @@ class JointTable:
             if 0 < len(former := totals.get(name, ())) == len(of_joint):
                 of_joint[:] = former
         self.guides = np.zeros(len(self._guides), _GUIDE)
-        _fill(self.guides, [(-1, *guide[1:6]) for guide in self._guides])
+        _fill(self.guides, [guide._asdict() for guide in self._guides])
         numbers = self.motors['joint'].tolist()
         self._motor_of = {self.names[number]: place for place, number in enumerate(numbers)}
         # The points of the last commands, which the records refer to.
@@ -176,7 +177,7 @@ class JointTable:
         """Set the places of bodies in the table of bodies, the background among them."""
         self.joints['a'] = [places[ends.a] for ends in self._ends]
         self.joints['b'] = [places[ends.b] for ends in self._ends]
-        self.guides['body'] = [places[guide.body] for guide in self._guides]
+        self.guides['body'] = [places[guide.pm_body] for guide in self._guides]
 
     @property
     def broken(self) -> list[int]:
@@ -235,35 +236,38 @@ def check_joint(each: EngineJoint, bodies: Mapping[str, Body], dt: float) -> Non
     _joint_fields(each, dt, unstepped=True)
 
 
-def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[object, ...]:
-    """Return the first fields of a joint, in their order."""
+def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> _Fields:
     joint, seat, most = each.joint, each.joint.seat, each.joint.properties.break_force
-    return (
-        each.ends.at_a,
-        each.ends.at_b,
-        (seat.ux, seat.uy),
-        math.inf if most is None else most * dt * lib.SUB_STEPS,
-        joint.kind.schema.has_axis,
-        joint.kind in _PRESSING,
-        unstepped,
-    )
+    return {
+        'anchor_a': each.ends.at_a,
+        'anchor_b': each.ends.at_b,
+        'axis': (seat.ux, seat.uy),
+        'most': math.inf if most is None else most * dt * lib.SUB_STEPS,
+        'has_axis': joint.kind.schema.has_axis,
+        'presses': joint.kind in _PRESSING,
+        'unstepped': unstepped,
+    }
 
 
-def _motor_fields(joint: Joint, number: int, row: int) -> tuple[object, ...]:
-    """Return the first fields of a motor, in their order."""
-    zero = 0.0 if joint.kind.schema.has_axis else joint.seat.phase
-    numbers = joint.number('max_speed'), joint.number('gain'), zero
-    return number, row, joint.properties.effort, *numbers
+def _motor_fields(joint: Joint, number: int, row: int) -> _Fields:
+    return {
+        'joint': number,
+        'row': row,
+        'effort': joint.properties.effort,
+        'speed': joint.number('max_speed'),
+        'gain': joint.number('gain'),
+        'zero': 0.0 if joint.kind.schema.has_axis else joint.seat.phase,
+    }
 
 
-def _rows_of(each: EngineJoint, damping: float, dt: float) -> _Rows:
+def _rows_of(each: EngineJoint, damping: float, dt: float) -> list[_Fields]:
     """
-    Return the rows of a joint, each with its guides.
+    Return the rows of a joint, with their guides.
 
     :param damping: of a spring that Chipmunk does not solve [N s/m, N m s/rad]; 0 is none
     """
     force = each.joint.holding_force
-    rows: _Rows = []
+    rows: list[_Fields] = []
     for number, part in enumerate(each.parts):
         if part.kind == lib.PART_SPRING:
             # One of the two gives its force.
@@ -272,19 +276,21 @@ def _rows_of(each: EngineJoint, damping: float, dt: float) -> _Rows:
                 continue
         for component, row in enumerate(part.rows):
             greatest = force if row.most is None else row.most
-            most = math.inf if greatest is None else greatest * dt * abs(row.above)
-            spring = (each.joint.stiffness, damping) if row.law == lib.LAW_SPRING else (0.0, 0.0)
-            bounds = row.lower, row.upper, row.below, row.above, most, row.rate, *row.reach
-            geometry = row.offset, row.ratio
-            fields = (row.kind, row.law, number, component, *bounds, *geometry, *spring)
-            rows.append((fields, row.guides))
+            of_table = {
+                'part': number,
+                'component': component,
+                'most': math.inf if greatest is None else greatest * dt * abs(row.above),
+                'damping': damping if row.law == lib.LAW_SPRING else 0.0,
+            }
+            rows.append(row._asdict() | of_table)
     return rows
 
 
-def _fill(table: NDArray[np.void], records: Sequence[tuple[object, ...]]) -> None:
-    """Set the first fields of a table, field by field."""
-    for name, column in zip(table.dtype.names or (), zip(*records, strict=True), strict=False):
-        table[name] = column
+def _fill(table: NDArray[np.void], records: Sequence[_Fields]) -> None:
+    """Set the fields of a table that records have."""
+    for name in table.dtype.names or ():
+        if records and name in records[0]:
+            table[name] = [each[name] for each in records]
 
 
 def _begins(counts: Sequence[int] | NDArray[np.int32]) -> NDArray[np.int32]:

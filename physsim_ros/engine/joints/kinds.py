@@ -38,10 +38,11 @@ class EngineGuide(NamedTuple):
     """
     A guide of a joint, or an end, in the engine; fields as those of `Guide` in the scene.
 
+    :ivar pm_body: Pymunk's
     :ivar anchor: in the frame of the body, its origin the centre of mass [m]
     """
 
-    body: pymunk.Body
+    pm_body: pymunk.Body
     anchor: Point
     radius: float = 0.0
     yaw: float = 0.0
@@ -54,17 +55,21 @@ class Row(NamedTuple):
     """
     A constraint row: lower <= x <= upper, both the same for an equality.
 
-    :ivar kind: which number x is, one of `ROW_X` ... of `engine/core/core.h`
+    Fields but `guides` are those of `Row` of `engine/core/core.h`.
+
+    :ivar kind: which number x is, one of `ROW_X` ...
     :ivar lower: least x [m, rad]
     :ivar upper: greatest x [m, rad]
     :ivar below: λ by the impulse that Chipmunk stores, where x is below its bounds
     :ivar above: the same where it is not
-    :ivar law: one of `LAW_BOUNDS` ... of `engine/core/core.h`
+    :ivar law: one of `LAW_BOUNDS` ...
     :ivar rate: of x where it is driven, of the upper bound elsewhere [m/s, rad/s]
     :ivar most: its greatest force [N, N m]; None is that of the joint
-    :ivar reach: least and greatest upper bound that such a rate leads to [m]
+    :ivar least: least upper bound that such a rate leads to [m]
+    :ivar greatest: greatest one [m]
     :ivar offset: of a path, the length that is added to it [m]
     :ivar ratio: of an angle; of a rack, the radius of its pinion [m]
+    :ivar stiffness: of a spring [N/m, N m/rad]
     :ivar guides: what it passes, its ends among them, or the carrier of a gear
     """
 
@@ -76,9 +81,11 @@ class Row(NamedTuple):
     law: int = lib.LAW_BOUNDS
     rate: float = 0.0
     most: float | None = None
-    reach: tuple[float, float] = (0.0, math.inf)
+    least: float = 0.0
+    greatest: float = math.inf
     offset: float = 0.0
     ratio: float = 1.0
+    stiffness: float = 0.0
     guides: tuple[EngineGuide, ...] = ()
 
 
@@ -178,7 +185,9 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     )
     if joint.is_elastic:
         neutral = phase - joint.number('rest_angle')
-        spring = Row(lib.ROW_ANGLE, neutral, neutral, law=lib.LAW_SPRING)
+        spring = Row(
+            lib.ROW_ANGLE, neutral, neutral, law=lib.LAW_SPRING, stiffness=joint.stiffness
+        )
         parts = (*parts, _own(lib.PART_OWN, ends, spring))
     if ratchet is not None:
         law = lib.LAW_FALLS if ratchet > 0.0 else lib.LAW_RISES
@@ -229,9 +238,8 @@ def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     rest, stiffness = joint.rest_length, joint.stiffness
     anchors = ends.at_a, ends.at_b
     spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, rest, stiffness, damping=0.0)
-    return (
-        Part(lib.PART_SPRING, spring, (Row(lib.ROW_DISTANCE, rest, rest, law=lib.LAW_SPRING),)),
-    )
+    row = Row(lib.ROW_DISTANCE, rest, rest, law=lib.LAW_SPRING, stiffness=stiffness)
+    return (Part(lib.PART_SPRING, spring, (row,)),)
 
 
 def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -243,7 +251,7 @@ def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 def _own(kind: int, ends: Ends, row: Row) -> Part:
     """Return a row that no constraint of Chipmunk has: a motor without torque has its impulse."""
-    bodies = chain((ends.a, ends.b), (guide.body for guide in ends.guides))
+    bodies = chain((ends.a, ends.b), (guide.pm_body for guide in ends.guides))
     moved = next(body for body in bodies if body.body_type == pymunk.Body.DYNAMIC)
     other = ends.b if ends.b is not moved else ends.a
     motor = pymunk.SimpleMotor(moved, other, 0.0)
@@ -265,13 +273,13 @@ def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     wheels = [
         number
         for number, stop in enumerate(stops)
-        if stop.radius and stop.body.body_type == pymunk.Body.DYNAMIC
+        if stop.radius and stop.pm_body.body_type == pymunk.Body.DYNAMIC
     ]
     spans = [
         (*stops[first:last], stops[last]) for first, last in pairwise((0, *wheels, len(stops) - 1))
     ]
     # A piece with both ends on one wheel lies on the rim, and neither moves nor stretches.
-    pieces = [span for span in spans if len({stop.body for stop in span}) > 1]
+    pieces = [span for span in spans if len({stop.pm_body for stop in span}) > 1]
     rows = [
         Row(lib.ROW_PATH, 0.0, sum(stop.span for stop in piece[1:]), guides=piece)
         for piece in pieces
@@ -287,8 +295,8 @@ def _winch(joint: Joint, row: Row) -> Row:
     """Return the row of a rope whose upper bound has a rate."""
     lower, upper = joint.properties.lower, joint.properties.upper
     # A rope without a length has no direction in which it could pull.
-    reach = max(lower or 0.0, SMALLEST), LARGEST if upper is None else upper
-    return row._replace(rate=joint.properties.rate or 0.0, reach=reach)
+    least, greatest = max(lower or 0.0, SMALLEST), LARGEST if upper is None else upper
+    return row._replace(rate=joint.properties.rate or 0.0, least=least, greatest=greatest)
 
 
 def _rope(joint: Joint, ends: Ends) -> tuple[Part, ...]:

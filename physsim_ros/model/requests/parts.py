@@ -9,7 +9,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests.bodies import Spawn
 from physsim_ros.model.requests.joints import Join
 from physsim_ros.model.robots import part_name
-from physsim_ros.model.transform import local_to_world, Pose
+from physsim_ros.model.transform import composed, local_to_world
 
 
 def parts_of(spawn: Spawn) -> tuple[list[Spawn], list[Join]]:
@@ -21,7 +21,7 @@ def parts_of(spawn: Spawn) -> tuple[list[Spawn], list[Join]]:
         Spawn(
             name=part_name(spawn.name, link.name),
             shape=link.shape,
-            pose=_placed(link.at, spawn.pose),
+            pose=composed(spawn.pose, link.at),
             color=link.color or spawn.color,
             lifetime=spawn.lifetime,
             properties=Properties(
@@ -46,7 +46,3 @@ def parts_of(spawn: Spawn) -> tuple[list[Spawn], list[Join]]:
         for joint in robot.joints
     ]
     return links, joints
-
-
-def _placed(at: Pose, origin: Pose) -> Pose:
-    return *local_to_world(at[:2], origin), origin[2] + at[2]

@@ -86,9 +86,9 @@ class Drive(Checked, ABC):
         """
 
     @property
-    @abstractmethod
     def lever(self) -> float:
         """Return the mean distance of its wheels from their middle [m]."""
+        return self.track / 2
 
     @property
     def holonomic(self) -> bool:
@@ -127,11 +127,6 @@ class Differential(Drive):
         half = self.track / 2
         return {'wheel_left_joint': (1.0, 0.0, -half), 'wheel_right_joint': (1.0, 0.0, half)}
 
-    @property
-    def lever(self) -> float:
-        """Return the mean distance of its wheels from their middle [m]."""
-        return self.track / 2
-
     def aim(self, command: Twist) -> Twist:
         """Return the velocity that it can have and that is nearest to a commanded one."""
         vx, _, turn = command
@@ -165,11 +160,6 @@ class Omni(Drive):
     def holonomic(self) -> bool:
         """Whether it moves sideways, too."""
         return True
-
-    @property
-    def lever(self) -> float:
-        """Return the mean distance of its wheels from their middle [m]."""
-        return self.track / 2
 
     def aim(self, command: Twist) -> Twist:
         """Return the velocity that it can have and that is nearest to a commanded one."""

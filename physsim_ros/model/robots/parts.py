@@ -33,7 +33,7 @@ from physsim_ros.model.joints import JointKind, JointProperties, kind_from
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots.part_names import BASE, check_part, part_name
 from physsim_ros.model.robots.sensors.sensor import mounting
-from physsim_ros.model.shapes import LARGEST, Shape, SHAPE_WORDS, SHAPES, SMALLEST
+from physsim_ros.model.shapes import LARGEST, Shape, shape_in, SHAPE_WORDS, SHAPES, SMALLEST
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
@@ -102,11 +102,8 @@ class Link(Checked):
                 key,
                 SHAPE_WORDS | {each: cls.WORDS[each] for each in cls.FIELDS if each != 'shape'},
             )
-        keys = [key for key in SHAPES if key in mapping]
-        if len(keys) != 1:
-            raise BadProperty(f'a link has one of {", ".join(SHAPES)}', field='shape')
-        rest = {key: mapping[key] for key in mapping if key != keys[0]}
-        shape = SHAPES[keys[0]].from_value(mapping[keys[0]], keys[0])
+        shape = shape_in(mapping, 'a link', SHAPES)
+        rest = {key: mapping[key] for key in mapping if key not in SHAPES}
         return super(Link, cls).from_mapping({**rest, 'shape': shape})
 
     def entry(self) -> dict[str, Any]:

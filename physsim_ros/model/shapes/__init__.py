@@ -33,6 +33,7 @@ from physsim_ros.model.shapes.kinds import (
     Disc,
     Polygon,
     Shape,
+    shape_in,
     SHAPE_WORDS,
     SHAPES,
     Triangles,
@@ -69,5 +70,6 @@ __all__ = [
     'is_convex',
     'lever_of',
     'piece_box',
+    'shape_in',
     'signed_area',
 ]

@@ -7,9 +7,10 @@ The kinds of shapes: one class each, of validated values.
 Each has its key in world files, and its form: convex pieces and mass properties.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 import itertools
-from typing import Annotated, Any, ClassVar, get_args, Self
+from typing import Annotated, Any, ClassVar, get_args, Self, TypeVar
 
 import numpy as np
 from physsim_ros.model.checks import OfClass, point_list
@@ -40,6 +41,8 @@ from physsim_ros.model.shapes.validation import (
 )
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import cross, Point
+
+_Kind = TypeVar('_Kind', bound=Checked)
 
 
 def _points(value: Any, name: str) -> tuple[Point, ...]:
@@ -221,6 +224,10 @@ class Chain(Checked):
         object.__setattr__(self, 'form', form_of(pieces))
 
 
+# Shapes that a compound can have as its elements, by their keys.
+_ELEMENTS: dict[str, type[Disc | Box]] = {each.KEY: each for each in (Disc, Box)}
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Compound(Checked):
     """
@@ -250,11 +257,8 @@ class Compound(Checked):
     @classmethod
     def from_value(cls, value: object, name: str) -> Self:
         """Return the compound of a mapping, in which its element has the key of that."""
-        known = known_mapping(value, name, [Disc.KEY, Box.KEY, 'centers'])
-        named = [each for each in (Disc, Box) if each.KEY in known]
-        if len(named) != 1:
-            raise BadProperty(f'a compound has one of {Disc.KEY}, {Box.KEY}', field='shape')
-        element = named[0].from_value(known[named[0].KEY], named[0].KEY)
+        known = known_mapping(value, name, [*_ELEMENTS, 'centers'])
+        element = shape_in(known, 'a compound', _ELEMENTS)
         return cls(element=element, centers=point_list(known.get('centers'), 'centers'))
 
     def entry(self) -> Any:
@@ -266,6 +270,22 @@ class Compound(Checked):
 Shape = Disc | Box | Polygon | Chain | Triangles | Compound
 # By the key of world files.
 SHAPES: dict[str, type[Shape]] = {each.KEY: each for each in get_args(Shape)}
+
+
+def shape_in(mapping: Mapping[Any, Any], noun: str, kinds: Mapping[str, type[_Kind]]) -> _Kind:
+    """
+    Return the shape that a mapping has under the key of its kind.
+
+    :param noun: for what has it, with its article
+    :param kinds: that it may have, by their keys
+    :raises Refusal: there is none, or more than one, or a value is out of range
+    """
+    named = [key for key in kinds if key in mapping]
+    if len(named) != 1:
+        raise BadProperty(f'{noun} has one of {", ".join(kinds)}', field='shape')
+    return kinds[named[0]].from_value(mapping[named[0]], named[0])
+
+
 # Everyday words for each of these keys.
 SHAPE_WORDS = dict.fromkeys(SHAPES, Words()) | {
     Disc.KEY: Words('disc', 'disk', 'sphere', 'radius', 'diameter'),
