@@ -42,8 +42,8 @@ def read_laser(surroundings: Surroundings, row: int, laser: Laser) -> Floats:
     directions = rotated_each(_beams(laser.beams, laser.angle[0], laser.increment), yaw)
     least, greatest = laser.range
     ranges = surroundings.nearest((origin[0], origin[1]), directions, greatest, row)
-    noise = noise_of(snapshot, row, laser, laser.beams) if laser.noise else None
-    measured = within_range(ranges, least, greatest, laser.noise, noise)
+    errors = _errors(snapshot, row, laser, laser.beams)
+    measured = within_range(ranges, least, greatest, errors)
     if laser.blind:
         measured[_blind(laser.beams, laser.angle[0], laser.increment, laser.blind)] = np.nan
     return measured
@@ -69,17 +69,21 @@ def scan_points(snapshot: Snapshot, row: int, laser: Laser, ranges: Floats) -> F
     return points
 
 
-def within_range(
-    distances: Floats, least: float, greatest: float, deviation: float, noise: Floats | None
-) -> Floats:
+def _errors(snapshot: Snapshot, row: int, sensor: Laser | RangeFinder, count: int) -> Floats:
+    """Return (count,) float64: the errors of distances [m]."""
+    if not sensor.noise:
+        return np.zeros(count)
+    return sensor.noise * noise_of(snapshot, row, sensor, count)
+
+
+def within_range(distances: Floats, least: float, greatest: float, errors: Floats) -> Floats:
     """
-    Return distances with noise, and with infinities out of range (REP 117).
+    Return distances with errors, and with infinities out of range (REP 117).
 
     :param distances: (k,) float64 [m]
-    :param deviation: standard deviation of the noise [m]
-    :param noise: (k,) float64: of mean 0 and variance 1; None is no noise
+    :param errors: (k,) float64 [m]
     """
-    measured = distances if noise is None else distances + deviation * noise
+    measured = distances + errors
     nearest, farthest = np.minimum(distances, measured), np.maximum(distances, measured)
     measured = np.where(farthest > greatest, np.inf, measured)
     return np.where(nearest < least, -np.inf, measured)
@@ -137,8 +141,8 @@ def read_range(surroundings: Surroundings, row: int, finder: RangeFinder) -> flo
     directions = np.column_stack((np.cos(angles), np.sin(angles)))
     least, greatest = finder.range
     nearest = surroundings.nearest((x, y), directions, greatest, row).min(keepdims=True)
-    noise = noise_of(snapshot, row, finder, 1) if finder.noise else None
-    return float(within_range(nearest, least, greatest, finder.noise, noise)[0])
+    errors = _errors(snapshot, row, finder, 1)
+    return float(within_range(nearest, least, greatest, errors)[0])
 
 
 def read_landmarks(surroundings: Surroundings, row: int, finder: Landmarks) -> Floats:

@@ -84,11 +84,9 @@ def true_motion(snapshot: Snapshot, row: int) -> OdometryReading:
     :param snapshot: of the world
     :param row: of the robot's body in the scene
     """
-    vx, vy, turn = snapshot.twists[row].tolist()
-    x, y, yaw = snapshot.poses[row].tolist()
-    center_x, center_y = snapshot.centers[row].tolist()
-    ahead, aside = rotated((vx - turn * (y - center_y), vy + turn * (x - center_x)), -yaw)
-    return OdometryReading((x, y, yaw), (ahead, aside, turn))
+    pose = _pose(snapshot, row)
+    ahead, aside = rotated(_velocity_at(snapshot, row, pose[:2]), -pose[2])
+    return OdometryReading(pose, (ahead, aside, float(snapshot.twists[row, 2])))
 
 
 class WheelReading(NamedTuple):

@@ -8,7 +8,7 @@ from __future__ import annotations
 from physsim_ros.model.robots import BASE, part_name
 from physsim_ros.model.robots.sensors import Sensor
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import Pose, rotated
+from physsim_ros.model.transform import composed, Pose
 
 
 def placed(snapshot: Snapshot, row: int, sensor: Sensor) -> Pose:
@@ -18,8 +18,7 @@ def placed(snapshot: Snapshot, row: int, sensor: Sensor) -> Pose:
     :param row: of the robot's body in the scene
     """
     x, y, yaw = snapshot.poses[mounted_row(snapshot, row, sensor)].tolist()
-    ahead, aside = rotated(sensor.at[:2], yaw)
-    return x + ahead, y + aside, yaw + sensor.at[2]
+    return composed((x, y, yaw), sensor.at)
 
 
 def mounted_row(snapshot: Snapshot, row: int, sensor: Sensor) -> int:

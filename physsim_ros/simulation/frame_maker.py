@@ -20,7 +20,7 @@ from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import stamp_of
-from physsim_ros.sensing import View
+from physsim_ros.sensing import SensedFrame
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_queue import RequestQueue
@@ -58,7 +58,7 @@ class FrameMaker:
         self.requests = RequestQueue(past, self.playback)
         self.driving: dict[str, DriveRobot] = {}
         self.is_read = True
-        self._view: View | None = None
+        self._sensed: SensedFrame | None = None
         # The last state before the next frame, where no frame of it was made.
         self._passed: Snapshot | None = None
         # Whether steps are under way after which a frame may be made.
@@ -105,30 +105,30 @@ class FrameMaker:
         self.driving.clear()
 
     @property
-    def view(self) -> View:
+    def sensed(self) -> SensedFrame:
         """
         Return the frame of now as sensors see it.
 
         A frame is made when it is first read after steps or requests, so that steps whose frame
         nobody reads make none.
         """
-        view = self._view
-        return self._observe() if view is None or self.is_changed else view
+        sensed = self._sensed
+        return self._observe() if sensed is None or self.is_changed else sensed
 
     @property
     def frame(self) -> Frame:
         """Return the frame of now, which is made when it is first read."""
-        return self.view.frame
+        return self.sensed.frame
 
     @property
     def is_changed(self) -> bool:
         """Whether the frame of now differs from the last one that was made."""
-        view, playback = self._view, self.playback
-        return playback.changed or view is None or view.snapshot.step != playback.step
+        sensed, playback = self._sensed, self.playback
+        return playback.changed or sensed is None or sensed.snapshot.step != playback.step
 
     def _forget_frames(self) -> None:
         """Have the next frame be the first one of its world: there is none before it."""
-        self._view = self._passed = None
+        self._sensed = self._passed = None
 
     def _show_again(self, frame: Frame, before: Snapshot | None) -> None:
         """
@@ -136,7 +136,7 @@ class FrameMaker:
 
         :param before: snapshot of another time that was shown before it; None if there is none
         """
-        self._view = View(frame, before)
+        self._sensed = SensedFrame(frame, before)
         self.playback.note_frame()
 
     def at_shown_moment(self) -> Past:
@@ -314,13 +314,13 @@ class FrameMaker:
     @property
     def _is_frame_due(self) -> bool:
         """Whether a frame of now is to be made, after steps."""
-        view = self._view
+        sensed = self._sensed
         is_told = self.playback.changed or self.requests.has_answers or self.past.reports
-        if self.is_read or is_told or view is None:
+        if self.is_read or is_told or sensed is None:
             return True
         most = UNREAD_PERIODS * self.frame_steps * max(1.0, abs(self.speed))
-        passed = abs(self.step - view.snapshot.step)
-        return passed >= most or self.world.scene is not view.snapshot.scene
+        passed = abs(self.step - sensed.snapshot.step)
+        return passed >= most or self.world.scene is not sensed.snapshot.scene
 
     def _begin_frame(self, *, is_read: bool) -> None:
         """
@@ -328,7 +328,7 @@ class FrameMaker:
 
         :param is_read: whether somebody reads it, for whom the state before it is kept
         """
-        if self._view is not None and self._view.snapshot.step != self.step:
+        if self._sensed is not None and self._sensed.snapshot.step != self.step:
             self.world.clear_contacts()
             if is_read:
                 self._passed = self.world.snapshot()
@@ -358,7 +358,7 @@ class FrameMaker:
         """Return the frame that is shown, with all answers."""
         return self._observe().frame
 
-    def _observe(self) -> View:
+    def _observe(self) -> SensedFrame:
         """Return the frame that is shown as sensors see it; fit the past into its budget."""
         past, playback, requests = self.past, self.playback, self.requests
         snapshot, contacts = playback.observe_frame()
@@ -373,11 +373,11 @@ class FrameMaker:
             course=past.tree.course,
         )
         playback.note_frame()
-        before, last = self._passed, self._view
+        before, last = self._passed, self._sensed
         if last is not None and (before is None or before.step == snapshot.step):
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before
-        self._passed, self._view = None, View(frame, before)
-        return self._view
+        self._passed, self._sensed = None, SensedFrame(frame, before)
+        return self._sensed
 
 
 def _finished(slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:

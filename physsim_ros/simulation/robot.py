@@ -25,8 +25,8 @@ from physsim_ros.sensing import (
     read_battery,
     read_odometry,
     read_sensor,
+    SensedFrame,
     true_motion,
-    View,
 )
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world.robot_requests import drive_of_name, robot_of_name
@@ -71,8 +71,8 @@ class Robot:
 
         :raises UnknownBody: the robot was deleted
         """
-        view, row = self._seen
-        robot = view.snapshot.scene.bodies[row].robot
+        sensed, row = self._seen
+        robot = sensed.snapshot.scene.bodies[row].robot
         assert robot is not None  # noqa: S101 - others are refused above
         return robot
 
@@ -118,8 +118,8 @@ class Robot:
         if sensor:
             ranges: Floats = self.read(sensor)
         else:
-            view, row = self._seen
-            ranges = read_sensor(view, row, self.first_laser)
+            sensed, row = self._seen
+            ranges = read_sensor(sensed, row, self.first_laser)
         return ranges
 
     def read(self, sensor: str) -> Any:
@@ -132,26 +132,26 @@ class Robot:
         sensors = self.description.sensors
         for each in sensors:
             if each.name == sensor:
-                view, row = self._seen
-                return read_sensor(view, row, each)
+                sensed, row = self._seen
+                return read_sensor(sensed, row, each)
         names = [each.name for each in sensors]
         message = f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, names)}'
         raise BadProperty(message, field='sensors')
 
     def odom(self) -> OdometryReading:
         """Return the pose [m, m, rad] and twist [m/s, m/s, rad/s] by its wheels and gyroscope."""
-        view, row = self._seen
-        return read_odometry(view.snapshot, row)
+        sensed, row = self._seen
+        return read_odometry(sensed.snapshot, row)
 
     def truth(self) -> OdometryReading:
         """Return the true pose [m, m, rad] and twist [m/s, m/s, rad/s]."""
-        view, row = self._seen
-        return true_motion(view.snapshot, row)
+        sensed, row = self._seen
+        return true_motion(sensed.snapshot, row)
 
     def battery(self) -> BatteryReading | None:
         """Return the state of its battery; None if it has no battery."""
-        view, row = self._seen
-        return read_battery(view.snapshot, row)
+        sensed, row = self._seen
+        return read_battery(sensed.snapshot, row)
 
     @property
     def bumped(self) -> bool:
@@ -161,18 +161,18 @@ class Robot:
         If it has bumpers, only what they touched counts. False if the simulation no longer reports
         contacts.
         """
-        view, row = self._seen
-        return is_bumped(view.snapshot, view.contacts, row, self.description)
+        sensed, row = self._seen
+        return is_bumped(sensed.snapshot, sensed.contacts, row, self.description)
 
     @property
-    def _seen(self) -> tuple[View, int]:
+    def _seen(self) -> tuple[SensedFrame, int]:
         """
         Return the frame of now, and the row of its body in it.
 
         :raises UnknownBody: it is no longer there
         """
-        view = self.simulation.view
-        return view, view.snapshot.row(self.name)
+        sensed = self.simulation.sensed
+        return sensed, sensed.snapshot.row(self.name)
 
     @property
     def first_laser(self) -> Laser:

@@ -299,7 +299,7 @@ class Simulation(FrameMaker):
             checkpoint=checkpoint,
             loaded=self.loaded,
             frame=frame,
-            before=self.view.before,
+            before=self.sensed.before,
             driving=tuple(self.driving.values()),
             physics_rate=self.physics_rate,
         )

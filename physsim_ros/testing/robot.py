@@ -16,7 +16,7 @@ from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.marker_shapes import geometry_of
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.robots.messages import StampedView
+from physsim_ros.ros.robots.messages import StampedFrame
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.sensing import is_bumped
 from physsim_ros.simulation.robot import Robot as SimulatedRobot
@@ -67,13 +67,13 @@ class Robot:
         :param sensor: its name
         :raises UnknownName: there is no such sensor
         """
-        topics, view, row = self._now()
+        topics, sensed, row = self._now()
         sensors = {each.name: each for each in topics.robot.sensors}
         if sensor not in sensors:
             raise UnknownName(
                 f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, sensors)}'
             )
-        return topics.reading(sensors[sensor], view, row)
+        return topics.reading(sensors[sensor], sensed, row)
 
     def odom(self) -> Odometry:
         """
@@ -81,8 +81,8 @@ class Robot:
 
         :raises UnknownName: the robot is not there
         """
-        topics, view, row = self._now()
-        return topics.odometry(view, row)
+        topics, sensed, row = self._now()
+        return topics.odometry(sensed, row)
 
     def truth(self) -> Odometry:
         """
@@ -90,14 +90,14 @@ class Robot:
 
         :raises UnknownName: the robot is not there
         """
-        topics, view, row = self._now()
-        return topics.truth(view, row)
+        topics, sensed, row = self._now()
+        return topics.truth(sensed, row)
 
     @property
     def bumped(self) -> bool:
         """Whether it touched something in the last frame: within its bumpers, if it has any."""
-        topics, view, row = self._now()
-        return is_bumped(view.snapshot, view.contacts, row, topics.robot)
+        topics, sensed, row = self._now()
+        return is_bumped(sensed.snapshot, sensed.contacts, row, topics.robot)
 
     @property
     def has_controller(self) -> bool:
@@ -106,13 +106,13 @@ class Robot:
         drive = topics.drive_topic
         return drive is not None and drive.has_publisher and topics.is_read
 
-    def _now(self) -> tuple[RobotTopics, StampedView, int]:
+    def _now(self) -> tuple[RobotTopics, StampedFrame, int]:
         """Return its topics, the last frame, and the row of its body in the scene."""
         fleet = self._node.fleet
-        if fleet.view is None or self.name not in fleet.robots:
+        if fleet.sensed is None or self.name not in fleet.robots:
             raise UnknownName(f'there is no robot {self.name!r}')
-        row = fleet.view.snapshot.scene.row_of[self.name]
-        return fleet.robots[self.name], fleet.view, row
+        row = fleet.sensed.snapshot.scene.row_of[self.name]
+        return fleet.robots[self.name], fleet.sensed, row
 
     def _first(self, kind: str) -> str:
         topics, _, _ = self._now()

@@ -7,7 +7,7 @@ import math
 
 from physsim_ros.model.robots.sensors import Bumper
 from physsim_ros.model.shapes import Box
-from physsim_ros.sensing import read_bumper
+from physsim_ros.sensing.touch import read_bumper
 import pytest
 
 from .worlds import add_robot, plane

@@ -8,7 +8,7 @@ import math
 import numpy as np
 from physsim_ros.model.robots.sensors import FloorEye
 from physsim_ros.model.shapes import Box, Chain, Disc
-from physsim_ros.sensing import read_floor
+from physsim_ros.sensing.touch import read_floor
 import pytest
 
 from .worlds import add_robot, plane, seen

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.robots.sensors import Gps
-from physsim_ros.sensing import fix_of, read_gps
+from physsim_ros.sensing.gps import fix_of, read_gps
 import pytest
 
 from .worlds import add_robot, plane, seen

@@ -7,7 +7,7 @@ import math
 
 from physsim_ros.model.requests import Configure, Delete
 from physsim_ros.model.robots.sensors import Imu
-from physsim_ros.sensing import read_imu
+from physsim_ros.sensing.motion import read_imu
 import pytest
 
 from .worlds import add_robot, plane, seen

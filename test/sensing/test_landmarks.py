@@ -8,7 +8,8 @@ import math
 import numpy as np
 from physsim_ros.model.robots.sensors import Landmarks
 from physsim_ros.model.shapes import Box, Disc, Polygon
-from physsim_ros.sensing import read_landmarks, Surroundings
+from physsim_ros.sensing import Surroundings
+from physsim_ros.sensing.distance import read_landmarks
 import pytest
 
 from .worlds import add_robot, plane, seen

@@ -8,8 +8,8 @@ import math
 import numpy as np
 from physsim_ros.model.robots.sensors import Laser, RangeFinder
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
-from physsim_ros.sensing import read_laser, read_range, scan_points, Surroundings
-from physsim_ros.sensing.distance import within_range
+from physsim_ros.sensing import read_laser, scan_points, Surroundings
+from physsim_ros.sensing.distance import read_range, within_range
 import pytest
 
 from .worlds import add_robot, engine_rays, plane, PRECISION, random_world, seen
@@ -307,7 +307,7 @@ def test_noise_of_a_range_finder_is_that_of_the_seed():
 def test_noise_does_not_bring_back_what_is_out_of_range():
     distances, noise = np.array([9.95, 10.05, 0.15, 0.05]), np.array([2.0, -2.0, -2.0, 2.0])
 
-    read = within_range(distances, 0.1, 10.0, 0.05, noise)
+    read = within_range(distances, 0.1, 10.0, 0.05 * noise)
 
     assert read.tolist() == [math.inf, math.inf, -math.inf, -math.inf]
 

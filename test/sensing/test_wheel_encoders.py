@@ -8,7 +8,7 @@ import math
 from physsim_ros import robot_spawn
 from physsim_ros.model.requests import DriveRobot, Unjoin
 from physsim_ros.model.shapes import Disc
-from physsim_ros.sensing import read_wheels
+from physsim_ros.sensing.motion import read_wheels
 import pytest
 
 from .worlds import add_robot, plane

@@ -18,7 +18,7 @@ from physsim_ros import (
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import Command, DriveRobot, Grab
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.sensing import View
+from physsim_ros.sensing import SensedFrame
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.world import World
@@ -96,7 +96,7 @@ OF_SIMULATION: dict[str, Call] = {
     'step': of_simulation(lambda it: it.step),
     'stop_driving': of_simulation(Simulation.stop_driving),
     'undo': of_simulation(Simulation.undo),
-    'view': of_simulation(lambda it: it.view),
+    'sensed': of_simulation(lambda it: it.sensed),
     'world': of_simulation(lambda it: it.world),
 }
 OF_ROBOT: dict[str, Call] = {
@@ -158,7 +158,7 @@ def told(result: Any) -> object:
         case _ if callable(result):
             # It saves.
             return told(result())
-        case View():
+        case SensedFrame():
             return told(result.frame)
         case Frame():
             return result.snapshot.step, result.snapshot.poses.tobytes(), result.past

@@ -101,8 +101,8 @@ def test_a_reader_who_comes_late_has_the_frames_of_one_who_was_always_there(read
     for tick in range(AWAY + 1, AWAY + 30):
         (one,), (other,) = ticked(read, tick, tick), ticked(unread, tick, tick)
         assert same(one, other)
-        assert np.array_equal(read.view.before.twists, unread.view.before.twists)
-        assert read.view.before.stamp == unread.view.before.stamp
+        assert np.array_equal(read.sensed.before.twists, unread.sensed.before.twists)
+        assert read.sensed.before.stamp == unread.sensed.before.stamp
     assert read.world.digest() == unread.world.digest()
 
 

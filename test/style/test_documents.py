@@ -161,8 +161,8 @@ def test_the_table_of_topics_of_robots_has_the_message_of_every_sensor():
     messages = pytest.importorskip('physsim_ros.ros.robots.messages', reason='there is no ROS')
     text = (DOCS / 'robots.md').read_text('utf-8')
 
-    assert messages.READINGS.keys() == {*SENSORS.values()}
-    for reading in messages.READINGS.values():
+    assert messages.SENSOR_MESSAGES.keys() == {*SENSORS.values()}
+    for reading in messages.SENSOR_MESSAGES.values():
         package, name = reading.kind.__module__.partition('.')[0], reading.kind.__name__
         assert re.search(rf'^\| .* \| `{package}/{name}` \|', text, re.MULTILINE), name
 

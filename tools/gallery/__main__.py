@@ -91,7 +91,7 @@ def draw_scene(viewer: HeadlessViewer, directory: Path, name: str) -> None:
     recording = Recording(directory / f'{Path(name).name}.rrd')
     simulation = scene(name)
     if name in COMMANDS:
-        described = simulation.view.snapshot.scene
+        described = simulation.sensed.snapshot.scene
         for row in described.robot_rows:
             Robot(simulation, described.names[row]).drive(*COMMANDS[name])
     now = record(recording, list(frames_until(simulation, TIMES.get(name, USUAL))))

@@ -29,7 +29,7 @@ from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.lockstep import Lockstep
-from physsim_ros.ros.robots.messages import StampedView
+from physsim_ros.ros.robots.messages import StampedFrame
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.ros.robots.timeout_notice import TimeoutNotice
 from physsim_ros.runtime.error_boundary import ErrorBoundary
@@ -62,7 +62,7 @@ class Fleet:
     :ivar name: of the output
     :ivar robots: topics of each, by the name of its body, in the order of the scene
     :ivar lockstep: the wait for commands that answer scans
-    :ivar view: the last frame, as the sensors of all robots see it; None before the first
+    :ivar sensed: the last frame, as the sensors of all robots see it; None before the first
     """
 
     name = 'robots'
@@ -79,7 +79,7 @@ class Fleet:
     ) -> None:
         self.robots: dict[str, RobotTopics] = {}
         self.lockstep = Lockstep(values, lambda: self._drive_topics)
-        self.view: StampedView | None = None
+        self.sensed: StampedFrame | None = None
         self._node = node
         self._values = values
         self._requests = requests
@@ -175,12 +175,12 @@ class Fleet:
 
     def show(self, frame: Frame) -> None:
         """Publish what is due at a frame, after topics have come and gone with its scene."""
-        snapshot, last = frame.snapshot, self.view
+        snapshot, last = frame.snapshot, self.sensed
         stands = last is not None and last.snapshot.stamp == snapshot.stamp
         before = None
         if last is not None:
             before = last.before if stands else last.snapshot
-        self.view = view = StampedView(frame, before)
+        self.sensed = sensed = StampedFrame(frame, before)
         frozen = frame.past and self._values['robots_in_past'] == 'freeze'
         goes_back = before is not None and snapshot.stamp < before.stamp
         if frozen or goes_back:
@@ -199,10 +199,10 @@ class Fleet:
             with self._boundary.output('robots'):
                 if robot is None:
                     continue
-                scanned = robot.publish(view, row)
+                scanned = robot.publish(sensed, row)
                 if scanned is not None and robot.drive_topic is not None:
                     robot.drive_topic.expect_answer(scanned)
-                self._timeout_notice.tell_if_stopped(robot, view, row)
+                self._timeout_notice.tell_if_stopped(robot, sensed, row)
 
     def _send_again(self, frame: Frame, last: Snapshot | None) -> None:
         """Send the messages that were on their way at a snapshot from which time goes on again."""
@@ -212,14 +212,14 @@ class Fleet:
         step, stamp = frame.snapshot.step - last.step, frame.snapshot.stamp - last.stamp
         begin = last.step - math.ceil(longest * 1e9 * step / stamp)
         frames = self._past.frames.frames_after(begin - 1, last.step)
-        views: dict[str, list[tuple[StampedView, int]]] = {name: [] for name in self.robots}
+        seen: dict[str, list[tuple[StampedFrame, int]]] = {name: [] for name in self.robots}
         for (before, _), (snapshot, contacts) in itertools.pairwise(frames):
-            view = StampedView(replace(frame, snapshot=snapshot, contacts=contacts), before)
+            sensed = StampedFrame(replace(frame, snapshot=snapshot, contacts=contacts), before)
             for row in snapshot.scene.robot_rows.tolist():
-                views.get(snapshot.scene.names[row], []).append((view, row))
+                seen.get(snapshot.scene.names[row], []).append((sensed, row))
         for name, robot in self.robots.items():
             with self._boundary.output('robots'):
-                robot.send_again(views[name], last.stamp)
+                robot.send_again(seen[name], last.stamp)
 
     def _tell_timeout(self, answer: Answer) -> None:
         self._node.get_logger().warning(answer.message)

@@ -33,7 +33,7 @@ from physsim_ros.model.robots.sensors import (
 )
 from physsim_ros.model.states import Covariance
 from physsim_ros.ros.planar import pose_message, rotation_of
-from physsim_ros.sensing import OdometryReading, read_battery, read_sensor, View
+from physsim_ros.sensing import OdometryReading, read_battery, read_sensor, SensedFrame
 from rclpy.time import Time
 from sensor_msgs.msg import (
     BatteryState,
@@ -64,7 +64,7 @@ _PLANAR, _OTHERS = (0, 7, 35), (14, 21, 28)
 _ABOVE, _BELOW = (0, 1, 7, 5, 11, 35), (0, 6, 7, 30, 31, 35)
 
 
-class StampedView(View):
+class StampedFrame(SensedFrame):
     """A frame as the sensors of all robots see it, with its time as ROS has it."""
 
     @cached_property
@@ -74,7 +74,7 @@ class StampedView(View):
 
 
 def odometry_message(
-    view: StampedView,
+    sensed: StampedFrame,
     motion: OdometryReading,
     *,
     parent: str,
@@ -88,7 +88,7 @@ def odometry_message(
     :param covariances: of the pose in the parent frame, of the twist in the child frame
     """
     message = Odometry(child_frame_id=child)
-    message.header.stamp, message.header.frame_id = view.stamp, parent
+    message.header.stamp, message.header.frame_id = sensed.stamp, parent
     message.pose.pose = pose_message(motion.pose)
     message.pose.covariance, message.twist.covariance = map(_covariance, covariances)
     vx, vy, turn = motion.twist
@@ -108,10 +108,10 @@ def _covariance(planar: Covariance) -> list[float]:
     return covariance
 
 
-def scan_message(view: StampedView, row: int, laser: Laser) -> LaserScan:
+def scan_message(sensed: StampedFrame, row: int, laser: Laser) -> LaserScan:
     """Return the scan of a laser."""
     least, greatest = laser.range
-    ranges = read_sensor(view, row, laser)
+    ranges = read_sensor(sensed, row, laser)
     return LaserScan(
         angle_min=laser.angle[0],
         angle_max=laser.angle[0] + (laser.beams - 1) * laser.increment,
@@ -123,7 +123,7 @@ def scan_message(view: StampedView, row: int, laser: Laser) -> LaserScan:
     )
 
 
-def range_message(view: StampedView, row: int, finder: RangeFinder) -> Range:
+def range_message(sensed: StampedFrame, row: int, finder: RangeFinder) -> Range:
     """Return the reading of a range finder."""
     least, greatest = finder.range
     sonar = finder.radiation == 'sonar'
@@ -132,15 +132,15 @@ def range_message(view: StampedView, row: int, finder: RangeFinder) -> Range:
         field_of_view=finder.cone,
         min_range=least,
         max_range=greatest,
-        range=read_sensor(view, row, finder),
+        range=read_sensor(sensed, row, finder),
         # 0 is an unknown variance.
         variance=max(finder.noise**2, LEAST_VARIANCE),
     )
 
 
-def landmarks_message(view: StampedView, row: int, finder: Landmarks) -> PoseArray:
+def landmarks_message(sensed: StampedFrame, row: int, finder: Landmarks) -> PoseArray:
     """Return a pose for each landmark, in the frame of the sensor; NaN where it is unseen."""
-    readings = read_sensor(view, row, finder)
+    readings = read_sensor(sensed, row, finder)
     points = (
         Point(x=distance * math.cos(bearing), y=distance * math.sin(bearing))
         for distance, bearing in readings.tolist()
@@ -148,14 +148,14 @@ def landmarks_message(view: StampedView, row: int, finder: Landmarks) -> PoseArr
     return PoseArray(poses=[PoseMessage(position=point) for point in points])
 
 
-def bumper_message(view: StampedView, row: int, bumper: Bumper) -> Bool:
+def bumper_message(sensed: StampedFrame, row: int, bumper: Bumper) -> Bool:
     """Return the reading of a bumper."""
-    return Bool(data=read_sensor(view, row, bumper))
+    return Bool(data=read_sensor(sensed, row, bumper))
 
 
-def imu_message(view: StampedView, row: int, imu: Imu) -> ImuMessage:
+def imu_message(sensed: StampedFrame, row: int, imu: Imu) -> ImuMessage:
     """Return the reading of an inertial measurement unit."""
-    reading = read_sensor(view, row, imu)
+    reading = read_sensor(sensed, row, imu)
     message = ImuMessage(orientation=rotation_of(reading.yaw))
     message.angular_velocity.z = reading.turn_rate
     message.linear_acceleration.x, message.linear_acceleration.y = reading.acceleration
@@ -170,9 +170,9 @@ def imu_message(view: StampedView, row: int, imu: Imu) -> ImuMessage:
     return message
 
 
-def wheels_message(view: StampedView, row: int, encoders: WheelEncoders) -> JointState:
+def wheels_message(sensed: StampedFrame, row: int, encoders: WheelEncoders) -> JointState:
     """Return the turns of the wheels [rad], and their rates [rad/s]."""
-    wheels = read_sensor(view, row, encoders)
+    wheels = read_sensor(sensed, row, encoders)
     return JointState(
         name=wheels.names,
         position=array('d', wheels.positions.tobytes()),
@@ -180,9 +180,9 @@ def wheels_message(view: StampedView, row: int, encoders: WheelEncoders) -> Join
     )
 
 
-def floor_message(view: StampedView, row: int, eye: FloorEye) -> Image:
+def floor_message(sensed: StampedFrame, row: int, eye: FloorEye) -> Image:
     """Return the picture of a line follower's eye."""
-    colors = read_sensor(view, row, eye)
+    colors = read_sensor(sensed, row, eye)
     return Image(
         height=1,
         width=eye.pixels,
@@ -192,9 +192,9 @@ def floor_message(view: StampedView, row: int, eye: FloorEye) -> Image:
     )
 
 
-def fix_message(view: StampedView, row: int, gps: Gps) -> NavSatFix:
+def fix_message(sensed: StampedFrame, row: int, gps: Gps) -> NavSatFix:
     """Return the reading of a receiver of satellite navigation."""
-    fix = read_sensor(view, row, gps)
+    fix = read_sensor(sensed, row, gps)
     if fix is None:
         return NavSatFix(
             status=NavSatStatus(status=NavSatStatus.STATUS_NO_FIX),
@@ -215,9 +215,9 @@ def fix_message(view: StampedView, row: int, gps: Gps) -> NavSatFix:
     return message
 
 
-def battery_message(view: StampedView, row: int, battery: Battery) -> BatteryState:
+def battery_message(sensed: StampedFrame, row: int, battery: Battery) -> BatteryState:
     """Return the state of a battery."""
-    reading = read_battery(view.snapshot, row)
+    reading = read_battery(sensed.snapshot, row)
     assert reading is not None  # noqa: S101 - it has one
     if reading.is_docked:
         is_full = reading.level >= 1.0
@@ -226,7 +226,7 @@ def battery_message(view: StampedView, row: int, battery: Battery) -> BatterySta
     else:
         status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
     return BatteryState(
-        header=Header(stamp=view.stamp),
+        header=Header(stamp=sensed.stamp),
         voltage=battery.voltage,
         temperature=math.nan,
         current=reading.current,
@@ -240,27 +240,27 @@ def battery_message(view: StampedView, row: int, battery: Battery) -> BatterySta
     )
 
 
-class Reading(NamedTuple):
+class SensorMessage(NamedTuple):
     """
     How the reading of a kind of sensor becomes a message.
 
     :ivar kind: type of the message
-    :ivar message: of a view, a row of the scene, and the sensor
+    :ivar message: of a frame, a row of the scene, and the sensor
     :ivar stamped: whether it has a header
     """
 
     kind: type
-    message: Callable[[StampedView, int, Any], Any]
+    message: Callable[[StampedFrame, int, Any], Any]
     stamped: bool = True
 
 
-READINGS: dict[type[Sensor], Reading] = {
-    Laser: Reading(LaserScan, scan_message),
-    RangeFinder: Reading(Range, range_message),
-    Landmarks: Reading(PoseArray, landmarks_message),
-    Bumper: Reading(Bool, bumper_message, stamped=False),
-    Imu: Reading(ImuMessage, imu_message),
-    WheelEncoders: Reading(JointState, wheels_message),
-    FloorEye: Reading(Image, floor_message),
-    Gps: Reading(NavSatFix, fix_message),
+SENSOR_MESSAGES: dict[type[Sensor], SensorMessage] = {
+    Laser: SensorMessage(LaserScan, scan_message),
+    RangeFinder: SensorMessage(Range, range_message),
+    Landmarks: SensorMessage(PoseArray, landmarks_message),
+    Bumper: SensorMessage(Bool, bumper_message, stamped=False),
+    Imu: SensorMessage(ImuMessage, imu_message),
+    WheelEncoders: SensorMessage(JointState, wheels_message),
+    FloorEye: SensorMessage(Image, floor_message),
+    Gps: SensorMessage(NavSatFix, fix_message),
 }

@@ -41,8 +41,8 @@ from physsim_ros.ros.robots.frames import (
 from physsim_ros.ros.robots.messages import (
     battery_message,
     odometry_message,
-    READINGS,
-    StampedView,
+    SENSOR_MESSAGES,
+    StampedFrame,
 )
 from physsim_ros.ros.robots.motor_topics import motor_topics
 from physsim_ros.ros.topics import of_one_type
@@ -60,7 +60,7 @@ class _Topic:
     A topic of a robot that is published at frames, while it is read.
 
     :ivar publisher: of the topic
-    :ivar message: makes its message, of a view and the row of the robot's body in the scene
+    :ivar message: makes its message, of a frame and the row of the robot's body in the scene
     :ivar name: that sets the moments of its rate, and the latencies of its messages
     :ivar rate: [Hz]; None is each frame
     :ivar latency: least and greatest time from the frame of a message to its arrival [s]
@@ -70,16 +70,16 @@ class _Topic:
     """
 
     publisher: Publisher
-    message: Callable[[StampedView, int], Any]
+    message: Callable[[StampedFrame, int], Any]
     name: str
     rate: float | None = None
     latency: Point = (0.0, 0.0)
     sensor: Sensor | None = None
     coming: deque[tuple[int, int, Any]] = field(default_factory=deque)
 
-    def send(self, message: Any, view: StampedView) -> None:
+    def send(self, message: Any, sensed: StampedFrame) -> None:
         """Send the message of a frame, which arrives after those that were sent before."""
-        snapshot = view.snapshot
+        snapshot = sensed.snapshot
         arrival = snapshot.stamp
         if any(self.latency):
             seed = snapshot.scene.settings.seed
@@ -195,7 +195,7 @@ class RobotTopics:
             if isinstance(sensor, Laser) and lasers:
                 self._lasers[sensor.name] = self._changed(sensor, lasers)
             self._add(
-                READINGS[type(sensor)].kind,
+                SENSOR_MESSAGES[type(sensor)].kind,
                 sensor.name,
                 partial(self.reading, sensor),
                 rate=sensor.rate,
@@ -215,7 +215,7 @@ class RobotTopics:
         self,
         kind: type,
         name: str,
-        message: Callable[[StampedView, int], Any],
+        message: Callable[[StampedFrame, int], Any],
         *,
         rate: float | None = None,
         latency: Point = (0.0, 0.0),
@@ -285,18 +285,18 @@ class RobotTopics:
         """Return the longest time that a message that is read can be on its way [s]."""
         return max((each.latency[1] for each in self._topics if each.is_read), default=0.0)
 
-    def publish(self, view: StampedView, row: int) -> int | None:
+    def publish(self, sensed: StampedFrame, row: int) -> int | None:
         """
         Publish what arrives at a frame and has subscribers.
 
         While time goes back, messages have no latency.
 
-        :param view: of the frame
+        :param sensed: of the frame
         :param row: of the robot's body in the scene
         :return: stamp of the last scan of the first laser with subscribers [ns], which is the one
             that a controller answers: others may be heard by a recording alone; None without one
         """
-        now, before = view.snapshot.stamp, view.before
+        now, before = sensed.snapshot.stamp, sensed.before
         goes_back = before is not None and now < before.stamp
         scanned, first = None, None
         for topic in self._topics:
@@ -306,72 +306,72 @@ class RobotTopics:
                 continue
             if first is None and isinstance(topic.sensor, Laser):
                 first = topic
-            if self._is_due(topic, view):
-                message = topic.message(view, row)
+            if self._is_due(topic, sensed):
+                message = topic.message(sensed, row)
                 if goes_back:
                     topic.publisher.publish(message)
                 else:
-                    topic.send(message, view)
+                    topic.send(message, sensed)
             for stamp, message in topic.arrived(now):
                 topic.publisher.publish(message)
                 scanned = stamp if topic is first else scanned
         return scanned
 
-    def send_again(self, views: Sequence[tuple[StampedView, int]], now: int) -> None:
+    def send_again(self, seen: Sequence[tuple[StampedFrame, int]], now: int) -> None:
         """
         Send the messages that were on their way at a stamp, after a jump to it.
 
-        :param views: of the frames up to that, as of `publish`
+        :param seen: the frames up to that, with the rows, as of `publish`
         :param now: the stamp [ns]
         """
         late = [each for each in self._topics if each.latency[1] > 0.0 and each.is_read]
         for topic in late:
             topic.coming.clear()
-            for view, row in views:
-                if self._is_due(topic, view):
-                    topic.send(topic.message(view, row), view)
+            for sensed, row in seen:
+                if self._is_due(topic, sensed):
+                    topic.send(topic.message(sensed, row), sensed)
             topic.arrived(now)
 
-    def _transforms(self, kind: type, view: StampedView, row: int) -> Any:
+    def _transforms(self, kind: type, sensed: StampedFrame, row: int) -> Any:
         """Return the message of the transforms that move."""
-        transforms = self._frames.of_links(view.stamp, view.snapshot, self.body, self.robot)
+        transforms = self._frames.of_links(sensed.stamp, sensed.snapshot, self.body, self.robot)
         if self.robot.drive is not None:
-            pose = read_odometry(view.snapshot, row).pose
-            transforms = [self._frames.moving(view.stamp, pose), *transforms]
+            pose = read_odometry(sensed.snapshot, row).pose
+            transforms = [self._frames.moving(sensed.stamp, pose), *transforms]
         return kind(transforms=transforms)
 
-    def odometry(self, view: StampedView, row: int) -> Odometry:
+    def odometry(self, sensed: StampedFrame, row: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
         return odometry_message(
-            view,
-            read_odometry(view.snapshot, row),
+            sensed,
+            read_odometry(sensed.snapshot, row),
             parent=self._frames.name(ODOM),
             child=self._frames.name(FOOTPRINT),
-            covariances=odometry_covariances(view.snapshot, row),
+            covariances=odometry_covariances(sensed.snapshot, row),
         )
 
-    def truth(self, view: StampedView, row: int) -> Odometry:
+    def truth(self, sensed: StampedFrame, row: int) -> Odometry:
         """Return where the robot is, and how it moves."""
         return odometry_message(
-            view,
-            true_motion(view.snapshot, row),
+            sensed,
+            true_motion(sensed.snapshot, row),
             parent=self._world_frame,
             child=self._frames.name(BASE),
             covariances=(SPAWNED.covariance, SPAWNED.covariance),
         )
 
-    def _battery(self, battery: Battery, view: StampedView, row: int) -> BatteryState:
+    def _battery(self, battery: Battery, sensed: StampedFrame, row: int) -> BatteryState:
         """Return the state of the battery."""
-        message = battery_message(view, row, battery)
+        message = battery_message(sensed, row, battery)
         message.header.frame_id = self._frames.name(BASE)
         return message
 
-    def reading(self, sensor: Sensor, view: StampedView, row: int) -> Any:
+    def reading(self, sensor: Sensor, sensed: StampedFrame, row: int) -> Any:
         """Return the message of a sensor of it."""
-        reading = READINGS[type(sensor)]
-        message = reading.message(view, row, self._lasers.get(sensor.name, sensor))
+        reading = SENSOR_MESSAGES[type(sensor)]
+        message = reading.message(sensed, row, self._lasers.get(sensor.name, sensor))
         if reading.stamped:
-            message.header.stamp = view.stamp
+            message.header.stamp = sensed.stamp
             message.header.frame_id = self._frames.name(sensor.name)
         return message
 
@@ -382,9 +382,9 @@ class RobotTopics:
         for publisher in self._publishers:
             self._node.destroy_publisher(publisher)
 
-    def _is_due(self, topic: _Topic, view: StampedView) -> bool:
+    def _is_due(self, topic: _Topic, sensed: StampedFrame) -> bool:
         """Return whether a topic is published at a frame, at a past one as before."""
-        now, before = view.snapshot.stamp, view.before
+        now, before = sensed.snapshot.stamp, sensed.before
         if topic.rate is None or before is None:
             return True
         # In a rewind, the frame before is a later one: the period that counts ends with this one.

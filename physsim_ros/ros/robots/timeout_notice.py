@@ -10,7 +10,7 @@ from typing import Any
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.transform import REST
-from physsim_ros.ros.robots.messages import StampedView
+from physsim_ros.ros.robots.messages import StampedFrame
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 
 
@@ -27,12 +27,12 @@ class TimeoutNotice:
         self._tell = tell
         self._is_told = False
 
-    def tell_if_stopped(self, robot: RobotTopics, view: StampedView, row: int) -> None:
+    def tell_if_stopped(self, robot: RobotTopics, sensed: StampedFrame, row: int) -> None:
         """Tell that the last command of a robot has ended, unless that was to rest."""
         topic, drive = robot.drive_topic, robot.robot.drive
         if self._is_told or topic is None or drive is None or topic.velocity == REST:
             return
-        if not _has_stopped(view, row):
+        if not _has_stopped(sensed, row):
             return
         self._is_told = True
         asked = self._values['drive_timeout']
@@ -44,9 +44,9 @@ class TimeoutNotice:
         self._tell(Answer(topic=topic.topic, subject=robot.body, message=message))
 
 
-def _has_stopped(view: StampedView, row: int) -> bool:
+def _has_stopped(sensed: StampedFrame, row: int) -> bool:
     """Return whether the command of a robot has ended since the frame before."""
-    now, before = view.snapshot, view.before
+    now, before = sensed.snapshot, sensed.before
     if before is None or before.scene is not now.scene:
         return False
     until = int(now.robots['until'][now.scene.robot_number(row)])

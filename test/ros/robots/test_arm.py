@@ -149,7 +149,7 @@ def test_an_arm_without_a_drive_has_neither_commands_of_velocity_nor_odometry(ar
 
 
 def test_the_base_of_an_arm_stands_fast_however_it_is_spawned(arm: Arm) -> None:
-    scene = arm.flat.node.fleet.view.snapshot.scene
+    scene = arm.flat.node.fleet.sensed.snapshot.scene
     assert scene.bodies[0].anchored
     assert scene.names[1:] == ('robot/0/upper/0', 'robot/0/lower/0')
 

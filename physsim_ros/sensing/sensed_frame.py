@@ -28,7 +28,7 @@ from physsim_ros.sensing.surroundings import Surroundings
 from physsim_ros.sensing.touch import read_bumper, read_floor
 
 
-class View:
+class SensedFrame:
     """
     A frame as the sensors of all robots see it; what they share is made when it is first needed.
 
@@ -49,24 +49,24 @@ class View:
 
 
 # Reading of a sensor of a kind on the body of a row.
-_READERS: Mapping[type[Sensor], Callable[[View, int, Any], Any]] = {
-    Laser: lambda view, row, laser: read_laser(view.surroundings, row, laser),
-    RangeFinder: lambda view, row, finder: read_range(view.surroundings, row, finder),
-    Landmarks: lambda view, row, finder: read_landmarks(view.surroundings, row, finder),
-    Bumper: lambda view, row, bumper: read_bumper(view.snapshot, view.contacts, row, bumper),
-    Imu: lambda view, row, imu: read_imu(view.snapshot, view.before, row, imu),
-    WheelEncoders: lambda view, row, _: read_wheels(view.snapshot, row),
-    FloorEye: lambda view, row, eye: read_floor(view.snapshot, row, eye),
-    Gps: lambda view, row, gps: read_gps(view.snapshot, row, gps),
+_READERS: Mapping[type[Sensor], Callable[[SensedFrame, int, Any], Any]] = {
+    Laser: lambda sensed, row, laser: read_laser(sensed.surroundings, row, laser),
+    RangeFinder: lambda sensed, row, finder: read_range(sensed.surroundings, row, finder),
+    Landmarks: lambda sensed, row, finder: read_landmarks(sensed.surroundings, row, finder),
+    Bumper: lambda sensed, row, bumper: read_bumper(sensed.snapshot, sensed.contacts, row, bumper),
+    Imu: lambda sensed, row, imu: read_imu(sensed.snapshot, sensed.before, row, imu),
+    WheelEncoders: lambda sensed, row, _: read_wheels(sensed.snapshot, row),
+    FloorEye: lambda sensed, row, eye: read_floor(sensed.snapshot, row, eye),
+    Gps: lambda sensed, row, gps: read_gps(sensed.snapshot, row, gps),
 }
 
 
-def read_sensor(view: View, row: int, sensor: Sensor) -> Any:
+def read_sensor(sensed: SensedFrame, row: int, sensor: Sensor) -> Any:
     """
     Return the reading of a sensor: what the function of its kind in this folder returns.
 
-    :param view: of the frame
+    :param sensed: of the frame
     :param row: of the robot's body in the scene
     :param sensor: on it
     """
-    return _READERS[type(sensor)](view, row, sensor)
+    return _READERS[type(sensor)](sensed, row, sensor)
