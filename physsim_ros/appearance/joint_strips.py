@@ -106,10 +106,11 @@ def _axle(joint: Joint, size: float) -> list[Strip]:
 
 def _circle(radius: float, at: float = 0.0) -> Strip:
     angles = np.linspace(0.0, math.tau, _CIRCLE + 1).tolist()
-    return [
-        Corner(at, arm=(radius * math.cos(angle), radius * math.sin(angle)), on_b=at > 0)
-        for angle in angles
-    ]
+    return [Corner(at, arm=_polar(radius, angle), on_b=at > 0) for angle in angles]
+
+
+def _polar(radius: float, angle: float) -> tuple[float, float]:
+    return radius * math.cos(angle), radius * math.sin(angle)
 
 
 def _spiral(size: float) -> Strip:
@@ -117,7 +118,7 @@ def _spiral(size: float) -> Strip:
     corners = []
     for number in range(_SPIRAL * _CIRCLE + 1):
         angle, reach = math.tau * number / _CIRCLE, size * (1.0 + number / _CIRCLE / 2.0)
-        corners.append(Corner(arm=(reach * math.cos(angle), reach * math.sin(angle))))
+        corners.append(Corner(arm=_polar(reach, angle)))
     return corners
 
 
@@ -128,8 +129,7 @@ def _wheel(radius: float, at: float = 0.0) -> Strip:
         for half in (-0.4, 0.4):
             angle = (number + half) * math.pi / _TEETH
             reach = radius * (1.15 if number % 2 else 0.85)
-            arm = (reach * math.cos(angle), reach * math.sin(angle))
-            strip.append(Corner(at, arm=arm, on_b=at > 0))
+            strip.append(Corner(at, arm=_polar(reach, angle), on_b=at > 0))
     return strip
 
 
@@ -149,7 +149,7 @@ def _teeth(joint: Joint) -> Strip:
 def _arrow(radius: float, sense: float) -> list[Strip]:
     """Return an arc with a head, counter-clockwise where the sense is positive."""
     angles = (sense * np.linspace(0.0, 1.5 * math.pi, _CIRCLE + 1)).tolist()
-    arc = [Corner(arm=(radius * math.cos(each), radius * math.sin(each))) for each in angles]
+    arc = [Corner(arm=_polar(radius, angle)) for angle in angles]
     # The arc ends at its lowest point, with a horizontal tangent.
     x, y = 0.0, -radius
     barb = 0.5 * radius

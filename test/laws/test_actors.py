@@ -381,6 +381,25 @@ def test_the_force_of_a_wall_is_that_of_its_potential_in_one_piece_or_many(repor
     assert abs(velocity[0]) < 1e-9
 
 
+@pytest.mark.parametrize(('across', 'in_way'), [(0.1, 1.0), (0.425, 0.5), (0.7, 0.0)])
+def test_the_force_of_a_post_pushes_back_by_the_part_of_it_in_the_way(report, across, in_way):
+    sim = _floor()
+    spawn(sim, 'post/0', Disc(radius=0.3), (0.8, across, 0.0), kinematic=True)
+    walks = {'kind': 'social_force', 'points': [[50.0, 0.0]], 'speed': 1.0, 'max_speed': 100.0}
+    row = spawn(sim, 'person/0', PERSON, kinematic=True, actor=walks)
+    sim.world.step(1)
+    distance = math.hypot(0.8, across)
+    away = np.array((-0.8, -across)) / distance
+    force = 10.0 / 0.2 * math.exp(-(distance - 0.3) / 0.2) * away * (in_way, 1.0)
+    # A push from straight ahead is turned to the right by 0.1 rad.
+    turn = -0.1 * force[0] / math.hypot(*force)
+    cos, sin = math.cos(turn), math.sin(turn)
+    pushed = force @ [[cos, sin], [-sin, cos]] * DT
+    velocity = sim.world.snapshot().twists[row, :2] - (1.0 / 0.5 * DT, 0.0)
+    worst = abs(velocity - pushed).max()
+    report.check(53, f'velocity by a post {across:g} m beside the way', worst, 0.0, 1e-9, 'm/s')
+
+
 def test_the_force_of_a_pedestrian_is_that_of_its_potential(report):
     stands = {'kind': 'social_force', 'max_speed': 100.0}
     sim = _floor()

@@ -30,27 +30,30 @@ def test_the_walls_lie_just_outside_the_bounds(recording):
     assert right[0] == pytest.approx(10.0)
 
 
-def test_the_grid_has_a_line_at_every_whole_metre_and_says_which(recording):
-    recording.draw(frame(scene(bounds=(-10.0, 0.0, 10.0, 12.0)), []))
+@pytest.mark.parametrize('unit', [1.0, 10.0])
+def test_the_grid_has_a_line_at_every_whole_unit_and_says_which(recording, unit):
+    left, right, top = -10.0 * unit, 10.0 * unit, 12.0 * unit
+    recording.draw(frame(scene(bounds=(left, 0.0, right, top)), []))
 
-    lines = [
-        np.array(line) for line in recording.last('world/grid', 'LineStrips3D:strips').tolist()
-    ]
-    upright = sorted(line[0, 0] for line in lines if line[0, 0] == line[1, 0])
-    assert np.diff(upright) == pytest.approx(1.0)
-    assert any(abs(x) < TOLERANCE for x in upright)
+    lines = np.array(recording.last('world/grid', 'LineStrips3D:strips').tolist())
+    begins, ends = np.moveaxis(lines, 1, 0)[..., :2]
+    assert (np.count_nonzero(begins == ends, axis=1) == 1).all()
+    for axis in (0, 1):
+        along = np.sort(begins[begins[:, axis] == ends[:, axis], axis])
+        assert np.diff(along) == pytest.approx(unit)
+        assert abs(along).min() < TOLERANCE
     places = recording.last('world/grid/metres', 'Points3D:positions')
     labels = recording.last('world/grid/metres', 'Points3D:labels')
     for (x, y, _), label in zip(places, labels, strict=True):
         # Labels hang below their points: those at the left are raised by half their height.
-        assert label in {f'{x:g} m', f'{math.floor(y):g} m'}
-        assert x < -10.0 or y < 0.0, 'a label covers the world'
+        assert label in {f'{x:g} m', f'{math.floor(y / unit) * unit:g} m'}
+        assert x < left or y < 0.0, 'a label covers the world'
     across = {
         float(label[:-2]) for (_, y, _), label in zip(places, labels, strict=True) if y < 0.0
     }
-    up = {float(label[:-2]) for (x, _, _), label in zip(places, labels, strict=True) if x < -10.0}
-    assert across == {-10.0, -5.0, 0.0, 5.0, 10.0}
-    assert up == {0.0, 5.0, 10.0}
+    up = {float(label[:-2]) for (x, _, _), label in zip(places, labels, strict=True) if x < left}
+    assert across == {left, left / 2.0, 0.0, right / 2.0, right}
+    assert up == {0.0, 5.0 * unit, 10.0 * unit}
 
 
 def draw_contacts(recording, batches):

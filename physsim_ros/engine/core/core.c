@@ -28,8 +28,7 @@ World *core_new(cpSpace *space, Chipmunk chipmunk, double dt, cpConstraint *hook
 void core_free(World *world) {
     arena_free(&world->own->arena);
     arena_free(&world->own->static_arena);
-    arena_free(world->own->system_arenas);
-    arena_free(world->own->system_arenas + 1);
+    arena_free(&world->own->system_arena);
     free_report(world);
     free(world->own->jointed);
     free(world->own->fluid_forces);

@@ -79,18 +79,13 @@ static bool have_systems(const Private *own, const Islands *found) {
     return have;
 }
 
-// Make the systems of islands in the other arena, of patterns that the islands of the last sub-step had.
 static void make_systems(Private *own, const Islands *found) {
-    own->system_turn = 1 - own->system_turn;
-    Arena *arena = own->system_arenas + own->system_turn;
-    arena_reset(arena);
-    System *systems = TAKE(arena, System, found->count);
-    for (int number = 0; number < found->count; number++) {
-        const System *former = number < own->system_count ? own->systems + number : NULL;
-        systems[number] = system_of(arena, layout_of(found->islands + number), former);
-    }
-    own->systems = systems;
+    arena_reset(&own->system_arena);
+    own->systems = TAKE(&own->system_arena, System, found->count);
     own->system_count = found->count;
+    for (int number = 0; number < found->count; number++) {
+        own->systems[number] = system_of(&own->system_arena, layout_of(found->islands + number));
+    }
 }
 
 void solve_joints(World *world) {

@@ -95,20 +95,6 @@ void ldl_analyse(Ldl *ldl, Arena *arena) {
     }
 }
 
-void ldl_copy(Ldl *ldl, const Ldl *former, Arena *arena) {
-    size_t size = (size_t)ldl->size, total = (size_t)former->factor_starts[size];
-    ldl->parents = arena_copy(arena, former->parents, size, sizeof(int));
-    ldl->pattern_starts = arena_copy(arena, former->pattern_starts, size + 1, sizeof(int));
-    ldl->pattern = arena_copy(arena, former->pattern, total, sizeof(int));
-    ldl->places = arena_copy(arena, former->places, total, sizeof(int));
-    ldl->factor_starts = arena_copy(arena, former->factor_starts, size + 1, sizeof(int));
-    ldl->factor_rows = arena_copy(arena, former->factor_rows, total, sizeof(int));
-    ldl->factors = TAKE(arena, double, total);
-    ldl->inverse_pivots = TAKE(arena, double, size);
-    ldl->work = TAKE(arena, double, size);
-    ldl->changed = memset(TAKE(arena, bool, size), true, size * sizeof(bool));
-}
-
 static void factor_row(Ldl *ldl, int row) {
     double *work = ldl->work, pivot = ldl->diagonal[row];
     for (int entry = ldl->starts[row]; entry < ldl->starts[row + 1]; entry++) {

@@ -29,9 +29,6 @@ typedef struct Ldl {
 // Find where the factors are not 0; once for a pattern of `starts` and `rows`. All columns count as changed.
 void ldl_analyse(Ldl *ldl, Arena *arena);
 
-// Take the places of factors from a matrix of the same pattern; all columns count as changed.
-void ldl_copy(Ldl *ldl, const Ldl *former, Arena *arena);
-
 // Factor the matrix of `values` and `diagonal` anew where it has changed.
 void ldl_factor(Ldl *ldl);
 

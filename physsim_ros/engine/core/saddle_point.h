@@ -70,9 +70,8 @@ typedef struct Solution {
 // Whether a system has the pattern of a layout.
 bool has_layout(const System *system, Layout layout);
 
-// Return the system of rows, in memory of an arena. Where a former one has the same layout, its pattern is taken; NULL
-// is none. Of that the inverses may be gone.
-System system_of(Arena *arena, Layout layout, const System *former);
+// Return the system of rows, in memory of an arena.
+System system_of(Arena *arena, Layout layout);
 
 // Begin a sub-step, with the masses of now: all has to be factored anew.
 void begin_system(System *system, const Inverse *inverses);

@@ -40,11 +40,10 @@ typedef struct Private {
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
     struct Statics *statics;
-    // Systems of the islands of the last sub-step, whose patterns the next one takes; and memory for those, by turns.
+    // Systems of the islands of the last sub-step, which the next one takes where all have the same layout.
     struct System *systems;
     int system_count;
-    Arena system_arenas[2];
-    int system_turn;
+    Arena system_arena;
     int call_step;   // number of the step in this call
     bool reports;    // contacts of this step are reported
     bool all_active; // requests may have changed any body since the last sub-step

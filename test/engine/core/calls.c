@@ -82,17 +82,22 @@ _Bool call_lcp(int count, double matrix[LCP_ROWS][LCP_ROWS], const double *rates
     return solve_lcp(count, matrix, rates, impulses);
 }
 
-int call_mixed_lcp(int body_count, const double *inverses, int row_count, const int *ends, const int *groups,
-                   const double *jacobians, const double *wanted, const double *lower, const double *upper,
-                   const double *softness, double *impulses, double *changes) {
+int call_mixed_lcp(int body_count, const double *inverses, int row_count, const int *ends, const int *former_ends,
+                   const int *groups, const double *jacobians, const double *wanted, const double *lower,
+                   const double *upper, const double *softness, double *impulses, double *changes) {
     Arena arena = {0};
     // No row has further links.
     int *further = TAKE(&arena, int, row_count + 1);
     for (int row = 0; row <= row_count; row++) {
         further[row] = row_count;
     }
-    Layout layout = {body_count, row_count, (const Inverse *)inverses, (const Ends *)ends, further, groups};
-    System former = system_of(&arena, layout, NULL), system = system_of(&arena, layout, &former);
+    Layout former = {body_count, row_count, (const Inverse *)inverses, (const Ends *)former_ends, further, groups};
+    Layout layout = former;
+    layout.ends = (const Ends *)ends;
+    System system = system_of(&arena, former);
+    if (!has_layout(&system, layout)) {
+        system = system_of(&arena, layout);
+    }
     begin_system(&system, layout.inverses);
     Problem problem = {(const Jacobian *)jacobians, wanted, lower, upper, softness, NULL, NULL};
     Solution solution = solution_for(&system, &arena);

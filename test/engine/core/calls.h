@@ -18,10 +18,10 @@ void call_ldl(int size, const int *starts, const int *rows, double *former_value
 _Bool call_lcp(int count, double matrix[8][8], const double *rates, double *impulses);
 
 // Rows between two bodies each: `inverses` (bodies, 2), `ends` (rows, 2), `jacobians` (rows, 6), `changes` (bodies, 3).
-// Return the count of rows that are left on the wrong side.
-int call_mixed_lcp(int body_count, const double *inverses, int row_count, const int *ends, const int *groups,
-                   const double *jacobians, const double *wanted, const double *lower, const double *upper,
-                   const double *softness, double *impulses, double *changes);
+// The last sub-step had rows between `former_ends`. Return the count of rows that are left on the wrong side.
+int call_mixed_lcp(int body_count, const double *inverses, int row_count, const int *ends, const int *former_ends,
+                   const int *groups, const double *jacobians, const double *wanted, const double *lower,
+                   const double *upper, const double *softness, double *impulses, double *changes);
 
 void call_elimination_order(int count, const int *weights, const int *starts, const int *neighbours, int *order);
 

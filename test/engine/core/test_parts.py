@@ -218,7 +218,7 @@ def mixed_solutions(matrix, wanted, lower, upper):
             yield found
 
 
-def solved_rows(call, inverses, ends, jacobians, *columns):
+def solved_rows(call, inverses, former_ends, ends, jacobians, *columns):
     """Return how many rows the core leaves wrong, impulses, and changes of velocities."""
     impulses, at_impulses = call.array(np.zeros(len(ends)))
     changes, at_changes = call.array(np.zeros((len(inverses), 3)))
@@ -226,7 +226,7 @@ def solved_rows(call, inverses, ends, jacobians, *columns):
         len(inverses),
         call.array(inverses)[1],
         len(ends),
-        call.array(ends, 'int')[1],
+        *(call.array(each, 'int')[1] for each in (ends, former_ends)),
         call.array(np.arange(len(ends)), 'int')[1],
         *(call.array(each)[1] for each in (jacobians, *columns)),
         at_impulses,
@@ -257,8 +257,9 @@ def test_impulses_of_rows_are_the_only_ones_of_all_sets_of_bounds(call, seed):
     )
     matrix = dense * inverse_mass @ dense.T + np.diag(softness * linear)
 
+    former_ends = ends[::-1] if random.random() < 0.5 else ends
     wrong, impulses, changes = solved_rows(
-        call, inverses, ends, jacobians, wanted, lower, upper, softness
+        call, inverses, former_ends, ends, jacobians, wanted, lower, upper, softness
     )
 
     first, *others = mixed_solutions(matrix, wanted, lower, upper)
@@ -279,8 +280,9 @@ def test_rows_are_on_their_sides_to_their_rounding(call, cosine, wanted, exact):
     jacobians = np.array([[0.0] * 3 + [1.0, 0.0, 0.0], [0.0] * 3 + [cosine, across, 0.0]])
     lower, upper, softness = np.zeros(2), np.full(2, np.inf), np.full(2, 1e-12)
 
+    ends = [[0, 1], [0, 1]]
     wrong, impulses, _ = solved_rows(
-        call, inverses, [[0, 1], [0, 1]], jacobians, wanted, lower, upper, softness
+        call, inverses, ends, ends, jacobians, wanted, lower, upper, softness
     )
 
     assert wrong == 0
