@@ -1,51 +1,78 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""All stages together keep each scene within its tolerance, and each stage can be switched off."""
+"""Each stage can be left out, and a law fails without it."""
+
+from functools import partial
 
 import pytest
-from tools.ablation.scenes import error_of, fails, SCENES
 from tools.ablation.stages import STAGES, switched_off
 
-# Scenes that take less than half a second; `make ablate` plays all.
-SLOW = {'fast bar (35)', 'pendulum (15)', 'chain of 50 (20)', 'gear train', 'bridge', 'at rest'}
-FAST = [scene for scene in SCENES if scene.name not in SLOW]
+from ..engine import test_support, test_warm_start
+from ..engine.ccd import test_continuous
+from ..engine.stages import (
+    test_block_solver,
+    test_false_contacts,
+    test_internal_edges,
+    test_sleeping,
+)
+from ..laws import (
+    test_collisions,
+    test_flight,
+    test_floor,
+    test_friction,
+    test_impacts,
+    test_machines,
+    test_media,
+    test_rows,
+    test_stacks,
+)
+from ..laws.conftest import Report
 
-
-@pytest.mark.parametrize('scene', FAST, ids=lambda scene: scene.name)
-def test_a_scene_is_within_its_tolerance(scene):
-    error = error_of(scene)
-    assert not fails(scene, error), f'{error:.3g} {scene.unit}'
+REPORT = Report([])
+# By the name of a stage, a case of a test that fails without it. Those of the others take seconds.
+CASES = {
+    'half-step velocity': partial(test_flight.test_gravity_may_point_anywhere, REPORT, (3, 4)),
+    'support graph': (
+        test_support.test_what_stood_on_a_box_that_is_deleted_falls_as_one_and_the_rest_stands
+    ),
+    'resting damping': partial(
+        test_stacks.test_a_stack_sways_no_more_when_it_falls_asleep, REPORT, 0.3
+    ),
+    'floor': partial(test_floor.test_a_differential_drive_keeps_to_its_arc, REPORT, 0.2, 1.0),
+    'continuous collision': partial(
+        test_continuous.test_a_heavy_fast_body_does_not_push_a_light_one_through_a_wall, 1000.0
+    ),
+    'false contacts': test_false_contacts.test_squares_that_part_do_not_touch_again,
+    'contact at impact': partial(
+        test_collisions.test_a_disc_parts_from_a_corner_along_the_normal_of_their_impact,
+        *(REPORT, 20, 8.0, True),
+    ),
+    'rest of the step': partial(
+        test_impacts.test_a_ball_between_walls_goes_the_way_of_its_reported_velocity,
+        *(REPORT, 0.4, 10.0),
+    ),
+    'internal edges': partial(
+        test_internal_edges.test_a_body_slides_over_a_seam,
+        *(test_internal_edges.BOX, 0.0, 3.0, 0.0, 0.0),
+    ),
+    'impact propagation': partial(
+        test_rows.test_as_many_leave_a_row_as_came, REPORT, 2, 240.0, 0.0, 'boxes'
+    ),
+    'block solver': test_block_solver.test_a_box_on_a_pillar_of_boxes_bounces_straight,
+    'joint solver': partial(test_machines.test_a_pendulum_keeps_its_energy, REPORT),
+    'fields': partial(test_media.test_a_disc_floats_at_the_depth_of_archimedes, REPORT, 0.5),
+    'steep friction': partial(
+        test_friction.test_a_box_tips_about_its_corner_whatever_the_friction, REPORT, 3.0, 0.5
+    ),
+    'sleeping': test_sleeping.test_an_island_sleeps_without_velocity_while_another_one_moves,
+    'warm start': test_warm_start.test_a_resting_stack_does_not_stir_where_it_is_renewed,
+}
 
 
 @pytest.mark.parametrize('stage', STAGES, ids=lambda stage: stage.name)
-def test_every_stage_can_be_switched_off(stage):
+def test_a_stage_can_be_left_out_and_a_law_fails_without_it(stage):
     with switched_off(stage):
-        pass
-
-
-@pytest.mark.parametrize(
-    ('name', 'without'),
-    [
-        ('free flight (1)', 'half-step velocity'),
-        ('removed floor', 'support graph'),
-        ('stack of ten (18)', 'resting damping'),
-        ('slide on a floor (37)', 'floor'),
-        ('robot on an arc (38)', 'floor'),
-        ('thin wall (25)', 'continuous collision'),
-        ('disc on a corner (6)', 'contact at impact'),
-        ('between walls (46)', 'rest of the step'),
-        ('seams of tiles', 'internal edges'),
-        ('flat fall (8)', 'block solver'),
-        ('elastic rows, 2 of 5 (36)', 'impact propagation'),
-        ('checkpoint (26)', 'warm start'),
-        ('raft (70)', 'fields'),
-        ('box that tips (78)', 'steep friction'),
-    ],
-)
-def test_a_scene_fails_without_a_stage(name, without):
-    (scene,) = (each for each in SCENES if each.name == name)
-    (stage,) = (each for each in STAGES if each.name == without)
-    with switched_off(stage):
-        error = error_of(scene)
-    assert fails(scene, error), f'{error:.3g} {scene.unit}'
+        if stage.name in CASES:
+            with pytest.raises(AssertionError):
+                CASES[stage.name]()

@@ -1,44 +1,50 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""`make ablate`; `make ablate ARGS='chain bridge'` chooses scenes by words in their names."""
+"""
+`make ablate`: the tests that fail without each stage of a step, and what the stage costs.
+
+The tests are those of laws, worlds and the engine. `make ablate ARGS='floor edges'` chooses stages
+by words in their names; all take an hour on two processors.
+"""
 
 from __future__ import annotations
 
+from collections import Counter
+import os
+import re
+import subprocess
 import sys
 
-from .cost import shares
-from .scenes import error_of, fails, Scene, SCENES
-from .stages import Stage, STAGES, switched_off
+from .cost import share
+from .plugin import LEFT_OUT
+from .stages import Stage, STAGES
+
+TESTS = ('test/laws', 'test/worlds', 'test/engine')
+# Of a line about a case that has failed, its test.
+FAILED = re.compile(r'^FAILED test/([^\s[]+)', re.MULTILINE)
 
 
-def cell(scene: Scene, stage: Stage | None) -> str:
-    """Return the error of a scene without a stage, in bold type where it fails."""
-    with switched_off(stage):
-        error = error_of(scene)
-    return f'**{error:.2g}**' if fails(scene, error) else f'{error:.2g}'
+def failures(stage: Stage) -> Counter[str]:
+    """Return the tests that fail without a stage, each with the number of its cases that do."""
+    command = [sys.executable, '-m', 'pytest', '-p', 'tools.ablation.plugin', '-rf', '--tb=no']
+    command += ['--numprocesses=auto', '--maxprocesses=8', '-m', 'not slow and not cost', *TESTS]
+    environment = os.environ | {LEFT_OUT: stage.name}
+    done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True, check=False)
+    return Counter(FAILED.findall(done.stdout))
 
 
-def line(*cells: str) -> None:
-    """Print a row of the table."""
-    print(f'| {" | ".join(cells)} |', flush=True)
-
-
-def table(words: list[str]) -> None:
-    """Print errors of scenes, with all stages and without each; of all scenes the costs, too."""
-    chosen = [each for each in SCENES if not words or any(word in each.name for word in words)]
+def main(words: list[str]) -> None:
+    """Print the cost of the chosen stages, or of all, and the tests that fail without each."""
+    chosen = [each for each in STAGES if not words or any(word in each.name for word in words)]
     if not chosen:
-        sys.exit(f'no scene with {" or ".join(words)}')
-    line('scene (law)', 'unit', 'tolerance', 'all stages', *(each.name for each in STAGES))
-    line(*['---'] * (4 + len(STAGES)))
-    for scene in chosen:
-        cells = (cell(scene, stage) for stage in (None, *STAGES))
-        line(scene.name, scene.unit, f'{scene.tolerance:.2g}', *cells)
-    if words:
-        return
-    costs = ('–' if share is None else f'{100 * share:.1f}' for share in shares(STAGES))
-    line('cost of the stage', '% of a step', '', '', *costs)
+        sys.exit(f'no stage with {" or ".join(words)}')
+    for stage in chosen:
+        cost = f', {share(stage):.1%} of a step' if stage.mask else ''
+        print(f'{stage.name}{cost}', flush=True)
+        for test, cases in failures(stage).most_common():
+            print(f'{cases:6}  {test}', flush=True)
 
 
 if __name__ == '__main__':
-    table(sys.argv[1:])
+    main(sys.argv[1:])

@@ -78,7 +78,7 @@ STAGES = (
 
 @contextmanager
 def switched_off(stage: Stage | None) -> Iterator[None]:
-    """Put a stage out of action in worlds that are made in this context; None is none."""
+    """Leave a stage out in worlds that are made in this context; None is none."""
     with ExitStack() as patches:
         if stage is not None:
             patches.enter_context(mock.patch.object(CoreWorld, 'left_out', stage.mask))
