@@ -5,12 +5,14 @@
 Time to accuracy: the processor time that each engine needs for the same error, scene by scene.
 
 An engine is run at all of its rates; the cheapest one whose error is as small as is allowed is
-told, and all are drawn. Here frames are made, in the other engines steps alone. Box2D 3 is
+told, and `RUNS` has all. Here frames are made, in the other engines steps alone. Box2D 3 is
 measured where its bindings are installed: `pip install pyb2d3`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+import csv
 from functools import partial
 import math
 from pathlib import Path
@@ -27,11 +29,10 @@ from physsim_ros.simulation.simulation import Simulation
 
 from .peers import depths, ENGINES, Errors, FRAMES, Rate, Run
 from .scenes import bob_on_spring, bridge, chain, double_pendulum, gas, pendulum, racer, Scene
-from .work_precision import Panel, picture, Point
 
 G = -WorldSettings().gravity[1]
-# Where the diagrams are written.
-PICTURE = Path('build', 'work_precision.svg')
+# The table of all runs, which is written anew.
+RUNS = Path('build', 'work_precision.csv')
 # Half the side of a box, speed of the braking box [m/s], friction of a pair [1].
 HALF, SPEED, FRICTION = 0.25, 4.0, 0.5
 # Radius of the discs of the crowd, and half of the width of their bin [m].
@@ -204,15 +205,17 @@ class Result(NamedTuple):
     A run of an engine.
 
     :ivar rate: of it
-    :ivar point: its cost and its error
+    :ivar cost: processor time for a second of simulation [ms]
+    :ivar error: of the scene; infinite where a state is no number
     """
 
     rate: Rate
-    point: Point
+    cost: float
+    error: float
 
 
-def measured(run: Run, trial: Trial) -> Point:
-    """Return cost and error of a run; a state that is no number has an infinite error."""
+def measured(run: Run, rate: Rate, trial: Trial) -> Result:
+    """Play a scene in an engine, and return its cost and error."""
     states, spent = [run.snapshot()], 0
     for _ in range(round(trial.seconds * FRAMES)):
         began = time.process_time_ns()
@@ -221,47 +224,45 @@ def measured(run: Run, trial: Trial) -> Point:
         states.append(run.snapshot())
     error = trial.error(states)
     cost = spent * 1e-6 / trial.seconds
-    return Point(cost, error if math.isfinite(error) else math.inf)
+    return Result(rate, cost, error if math.isfinite(error) else math.inf)
 
 
 def results_of(engine: str, trial: Trial) -> list[Result]:
     """Return a run of an engine at each of its rates, the cheapest first."""
     kind, rates = ENGINES[engine]
-    return [Result(rate, measured(kind(trial.scene, rate), trial)) for rate in rates]
+    return [measured(kind(trial.scene, rate), rate, trial) for rate in rates]
 
 
 def cheapest(results: list[Result], allowed: float) -> Result | None:
     """Return the first run whose error is allowed; None if there is none."""
-    return next((each for each in results if each.point.error <= allowed), None)
+    return next((each for each in results if each.error <= allowed), None)
 
 
 def table() -> None:
-    """Print a row for each scene, and draw the work-precision diagrams."""
-    names, panels = list(ENGINES), []
+    """Print a row for each scene, and write the table of all runs."""
+    names = list(ENGINES)
+    RUNS.parent.mkdir(exist_ok=True)
     print(
         '\nProcessor time for a second of simulation [ms] at the cheapest rate [Hz] with no more'
     )
     print(f'than the error; times: of the best of {", ".join(names[1:])}; -: no rate has it')
     print(f'{"scene":42} {"error":>8}', *(f'{name:>22}' for name in names), f'{"times":>7}')
-    for name, trial in TRIALS.items():
-        runs = {engine: results_of(engine, trial) for engine in names}
-        curves = {engine: [each.point for each in of_engine] for engine, of_engine in runs.items()}
-        panels.append(Panel(name, trial.allowed, curves))
-        best = {engine: cheapest(of_engine, trial.allowed) for engine, of_engine in runs.items()}
-        cells = [
-            '-' if found is None else f'{found.point.cost:.2f} ({found.rate})'
-            for found in best.values()
-        ]
-        ours = best['here']
-        peers = [each.point.cost for engine, each in best.items() if engine != 'here' and each]
-        times = f'{ours.point.cost / min(peers):.1f}' if ours and peers else '-'
-        allowed = f'{trial.allowed * _UNITS[trial.unit]:g} {trial.unit}'
-        print(
-            f'{name:42} {allowed:>8}',
-            *(f'{cell:>22}' for cell in cells),
-            f'{times:>7}',
-            flush=True,
-        )
-    PICTURE.parent.mkdir(exist_ok=True)
-    PICTURE.write_text(picture(panels), encoding='utf-8')
-    print(f'The work-precision diagrams are in {PICTURE}')
+    with RUNS.open('w', encoding='utf-8') as file:
+        writer = csv.writer(file)
+        writer.writerow(('scene', 'engine', 'rate', 'cost [ms]', 'error'))
+        for name, trial in TRIALS.items():
+            runs = {engine: results_of(engine, trial) for engine in names}
+            for engine, results in runs.items():
+                writer.writerows((name, engine, *each) for each in results)
+            print_row(name, trial, runs)
+
+
+def print_row(name: str, trial: Trial, runs: Mapping[str, list[Result]]) -> None:
+    """Print the cheapest run of each engine whose error is allowed."""
+    best = {engine: cheapest(results, trial.allowed) for engine, results in runs.items()}
+    cells = ['-' if each is None else f'{each.cost:.2f} ({each.rate})' for each in best.values()]
+    ours = best.pop('here')
+    peers = [each.cost for each in best.values() if each]
+    times = f'{ours.cost / min(peers):.1f}' if ours and peers else '-'
+    allowed = f'{trial.allowed * _UNITS[trial.unit]:g} {trial.unit}'
+    print(f'{name:42} {allowed:>8}', *(f'{cell:>22}' for cell in cells), f'{times:>7}', flush=True)

@@ -10,21 +10,20 @@ A world has ten balls in a box, one of which its pupil lifts each second.
 from __future__ import annotations
 
 import asyncio
+from contextlib import ExitStack
 import json
-import os
 from pathlib import Path
 import re
 import struct
-import subprocess
-import sys
 import tempfile
+from test.outside import Outside
 import time
 
 from physsim_ros.testing.domain import own_domain
-import psutil
 from tornado.httpclient import AsyncHTTPClient
 from tornado.websocket import WebSocketClientConnection
 
+from .node_process import cpu_seconds
 from .page_client import cookie_of, open_page
 
 PUPILS = (10, 30)
@@ -69,39 +68,24 @@ async def _watch(teacher: str) -> list[float]:
     return passed
 
 
-def _processor_time(program: subprocess.Popen[str]) -> float:
-    """Return the processor time of a program and its children [s]."""
-    processes = [psutil.Process(program.pid), *psutil.Process(program.pid).children()]
-    return sum(sum(each.cpu_times()[:2]) for each in processes)
-
-
 def _measured(pupils: int) -> tuple[float, float, float]:
     """Return the least and the mean pace of the worlds, and their processors."""
-    with own_domain() as domain, tempfile.TemporaryDirectory() as directory:
-        local = {'XDG_DATA_HOME': directory, 'XDG_STATE_HOME': directory}
-        ros = {'ROS_DOMAIN_ID': str(domain), 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
-        command = ['-m', 'physsim_ros.ros.programs.physsim_class', '--port', '0']
-        world = Path(directory) / 'balls.yaml'
+    with ExitStack() as closing:
+        domain = closing.enter_context(own_domain())
+        directory = Path(closing.enter_context(tempfile.TemporaryDirectory()))
+        outside = Outside(directory, domain, closing)
+        outside.environment['XDG_DATA_HOME'] = str(directory)
+        world = directory / 'balls.yaml'
         world.write_text(WORLD, encoding='utf-8')
-        ros_arguments = ['--ros-args', '-p', f'world_file:={world}', '--log-level', 'warn']
-        program = subprocess.Popen(
-            [sys.executable, *command, '--pupils', str(pupils), *ros_arguments],
-            env=os.environ | local | ros,
-            cwd=Path(__file__).parents[2],
-            stdout=subprocess.PIPE,
-            text=True,
+        program = outside.start_installed(
+            *('physsim_class', '--port', 0, '--pupils', pupils, '--ros-args'),
+            *('-p', f'world_file:={world}', '--log-level', 'warn'),
         )
-        try:
-            assert program.stdout is not None
-            line = next(each for each in program.stdout if 'teacher' in each)
-            teacher = re.search(r'http\S+', line)
-            assert teacher is not None
-            before, began = _processor_time(program), time.monotonic()
-            paces = [each / SECONDS for each in asyncio.run(_watch(teacher[0]))]
-            processors = (_processor_time(program) - before) / (time.monotonic() - began)
-        finally:
-            program.terminate()
-            program.wait()
+        teacher = re.search(r'http\S+', program.wait_for('teacher', 300))
+        assert teacher is not None
+        before, began = cpu_seconds(program.process.pid), time.monotonic()
+        paces = [each / SECONDS for each in asyncio.run(_watch(teacher[0]))]
+        processors = (cpu_seconds(program.process.pid) - before) / (time.monotonic() - began)
     return min(paces), sum(paces) / len(paces), processors
 
 

@@ -66,13 +66,19 @@ def open_pages(node: PhysSimNode, count: int, strokes: int = 0) -> Iterator[Call
         process.wait()
 
 
-def served_world(bodies: int) -> PhysSimNode:
-    """Return a node with a settled pile, whose pages are served."""
+def served_node() -> PhysSimNode:
+    """Return a paused node of an empty world, whose pages are served."""
     values = {'viewer': 'none', 'sketchpad': 'serve', 'sketchpad_port': 0, 'speed': 0.0}
     node = PhysSimNode(
         parameter_overrides=[Parameter(name, value=value) for name, value in values.items()]
     )
     node.get_logger().set_level(LoggingSeverity.WARN)
+    return node
+
+
+def served_world(bodies: int) -> PhysSimNode:
+    """Return a node with a settled pile, whose pages are served."""
+    node = served_node()
     fill(node.simulation.world, bodies, settle=SETTLE)
     node.simulation.speed = 1.0
     return node

@@ -28,11 +28,9 @@ from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.world_control import open_content
 import rclpy
-from rclpy.logging import LoggingSeverity
-from rclpy.parameter import Parameter
 from tools.bench.full_files import KindOfFile, KINDS
 from tools.bench.full_files import text_of as text_full_of
-from tools.bench.pages import open_pages, run_until
+from tools.bench.pages import open_pages, run_until, served_node
 from tools.tables.documents import ROOT, with_parts
 
 # Length of a file, the greatest that a page may send [characters], and what is left of one that is
@@ -171,11 +169,7 @@ OPERATIONS: Mapping[str, Operation] = {
 @contextmanager
 def watched_node() -> Iterator[Watched]:
     """Give a paused node with a page in another process, which reads all frames."""
-    values = {'viewer': 'none', 'sketchpad': 'serve', 'sketchpad_port': 0, 'speed': 0.0}
-    node = PhysSimNode(
-        parameter_overrides=[Parameter(name, value=value) for name, value in values.items()]
-    )
-    node.get_logger().set_level(LoggingSeverity.WARN)
+    node = served_node()
     node.loop.started = True
     try:
         with open_pages(node, 1) as read_line:
