@@ -61,6 +61,7 @@ from ..worlds.digests import scene as drawn_scene
 from ..worlds.film import state_of
 
 ELL = Polygon(outline=((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0)))
+PLANK = Box(width=0.6, height=0.3)
 PAIR = Compound(element=Disc(radius=0.2), centers=((0.0, 0.0), (1.0, 0.3)))
 
 
@@ -676,47 +677,51 @@ def _drawn(name):
     return drawn_scene(f'drawings/{name}').save()
 
 
+# Of laws of flight, impacts, friction and pendulums: each is played in 20 ms.
+SMALL = {
+    'projectiles': Scene(build=projectiles),
+    'projectiles in air': Scene(build=projectiles_in_air),
+    'head-on, elastic': Scene(build=partial(head_on, 1.0)),
+    'head-on, clay': Scene(build=partial(head_on, 0.0)),
+    'pairs that meet': Scene(build=meetings),
+    'discs that meet fast': Scene(build=quick_meetings),
+    'walls, thin ones too': Scene(build=on_walls, seconds=0.75),
+    'disc bounces': Scene(build=partial(bounce, Disc(radius=0.2), 0.8)),
+    'box falls flat': Scene(build=partial(bounce, PLANK, 0.5)),
+    'polygons fall flat': Scene(build=flat_polygons),
+    'box falls on a corner': Scene(build=partial(bounce, PLANK, 0.5, 0.4)),
+    'nine bounce': Scene(build=bounces, seconds=0.75),
+    'disc with spin bounces': Scene(build=bouncing_disc),
+    'discs on plates': Scene(build=partial(on_plates, 0.9)),
+    'dull discs on plates': Scene(build=partial(on_plates, 0.3)),
+    'corners on plates': Scene(build=corners_on_plates, seconds=0.6),
+    'smooth pairs': Scene(build=partial(pairs_of_all_kinds, 0.0)),
+    'rough pairs': Scene(build=partial(pairs_of_all_kinds, 0.5)),
+    'incline': Scene(build=incline),
+    'block that sticks': Scene(build=partial(block_on_incline, 26.0)),
+    'block that slides': Scene(build=partial(block_on_incline, 28.0)),
+    'box that tips': Scene(build=partial(tips_on_incline, 1.05)),
+    'box that does not tip': Scene(build=partial(tips_on_incline, 0.95)),
+    'fridge pushed high': Scene(build=partial(fridge, 1.2)),
+    'fridge pushed low': Scene(build=partial(fridge, 0.6)),
+    'ladder': Scene(build=leaning_ladder),
+    'disc that comes to roll': Scene(build=comes_to_roll),
+    'box that slides': Scene(build=sliding_box),
+    'pendulum': Scene(build=partial(pendulum, math.pi / 2)),
+    'double pendulum': Scene(build=double_pendulum),
+    'spring': Scene(build=mass_on_spring),
+    'damped spring': Scene(build=partial(mass_on_spring, 2.0)),
+    'pendulum beside a damper': Scene(build=partial(pendulum_beside_damper, 0.1)),
+    'cradle': Scene(build=cradle),
+    'balls on rods': Scene(build=partial(balls_on_rods, 30.0)),
+    'one-way platforms': Scene(build=platforms, seconds=2.5),
+}
+
+
 def _laws():
-    """Return the scenes of laws, by name."""
+    """Return the other scenes of laws, by name."""
     chaotic = partial(Scene, chaotic=True)
-    disc, box = Disc(radius=0.2), Box(width=0.6, height=0.3)
     yield from {
-        'projectiles': Scene(build=projectiles),
-        'projectiles in air': Scene(build=projectiles_in_air),
-        'head-on, elastic': Scene(build=partial(head_on, 1.0)),
-        'head-on, clay': Scene(build=partial(head_on, 0.0)),
-        'pairs that meet': Scene(build=meetings),
-        'discs that meet fast': Scene(build=quick_meetings),
-        'walls, thin ones too': Scene(build=on_walls, seconds=0.75),
-        'disc bounces': Scene(build=partial(bounce, disc, 0.8)),
-        'box falls flat': Scene(build=partial(bounce, box, 0.5)),
-        'polygons fall flat': Scene(build=flat_polygons),
-        'box falls on a corner': Scene(build=partial(bounce, box, 0.5, 0.4)),
-        'nine bounce': Scene(build=bounces, seconds=0.75),
-        'disc with spin bounces': Scene(build=bouncing_disc),
-        'discs on plates': Scene(build=partial(on_plates, 0.9)),
-        'dull discs on plates': Scene(build=partial(on_plates, 0.3)),
-        'corners on plates': Scene(build=corners_on_plates, seconds=0.6),
-        'smooth pairs': Scene(build=partial(pairs_of_all_kinds, 0.0)),
-        'rough pairs': Scene(build=partial(pairs_of_all_kinds, 0.5)),
-        'incline': Scene(build=incline),
-        'block that sticks': Scene(build=partial(block_on_incline, 26.0)),
-        'block that slides': Scene(build=partial(block_on_incline, 28.0)),
-        'box that tips': Scene(build=partial(tips_on_incline, 1.05)),
-        'box that does not tip': Scene(build=partial(tips_on_incline, 0.95)),
-        'fridge pushed high': Scene(build=partial(fridge, 1.2)),
-        'fridge pushed low': Scene(build=partial(fridge, 0.6)),
-        'ladder': Scene(build=leaning_ladder),
-        'disc that comes to roll': Scene(build=comes_to_roll),
-        'box that slides': Scene(build=sliding_box),
-        'pendulum': Scene(build=partial(pendulum, math.pi / 2)),
-        'double pendulum': Scene(build=double_pendulum),
-        'spring': Scene(build=mass_on_spring),
-        'damped spring': Scene(build=partial(mass_on_spring, 2.0)),
-        'pendulum beside a damper': Scene(build=partial(pendulum_beside_damper, 0.1)),
-        'cradle': Scene(build=cradle),
-        'balls on rods': Scene(build=partial(balls_on_rods, 30.0)),
-        'one-way platforms': Scene(build=platforms, seconds=2.5),
         'four bars': Scene(build=four_bars),
         'chain of 5': Scene(build=partial(hanging_chain, 5)),
         'chain of 30': Scene(build=partial(hanging_chain, 30)),
@@ -810,5 +815,5 @@ def _shipped():
         yield f'robot {name}', partial(shipped_robot, name)
 
 
-SCENES = dict(_laws())
+SCENES = SMALL | dict(_laws())
 SCENES |= {name: Scene(build=build, chaotic=name in CHAOTIC) for name, build in _shipped()}
