@@ -15,7 +15,6 @@ import time
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from geometry_msgs.msg import PointStamped
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.topics import LOSSLESS
 from physsim_ros.testing.values import Refused
@@ -23,8 +22,7 @@ from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
-from sensor_msgs.msg import MultiDOFJointState
-from visualization_msgs.msg import Marker, MarkerArray
+from rclpy.publisher import Publisher
 
 # Timeout for events that take milliseconds in this process, in wall time [s]: a busy machine may
 # stop it for seconds.
@@ -34,17 +32,6 @@ TIMEOUT = 60.0
 _MOST_ROUNDS = 100
 # Additional timeout for each marker of an array, which takes half a millisecond [s].
 _TIMEOUT_EACH = 0.01
-
-_MESSAGES = {
-    'spawn': Marker,
-    'spawn_array': MarkerArray,
-    'join': Marker,
-    'pin': PointStamped,
-    'axle': PointStamped,
-    'anchor': PointStamped,
-    'release': PointStamped,
-    'command': MultiDOFJointState,
-}
 
 
 class SettlingExecutor:
@@ -137,24 +124,27 @@ class RequestClient:
     """
 
     def __init__(self, node: Node, world: PhysSimNode, executor: SettlingExecutor) -> None:
+        self._node = node
         self._world = world
         self._executor = executor
-        self._publishers = {
-            topic: node.create_publisher(kind, f'/physsim/{topic}', 10)
-            for topic, kind in _MESSAGES.items()
-        }
-        self._events = node.create_subscription(
+        self._publishers: dict[str, Publisher] = {}
+        events = node.create_subscription(
             DiagnosticStatus, '/physsim/events', self._receive, LOSSLESS
         )
         self._topic = ''
         self._received: list[DiagnosticStatus] = []
         executor.add_node(node)
-        executor.spin_until(self._is_matched, 'the world was not discovered')
+        executor.spin_until(events.get_publisher_count, 'the world was not discovered')
 
-    def _is_matched(self) -> bool:
-        """Return whether publishers and subscriptions are matched with those of the world."""
-        outward = all(each.get_subscription_count() for each in self._publishers.values())
-        return outward and self._events.get_publisher_count() > 0
+    def _publish(self, topic: str, message: Any) -> None:
+        """Publish a message, whose first one of a topic creates the publisher."""
+        if topic not in self._publishers:
+            publisher = self._node.create_publisher(type(message), f'/physsim/{topic}', 10)
+            self._executor.spin_until(
+                publisher.get_subscription_count, f'the world does not listen to {topic}'
+            )
+            self._publishers[topic] = publisher
+        self._publishers[topic].publish(message)
 
     def request(self, topic: str, message: Any, answers: int = 1) -> str:
         """
@@ -169,7 +159,7 @@ class RequestClient:
         earlier = sum(answer.topic == f'~/{topic}' for answer in self._world.loop.apply_requests())
         count = earlier + answers
         self._topic, self._received = f'~/{topic}', []
-        self._publishers[topic].publish(message)
+        self._publish(topic, message)
 
         def answered() -> bool:
             self._world.loop.apply_requests()

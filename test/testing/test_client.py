@@ -17,7 +17,7 @@ from physsim_ros.testing import (
     point,
     Refused,
 )
-from physsim_ros.testing.client import RequestClient
+from physsim_ros.testing.client import SettlingExecutor
 import pytest
 from rclpy.node import Node
 from sensor_msgs.msg import MultiDOFJointState
@@ -114,11 +114,11 @@ def test_a_world_that_is_not_discovered_leaves_no_nodes(monkeypatch: pytest.Monk
         destroyed.append(node.get_name())
         destroy(node)
 
-    def fail(_: RequestClient) -> bool:
+    def fail(*_: object) -> None:
         raise TimeoutError('the world was not discovered')
 
     monkeypatch.setattr(Node, 'destroy_node', note)
-    monkeypatch.setattr(RequestClient, '_is_matched', fail)
+    monkeypatch.setattr(SettlingExecutor, 'spin_until', fail)
     with own_context(monkeypatch) as context, pytest.raises(TimeoutError):
         PhysSim(context)
     assert destroyed == ['physsim_test', 'physsim']

@@ -42,7 +42,7 @@ from rclpy.node import Node
 # their first frame.
 _MOST_UPDATE_NS = 20_000_000
 # Least time from one look at the types of publishers on the graph to the next [s].
-_LOOK_PERIOD = 0.25
+LOOK_PERIOD = 0.25
 _IN_PAST = 'the past is shown, with the commands of that time; new commands count again at its end'
 
 
@@ -164,7 +164,7 @@ class Fleet:
     def _look_at_graph(self) -> None:
         now = time.monotonic()
         if now >= self._look_due:
-            self._look_due = now + _LOOK_PERIOD
+            self._look_due = now + LOOK_PERIOD
             with self._boundary.output('cmd_vel'):
                 self.match_publishers()
 
