@@ -16,6 +16,7 @@ from physsim_ros.model.checks import ListOf, Row, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.latency import delays, LATENCY_WORDS
+from physsim_ros.model.motor_command import MODES
 from physsim_ros.model.robots.battery import Battery
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.part_names import BASE, part_name
@@ -59,7 +60,7 @@ BATTERY_TOPIC = 'battery_state'
 JOINT_TOPICS = (
     'joint_command',
     'joint_trajectory_controller/joint_trajectory',
-    *(f'{mode}_controller/commands' for mode in ('position', 'velocity', 'effort')),
+    *(f'{mode}_controller/commands' for mode in MODES),
 )
 # Names of its frames; that of a sensor is its name.
 _OWN_FRAMES = ('base_footprint', 'base_link')

@@ -21,7 +21,7 @@ from typing import Any
 from physsim_ros.model.errors import BadProperty, Malformed, no_joint, Refusal
 from physsim_ros.model.motor_command import CommandPoint, MODES, MotorCommand
 from physsim_ros.model.requests import CommandMotors
-from physsim_ros.model.robots import part_name, Robot
+from physsim_ros.model.robots import JOINT_TOPICS, part_name, Robot
 from physsim_ros.ros.robots.command_topic import CommandTopic, MOST_BYTES
 from physsim_ros.ros.topics import decoded, of_one_type
 from rclpy.duration import Duration
@@ -89,22 +89,17 @@ def motor_topics(
     if not robot.motors:
         return []
     motors = {joint.name: part_name(body, joint.name) for joint in robot.motors}
-    kinds: dict[str, tuple[type, Callable[[Any], list[MotorCommand]]]] = {
-        'joint_command': (JointState, partial(_of_states, motors)),
-        'joint_trajectory_controller/joint_trajectory': (
-            JointTrajectory,
-            partial(_of_trajectory, motors),
-        ),
-    }
-    for mode in MODES:
-        commands = partial(_of_array, motors, mode)
-        kinds[f'{mode}_controller/commands'] = Float64MultiArray, commands
+    kinds: tuple[tuple[type, Callable[..., list[MotorCommand]]], ...] = (
+        (JointState, _of_states),
+        (JointTrajectory, _of_trajectory),
+        *((Float64MultiArray, partial(_of_array, mode)) for mode in MODES),
+    )
     topics = []
-    for name, (kind, convert) in kinds.items():
+    for name, (kind, convert) in zip(JOINT_TOPICS, kinds, strict=True):
         topic = f'{below}{name}'
         try:
             with of_one_type(topic):
-                topics.append(MotorTopic(node, topic, kind, convert))
+                topics.append(MotorTopic(node, topic, kind, partial(convert, motors)))
         except BadProperty as refusal:
             refuse(refusal, topic)
     return topics
@@ -122,7 +117,7 @@ def _joint(motors: dict[str, str], name: str) -> str:
     return motors[name]
 
 
-def _of_array(motors: dict[str, str], mode: str, message: Float64MultiArray) -> list[MotorCommand]:
+def _of_array(mode: str, motors: dict[str, str], message: Float64MultiArray) -> list[MotorCommand]:
     """Return the commands of an array, which has a value for each motor, in their order."""
     if len(message.data) != len(motors):
         raise Malformed(

@@ -4,23 +4,20 @@
 """
 The topics of one robot, below its namespace.
 
-Laws: a reading that nobody subscribes to is not made, and one of a moment is the same whoever
-subscribes; its latency depends on seed and moment alone, so that a rewind repeats it; a topic that
-ROS refuses, as another type has it, is refused, and the others are there.
+Laws: a reading of a moment is the same whoever subscribes; a topic that ROS refuses, as another
+type has it, is refused, and the others are there.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
-from physsim_ros.model.latency import delay
 from physsim_ros.model.robots import Battery, BATTERY_TOPIC, part_name, Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body, Scene
@@ -45,60 +42,14 @@ from physsim_ros.ros.robots.messages import (
     StampedFrame,
 )
 from physsim_ros.ros.robots.motor_topics import motor_topics
-from physsim_ros.ros.topics import of_one_type
-from physsim_ros.sensing import is_due, odometry_covariances, read_odometry, true_motion
+from physsim_ros.ros.robots.timed_topic import TimedTopic
+from physsim_ros.ros.topics import LATCHED, of_one_type
+from physsim_ros.sensing import odometry_covariances, read_odometry, true_motion
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import QoSProfile
 from sensor_msgs.msg import BatteryState
 from std_msgs.msg import String
-
-
-@dataclass(slots=True, kw_only=True)
-class _Topic:
-    """
-    A topic of a robot that is published at frames, while it is read.
-
-    :ivar publisher: of the topic
-    :ivar message: makes its message, of a frame and the row of the robot's body in the scene
-    :ivar name: that sets the moments of its rate, and the latencies of its messages
-    :ivar rate: [Hz]; None is each frame
-    :ivar latency: least and greatest time from the frame of a message to its arrival [s]
-    :ivar sensor: whose reading it is; None for other topics
-    :ivar coming: messages on their way in their order, with the stamps at which they arrive, and
-        of their frames [ns]
-    """
-
-    publisher: Publisher
-    message: Callable[[StampedFrame, int], Any]
-    name: str
-    rate: float | None = None
-    latency: Point = (0.0, 0.0)
-    sensor: Sensor | None = None
-    coming: deque[tuple[int, int, Any]] = field(default_factory=deque)
-
-    def send(self, message: Any, sensed: StampedFrame) -> None:
-        """Send the message of a frame, which arrives after those that were sent before."""
-        snapshot = sensed.snapshot
-        arrival = snapshot.stamp
-        if any(self.latency):
-            seed = snapshot.scene.settings.seed
-            arrival += round(1e9 * delay(self.latency, seed, self.name, snapshot.step))
-        if self.coming:
-            arrival = max(arrival, self.coming[-1][0])
-        self.coming.append((arrival, snapshot.stamp, message))
-
-    def arrived(self, now: int) -> list[tuple[int, Any]]:
-        """Return the messages that have arrived at a stamp, after the stamps of their frames."""
-        messages = []
-        while self.coming and self.coming[0][0] <= now:
-            messages.append(self.coming.popleft()[1:])
-        return messages
-
-    @property
-    def is_read(self) -> bool:
-        """Whether it has subscribers."""
-        return self.publisher.get_subscription_count() > 0
 
 
 class RobotTopics:
@@ -139,16 +90,14 @@ class RobotTopics:
         root = node.get_namespace().rstrip('/')
         self._below = f'{root}/{namespace}/' if namespace else f'{root}/'
         self._publishers: list[Publisher] = []
-        self._topics: list[_Topic] = []
+        self._topics: list[TimedTopic] = []
         # Before the readings, which are looked up in them by their stamps.
         self._add_transforms(robot_tf)
         self._add_motion()
         # Lasers as they are published, by the name of their topic.
         self._lasers: dict[str, Laser] = {}
         self._add_readings(lasers)
-        self._description = self._publisher(
-            String, 'robot_description', depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL
-        )
+        self._description = self._publisher(String, 'robot_description', qos=LATCHED)
         # Colour and shape of the last description.
         self._described: object = None
         self.drive_topic: DriveTopic | None = None
@@ -172,9 +121,8 @@ class RobotTopics:
         below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
         if robot.drive is not None or robot.links:
             transforms, latency = partial(self._transforms, kind), robot.odometry.latency
-            self._add(kind, 'tf', transforms, latency=latency, below=below, depth=TF_DEPTH)
-        latched = DurabilityPolicy.TRANSIENT_LOCAL
-        fixed = self._publisher(kind, 'tf_static', below=below, durability=latched)
+            self._add(kind, 'tf', transforms, latency=latency, below=below, qos=TF_DEPTH)
+        fixed = self._publisher(kind, 'tf_static', below=below, qos=LATCHED)
         if fixed is not None:
             fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
 
@@ -225,15 +173,10 @@ class RobotTopics:
         """Add a topic to those that are published at frames, unless ROS refuses it."""
         publisher = self._publisher(kind, name, **options)
         if publisher is not None:
-            topic = _Topic(
-                publisher=publisher,
-                message=message,
-                name=f'{self.body}|{name}',
-                rate=rate,
-                latency=latency,
-                sensor=sensor,
+            name = f'{self.body}|{name}'
+            self._topics.append(
+                TimedTopic(publisher, message, name, rate=rate, latency=latency, sensor=sensor)
             )
-            self._topics.append(topic)
 
     def _publisher(
         self,
@@ -241,11 +184,8 @@ class RobotTopics:
         topic: str,
         *,
         below: str | None = None,
-        depth: int = 5,
-        durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
+        qos: QoSProfile | int = 5,
     ) -> Publisher | None:
-        # Publishers are reliable by default, and serve subscribers of both reliabilities.
-        qos = QoSProfile(depth=depth, durability=durability)
         topic = (self._below if below is None else below) + topic
         try:
             with of_one_type(topic):
@@ -289,33 +229,15 @@ class RobotTopics:
         """
         Publish what arrives at a frame and has subscribers.
 
-        While time goes back, messages have no latency.
-
         :param sensed: of the frame
         :param row: of the robot's body in the scene
         :return: stamp of the last scan of the first laser with subscribers [ns], which is the one
             that a controller answers: others may be heard by a recording alone; None without one
         """
-        now, before = sensed.snapshot.stamp, sensed.before
-        goes_back = before is not None and now < before.stamp
-        scanned, first = None, None
-        for topic in self._topics:
-            if goes_back or not topic.is_read:
-                topic.coming.clear()
-            if not topic.is_read:
-                continue
-            if first is None and isinstance(topic.sensor, Laser):
-                first = topic
-            if self._is_due(topic, sensed):
-                message = topic.message(sensed, row)
-                if goes_back:
-                    topic.publisher.publish(message)
-                else:
-                    topic.send(message, sensed)
-            for stamp, message in topic.arrived(now):
-                topic.publisher.publish(message)
-                scanned = stamp if topic is first else scanned
-        return scanned
+        lasers = (each for each in self._topics if isinstance(each.sensor, Laser))
+        first = next((each for each in lasers if each.is_read), None)
+        stamps = {topic: topic.publish(sensed, row) for topic in self._topics}
+        return None if first is None else stamps[first]
 
     def send_again(self, seen: Sequence[tuple[StampedFrame, int]], now: int) -> None:
         """
@@ -324,13 +246,8 @@ class RobotTopics:
         :param seen: the frames up to that, with the rows, as of `publish`
         :param now: the stamp [ns]
         """
-        late = [each for each in self._topics if each.latency[1] > 0.0 and each.is_read]
-        for topic in late:
-            topic.coming.clear()
-            for sensed, row in seen:
-                if self._is_due(topic, sensed):
-                    topic.send(topic.message(sensed, row), sensed)
-            topic.arrived(now)
+        for topic in self._topics:
+            topic.send_again(seen, now)
 
     def _transforms(self, kind: type, sensed: StampedFrame, row: int) -> Any:
         """Return the message of the transforms that move."""
@@ -381,12 +298,3 @@ class RobotTopics:
             topic.close()
         for publisher in self._publishers:
             self._node.destroy_publisher(publisher)
-
-    def _is_due(self, topic: _Topic, sensed: StampedFrame) -> bool:
-        """Return whether a topic is published at a frame, at a past one as before."""
-        now, before = sensed.snapshot.stamp, sensed.before
-        if topic.rate is None or before is None:
-            return True
-        # In a rewind, the frame before is a later one: the period that counts ends with this one.
-        period = abs(now - before.stamp)
-        return is_due(topic.name, topic.rate, now - period, now)
