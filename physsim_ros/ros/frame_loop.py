@@ -105,7 +105,7 @@ class FrameLoop:
         for frame in frames:
             self._outputs.show(frame)
         if not frames:
-            self._report_answers()
+            self._show_without_frame()
             if self._simulation.step == step:
                 self._outputs.show_late()
                 return
@@ -176,7 +176,7 @@ class FrameLoop:
         if frame is not None:
             self._show(frame)
             return frame.answers
-        return self._report_answers()
+        return self._show_without_frame()
 
     def _show(self, frame: Frame) -> None:
         """Show a frame, at any time, and have all its robots have their topics."""
@@ -241,8 +241,9 @@ class FrameLoop:
         self._simulation.is_read = outputs.is_read or fleet.is_read
         self._simulation.reports_contacts = outputs.wants_contacts or fleet.wants_contacts
 
-    def _report_answers(self) -> tuple[Answer, ...]:
-        """Publish and log the answers that no frame carries, and return them."""
+    def _show_without_frame(self) -> tuple[Answer, ...]:
+        """Show the answers and the preview that no frame carries; return the answers."""
         answers = self._simulation.requests.take_answers()
         self._outputs.report_answers(answers)
+        self._outputs.show_preview()
         return answers

@@ -112,7 +112,7 @@ class Outputs:
                 output.show_late(self.frame)
 
     def report_answers(self, answers: tuple[Answer, ...]) -> None:
-        """Publish and log answers that no frame carries, and show a preview that has changed."""
+        """Publish and log answers that no frame carries."""
         if answers and self.sketchpad is not None:
             with self._boundary.output('page'):
                 self.sketchpad.report(answers)
@@ -122,6 +122,9 @@ class Outputs:
             self._log.add(answer)
         with self._boundary.output('~/events'):
             self.topics.events.flush()
+
+    def show_preview(self) -> None:
+        """Show a preview that has changed since the last frame."""
         if self.frame is not None and self.frame.preview != self._session.preview:
             frame = replace(self.frame, answers=(), stepped=False)
             self._show_on((self.topics.preview, self.viewer), frame)

@@ -16,11 +16,13 @@ from typing import Any
 
 from physsim_ros.model.errors import BadProperty, Malformed
 from rclpy.impl.implementation_singleton import rclpy_implementation
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 
 # Reliable, KEEP_ALL: a burst of thousands of messages loses none.
 LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
+# Of topics whose last message DDS keeps for late subscribers.
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 # Of services, whose calls wait to be read: 50 clients with 20 calls each.
 CALLS = QoSProfile(depth=1000)
 

@@ -19,7 +19,7 @@ from physsim_ros.ros.encoders.streams import (
     StatesEncoder,
 )
 from physsim_ros.ros.publishers import status_publishers
-from physsim_ros.ros.publishers.publishers import LATCH_PERIOD
+from physsim_ros.ros.publishers.streams import LATCH_PERIOD
 from physsim_ros.testing import box, disc, PhysSim
 import pytest
 from rclpy.parameter import Parameter

@@ -20,8 +20,9 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.ros.topics import LATCHED
 from rclpy.duration import Duration
-from rclpy.publisher import Publisher
+from rclpy.node import Node
 from rclpy.serialization import serialize_message
 
 # Depth of `~/events`. A full history loses messages that are not yet acknowledged; so the answers
@@ -51,16 +52,17 @@ class EventPublisher:
     for it, and it loses those that leave the history. DDS reports only whether all subscribers
     have acknowledged, not which of them.
 
-    :param publisher: of `~/events`
+    :param node: that owns the publisher
+
     :ivar stopped: whether a subscriber has stopped
     :ivar name: of the topic
     """
 
     name = '~/events'
 
-    def __init__(self, publisher: Publisher) -> None:
+    def __init__(self, node: Node) -> None:
         self.stopped = False
-        self._publisher = publisher
+        self._publisher = node.create_publisher(DiagnosticStatus, self.name, EVENTS_DEPTH)
         self._waiting: deque[bytes] = deque()
         # Answers since all before were acknowledged, and the steady time of the first of them [s].
         self._unacknowledged = 0
@@ -147,7 +149,7 @@ class TimelinePublisher:
     """
     Publishes the status of the timeline when it changes.
 
-    :param publisher: of `~/timeline`
+    :param node: that owns the publisher
     :param status: returns the status of the timeline
 
     :ivar name: of the topic
@@ -155,8 +157,8 @@ class TimelinePublisher:
 
     name = '~/timeline'
 
-    def __init__(self, publisher: Publisher, status: Callable[[], TimelineStatus]) -> None:
-        self._publisher = publisher
+    def __init__(self, node: Node, status: Callable[[], TimelineStatus]) -> None:
+        self._publisher = node.create_publisher(DiagnosticStatus, self.name, LATCHED)
         self._status = status
         self._last: TimelineStatus | None = None
         # The last frame whose status was looked up.
