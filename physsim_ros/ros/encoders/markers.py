@@ -13,10 +13,8 @@ meanwhile.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import chain, islice
 import math
-import struct
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +24,14 @@ from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import frames_in
 from physsim_ros.model.transform import rotated_each
-from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
+from physsim_ros.ros.encoders.cdr import MessageTemplate
+from physsim_ros.ros.encoders.marker_bytes import (
+    COLOR_OFFSET,
+    joined,
+    MarkerBytes,
+    POINTS_OFFSET,
+    serialised,
+)
 from physsim_ros.ros.encoders.marker_symbols import (
     body_symbols,
     hands_symbol,
@@ -38,18 +43,6 @@ from physsim_ros.ros.encoders.marker_symbols import (
 from physsim_ros.ros.encoders.streams import pose_columns
 from physsim_ros.runtime.garbage_collection import suspended_collection
 from visualization_msgs.msg import Marker
-
-# A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.
-_POSED = struct.Struct('<7d3d4f8xx3xi')
-# Offset of the color in that [bytes].
-_COLORED = struct.calcsize('<7d3d')
-_IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-# No colors, texture_resource, texture (stamp, frame_id, format, data), uv_coordinates.
-_UNTEXTURED = struct.pack('<ii4s8xi4si4sii', 0, 1, b'', 1, b'', 1, b'', 0, 0)
-# No mesh_resource, mesh_file (filename, data), mesh_use_embedded_materials.
-_UNMESHED = struct.pack('<i4si4six', 1, b'', 1, b'', 0)
-# From the end of a marker to the next one [bytes].
-_PADDING = -len(_UNMESHED) % 4
 
 # Time in which each message deletes a marker that is gone [s]. The depth of the stream is 1, so
 # that a slow subscriber misses some messages; of those of a second it gets at least one.
@@ -71,9 +64,9 @@ class MarkersEncoder:
         self._message: _Message | None = None
         # The last snapshot of the scene whose markers are being serialised.
         self._begun: Snapshot | None = None
-        self._bodies: dict[str, tuple[Body, tuple[_MarkerBytes, ...]]] = {}
+        self._bodies: dict[str, tuple[Body, tuple[MarkerBytes, ...]]] = {}
         self._joints: dict[
-            str, tuple[tuple[Joint, float, int], tuple[_MarkerBytes, _MarkerBytes]]
+            str, tuple[tuple[Joint, float, int], tuple[MarkerBytes, MarkerBytes]]
         ] = {}
         self._glyphs: JointGlyphs | None = None
         self._deletions = _Deletions(frame_id, frames_in(DELETION, publish_rate))
@@ -113,7 +106,7 @@ class MarkersEncoder:
             known = self._bodies.get(body.name)
             if known is None or (known[0] is not body and known[0] != body):
                 symbols = body_symbols(body)
-                markers = tuple(_serialised(each, self._frame_id) for each in symbols)
+                markers = tuple(serialised(each, self._frame_id) for each in symbols)
                 self._bodies[body.name] = body, markers
                 yield
 
@@ -129,7 +122,7 @@ class MarkersEncoder:
             drawn = self._joints.get(joint.name)
             if drawn is None or drawn[0] != (joint, *look):
                 points, lines = joint_symbols(joint, *look)
-                pair = _serialised(points, self._frame_id), _serialised(lines, self._frame_id)
+                pair = serialised(points, self._frame_id), serialised(lines, self._frame_id)
                 self._joints[joint.name] = (joint, *look), pair
                 yield
 
@@ -144,14 +137,14 @@ class MarkersEncoder:
         self._bodies = {body.name: self._bodies[body.name] for body in scene.bodies}
         self._joints = {joint.name: self._joints[joint.name] for joint in scene.joints}
         each = enumerate(self._bodies.values())
-        bodies = [(row, marker) for row, (_, serialised) in each for marker in serialised]
+        bodies = [(row, marker) for row, (_, own) in each for marker in own]
         symbols = []
         if scene.settings.bounds is not None:
             symbols.append(wall_symbol(scene.settings.bounds))
         if hands:
             symbols.append(hands_symbol(hands))
         # That of the hands is the last one before those of joints.
-        others = [_serialised(symbol, self._frame_id) for symbol in symbols]
+        others = [serialised(symbol, self._frame_id) for symbol in symbols]
         joints = [marker for _, pair in self._joints.values() for marker in pair]
         drawn = [*(marker for _, marker in bodies), *others, *joints]
         deletions = self._deletions.begin({marker.key: None for marker in drawn})
@@ -178,8 +171,8 @@ class _Deletions:
         self._drawn: dict[Key, None] = {}
         # Deletions that are serialised, and those in messages, with the number of the first
         # message without each.
-        self._serialised: dict[Key, _MarkerBytes] = {}
-        self._gone: dict[Key, tuple[_MarkerBytes, int]] = {}
+        self._serialised: dict[Key, MarkerBytes] = {}
+        self._gone: dict[Key, tuple[MarkerBytes, int]] = {}
         self._first_end: float = math.inf
 
     @property
@@ -194,7 +187,7 @@ class _Deletions:
                 self._serialised[key] = self._deletion(key)
                 yield
 
-    def begin(self, drawn: dict[Key, None]) -> list[_MarkerBytes]:
+    def begin(self, drawn: dict[Key, None]) -> list[MarkerBytes]:
         """Return the deletions in the next messages, which draw these markers."""
         end = self.messages + self._repeats
         gone = {
@@ -208,12 +201,12 @@ class _Deletions:
         self._first_end = min((last for _, last in gone.values()), default=math.inf)
         return [marker for marker, _ in gone.values()]
 
-    def _deletion(self, key: Key) -> _MarkerBytes:
+    def _deletion(self, key: Key) -> MarkerBytes:
         """Return the serialised deletion of a marker."""
         known = self._serialised.get(key)
         if known is not None:
             return known
-        return _serialised(Symbol(key, action=Marker.DELETE), self._frame_id)
+        return serialised(Symbol(key, action=Marker.DELETE), self._frame_id)
 
 
 class _Message:
@@ -230,7 +223,7 @@ class _Message:
     def __init__(
         self,
         scene: Scene,
-        markers: Sequence[tuple[int, _MarkerBytes]],
+        markers: Sequence[tuple[int, MarkerBytes]],
         glyphs: JointGlyphs | None,
         *,
         hands: int,
@@ -238,7 +231,7 @@ class _Message:
     ) -> None:
         self._scene = scene
         self._hands = hands
-        writer, offsets = _joined([marker for _, marker in markers])
+        writer, offsets = joined([marker for _, marker in markers])
         rows = np.array([row for row, _ in markers], np.intp)
         self._rows = rows[rows >= 0]
         writer.poses = [offset for offset, row in zip(offsets, rows, strict=True) if row >= 0]
@@ -247,7 +240,7 @@ class _Message:
         starts = offsets[first_joint:after_joints]
         self._joints = None if glyphs is None else _JointColumns(glyphs, starts)
         # Offset of the points of hands, in numbers of 8 bytes.
-        self._hands_at = (offsets[first_joint - 1] + _POSED.size) // 8 if hands else 0
+        self._hands_at = (offsets[first_joint - 1] + POINTS_OFFSET) // 8 if hands else 0
 
     def is_of(self, scene: Scene, hands: int) -> bool:
         """Return whether it shows a scene with a number of hands."""
@@ -266,67 +259,6 @@ class _Message:
         return template.stamped(snapshot.stamp)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _MarkerBytes:
-    """
-    A serialised marker, padded up to the next one; its padding depends on its offset.
-
-    :param key: namespace and id
-    :param at_8: at an offset that is a multiple of 8
-    :param at_4: at another multiple of 4
-    :param size_of_rest: from the pose on, which is at a multiple of 8 [bytes]
-    """
-
-    key: Key
-    at_8: bytes
-    at_4: bytes
-    size_of_rest: int
-
-
-def _serialised(symbol: Symbol, frame_id: str) -> _MarkerBytes:
-    """Return the marker of a symbol, without its time and pose, which each frame has."""
-    head = CdrWriter()
-    head.header(frame_id)
-    head.text(symbol.key[0])
-    head.ints(symbol.key[1], symbol.kind, symbol.action)
-    count = len(symbol.points)
-    rest = CdrWriter(_POSED.pack(*_IDENTITY, *symbol.scale, *symbol.color, count))
-    rest.doubles(*(number for x, y in symbol.points for number in (x, y, symbol.height)))
-    rest.data += _UNTEXTURED
-    rest.text(symbol.text)
-    rest.align(4)
-    rest.data += _UNMESHED
-    rest.data += bytes(_PADDING)
-    head.align(4)
-    gap = -len(head.data) % 8
-    return _MarkerBytes(
-        key=symbol.key,
-        at_8=bytes(head.data + bytes(gap) + rest.data),
-        at_4=bytes(head.data + bytes(4 - gap) + rest.data),
-        size_of_rest=len(rest.data),
-    )
-
-
-def _joined(markers: Sequence[_MarkerBytes]) -> tuple[CdrWriter, list[int]]:
-    """Return a writer with all of a message, and the offsets of the poses of markers [bytes]."""
-    writer = CdrWriter(START)
-    writer.ints(len(markers))
-    offsets: list[int] = []
-    parts: list[bytes] = []
-    size = len(writer.data)
-    for marker in markers:
-        writer.stamps.append(size)
-        # All begin at a multiple of 4 bytes, some of 8.
-        part = marker.at_8 if size % 8 == 0 else marker.at_4
-        parts.append(part)
-        size += len(part)
-        offsets.append(size - marker.size_of_rest)
-    writer.data += b''.join(parts)
-    if parts:
-        del writer.data[-_PADDING:]
-    return writer, offsets
-
-
 class _JointColumns:
     """
     The offsets of the points and colours of joints in a message.
@@ -339,7 +271,7 @@ class _JointColumns:
         scene, self._glyphs = glyphs.scene, glyphs
         self._corners = segment_corners(glyphs.lengths.tolist())
         # Offsets of the first point of each marker, in numbers of 8 bytes.
-        firsts = (np.array(starts, np.intp) + _POSED.size) // 8
+        firsts = (np.array(starts, np.intp) + POINTS_OFFSET) // 8
         counts = np.array([joint.kind.points for joint in scene.joints], np.intp)
         # Of the points of the joints: number of the joint, and 0 for its first point, 1 for its
         # second.
@@ -351,7 +283,7 @@ class _JointColumns:
                 np.repeat(firsts[1::2], ends) + 3 * _numbers(ends),
             )
         )
-        self._color_offsets = (np.array(starts, np.intp) + _COLORED) // 4
+        self._color_offsets = (np.array(starts, np.intp) + COLOR_OFFSET) // 4
         self._sliders = np.array(
             [row for row, joint in enumerate(scene.joints) if joint.kind.schema.has_axis],
             np.intp,
