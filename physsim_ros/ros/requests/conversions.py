@@ -101,7 +101,7 @@ def subject_of(message: Any, *, joint: bool = False) -> str:
     return names[0] if len(names) == 1 else ''
 
 
-def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll:
+def body_request(marker: Marker, frame_id: str) -> Spawn | Delete | DeleteAll:
     """
     Return the request of a marker for a body.
 
@@ -144,7 +144,7 @@ def _properties(marker: Marker) -> tuple[Properties, tuple[str, ...]]:
     return Properties.from_mapping(with_shipped_robot(mapping, PROPERTIES)), unset
 
 
-def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll:
+def joint_request(marker: Marker, frame_id: str) -> Join | Unjoin | UnjoinAll:
     """
     Return the request of a marker for a joint.
 
@@ -166,19 +166,19 @@ def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll
     )
 
 
-def point_request(kind: type[_AtPoint], message: PointStamped, *, frame_id: str) -> _AtPoint:
+def point_request(kind: type[_AtPoint], message: PointStamped, frame_id: str) -> _AtPoint:
     """
     Return the request of a point.
 
     :param kind: class of the request
     :raises Malformed: the point is not finite
     """
-    point, frame = point_in_frame(message, frame_id=frame_id)
+    point, frame = point_in_frame(message, frame_id)
     return kind(point=point, frame=frame)
 
 
 def hand_request(
-    feedback: InteractiveMarkerFeedback, *, frame_id: str
+    feedback: InteractiveMarkerFeedback, frame_id: str
 ) -> Grab | MoveHand | KeepHand | LetGo:
     """
     Return the request of a hand.
@@ -206,7 +206,7 @@ def hand_request(
     raise BadProperty(f'a hand has no event_type {feedback.event_type}', field='event_type')
 
 
-def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
+def command_request(message: MultiDOFJointState, frame_id: str) -> Command:
     """
     Return the request with the poses, twists and wrenches of a message.
 
@@ -259,7 +259,7 @@ def stroke_samples(path: Path) -> tuple[str, Floats, float | None]:
     return next(iter(frames), ''), samples, began
 
 
-def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll | Spawn, ...]:
+def walls_requests(message: OccupancyGrid, frame_id: str) -> tuple[DeleteAll | Spawn, ...]:
     """
     Return the requests that make walls of the occupied cells of a map, in place of earlier ones.
 

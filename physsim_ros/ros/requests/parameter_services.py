@@ -21,7 +21,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import abbreviated, message_text
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.parameters.table import Type
-from physsim_ros.ros.requests.services import ServiceCalls
+from physsim_ros.ros.requests.services import Call, ServiceCalls
 from physsim_ros.simulation.entries import Wait
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import SetParametersResult
@@ -86,26 +86,27 @@ class ParameterServices(ParameterService):
         messages: Sequence[ParameterMessage] = request.parameters
         too_many = len(messages) > MOST_PARAMETERS
 
-        def fill(refusal: Refusal | None) -> list[Answer]:
-            if too_many:
-                refusal = Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
-            if refusal is None:
-                told = [self._set_together(each) for each in groups]
-                results = [result for result, _ in told]
-                answers = [answer for _, answers in told for answer in answers]
-            else:
-                results = [_refused(refusal)] * len(groups)
-                answers = [Answer.refused(refusal, topic=_TOPIC)]
+        def respond(results: Sequence[SetParametersResult]) -> None:
             if isinstance(response, SetParameters.Response):
                 response.results = results
             else:
                 (response.result,) = results
-            return answers
+
+        def perform() -> list[Answer]:
+            if too_many:
+                raise Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
+            told = [self._set_together(each) for each in groups]
+            respond([result for result, _ in told])
+            return [answer for _, answers in told for answer in answers]
+
+        def refuse(refusal: Refusal) -> list[Answer]:
+            respond([_refused(refusal)] * len(groups))
+            return [Answer.refused(refusal, topic=_TOPIC)]
 
         _replace_unknown_types(messages)
         changes_world = any(each.name in WorldSettings.FIELDS for each in messages)
         wait = Wait.FOR_SEEK if changes_world and not too_many else Wait.BEHIND_REQUESTS
-        return self._calls.add(_TOPIC, response, fill, wait)
+        return self._calls.add(Call(_TOPIC, response, perform, refuse, wait))
 
     def _set_together(
         self, messages: Sequence[ParameterMessage]

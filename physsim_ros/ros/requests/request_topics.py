@@ -40,8 +40,8 @@ MOST_BYTES = {
     OccupancyGrid: 5 * 2**20,
     Path: 2**20,
 }
-# Converts a message, with keyword `frame_id`.
-_Conversion = Callable[..., Request]
+# Returns the request of a message, of which the name of the world frame is the second argument.
+_Conversion = Callable[[Any, str], Request]
 _TOPICS: dict[str, tuple[type, _Conversion]] = {
     '~/spawn': (Marker, conversions.body_request),
     '~/join': (Marker, conversions.joint_request),
@@ -111,7 +111,7 @@ class RequestTopics:
         """Submit the request of a message, or the refusal of the message."""
         origin = Origin(topic, 'point' if isinstance(message, PointStamped) else '')
         try:
-            request = convert(message, frame_id=self._frame_id)
+            request = convert(message, self._frame_id)
         except Refusal as refusal:
             subject = conversions.subject_of(message, joint=topic == '~/join')
             self._requests.refuse(refusal, origin, subject=subject)
@@ -126,7 +126,7 @@ class RequestTopics:
 
         def convert(marker: Marker) -> Request:
             with self._boundary.message(topic):
-                return conversions.body_request(marker, frame_id=self._frame_id)
+                return conversions.body_request(marker, self._frame_id)
 
         for number, marker in enumerate(message.markers):
             name, size = conversions.name_of(marker), conversions.memory_of(marker)
@@ -134,6 +134,6 @@ class RequestTopics:
             self._requests.submit(unread, topic=topic, joined=number > 0)
 
     def _make_walls(self, message: OccupancyGrid) -> None:
-        requests = conversions.walls_requests(message, frame_id=self._frame_id)
+        requests = conversions.walls_requests(message, self._frame_id)
         for number, request in enumerate(requests):
             self._requests.submit(request, topic='~/walls', joined=number > 0)

@@ -18,7 +18,7 @@ from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.ros.topics import CALLS
 from physsim_ros.runtime.error_boundary import ErrorBoundary
-from physsim_ros.runtime.slices import finish, in_slices, Sliced, Slices
+from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
@@ -26,8 +26,6 @@ import rclpy.service
 from rclpy.task import Future
 from std_srvs.srv import Trigger
 
-# Fills in a response, with a refusal where the call is not carried out, and returns the answers.
-Fill = Callable[[Refusal | None], Sequence[Answer] | Slices[Sequence[Answer]]]
 # Makes a call at its time among the requests, and calls the last function when it is told.
 MakeCall = Callable[[Sliced[Sequence[Answer]], Wait, Callable[[], object]], None]
 
@@ -42,6 +40,25 @@ class Service(NamedTuple):
 
     perform: Sliced[str]
     wait: Wait = Wait.NONE
+
+
+class Call(NamedTuple):
+    """
+    A call of a service.
+
+    :ivar topic: name of the service
+    :ivar response: that is sent in the end
+    :ivar perform: carries it out, fills in the response and returns the answers; raises a Refusal
+        where it cannot
+    :ivar refuse: fills in the response with a refusal, and returns the answers
+    :ivar wait: what it waits for
+    """
+
+    topic: str
+    response: Any
+    perform: Sliced[Sequence[Answer]]
+    refuse: Callable[[Refusal], Sequence[Answer]]
+    wait: Wait
 
 
 class ServiceCalls:
@@ -63,33 +80,25 @@ class ServiceCalls:
         self._make_call = make_call
         self._boundary = boundary
 
-    async def _fill(
-        self, topic: str, fill: Fill, refusal: Refusal | None = None
-    ) -> Sequence[Answer]:
-        """Fill in a response, and return the answers."""
+    async def _carry_out(self, call: Call) -> Sequence[Answer]:
+        """Fill in the response of a call, and return the answers."""
         try:
-            slices = in_slices(partial(fill, refusal))
-            return await self._boundary.slices_of_message(topic, slices)
-        except Failed as failed:
-            return await in_slices(partial(fill, failed))
+            return await self._boundary.slices_of_message(call.topic, in_slices(call.perform))
+        except Refusal as refusal:
+            return call.refuse(refusal)
 
-    def add(self, topic: str, response: Any, fill: Fill, wait: Wait) -> Future:
-        """
-        Fill in a response when the turn of its call comes, and return its future.
-
-        :param topic: name of the service
-        :param wait: what the call waits for
-        """
+    def add(self, call: Call) -> Future:
+        """Carry out a call when its turn comes; return the future of its response."""
         reply = Future()
 
         def send() -> None:
-            reply.set_result(response)
+            reply.set_result(call.response)
 
         try:
-            with self._boundary.reading(topic):
-                self._make_call(partial(self._fill, topic, fill), wait, send)
+            with self._boundary.reading(call.topic):
+                self._make_call(partial(self._carry_out, call), call.wait, send)
         except (Busy, Failed) as refusal:
-            for answer in finish(self._fill(topic, fill, refusal)):
+            for answer in call.refuse(refusal):
                 self._requests.tell(answer)
             send()
         return reply
@@ -140,24 +149,20 @@ def create_services(
     :param on_success: called after each service that was not refused
     """
 
-    async def fill(
-        name: str, response: Trigger.Response, refused: Refusal | None
-    ) -> Sequence[Answer]:
-        topic = f'~/{name}'
-        try:
-            if refused is not None:
-                raise refused
-            response.message = await in_slices(services[name].perform)
+    def respond(name: str, _: Trigger.Request, response: Trigger.Response) -> Future:
+        topic, service = f'~/{name}', services[name]
+
+        async def perform() -> Sequence[Answer]:
+            response.message = await in_slices(service.perform)
             on_success()
-        except Refusal as refusal:
+            response.success = True
+            return [Answer(topic=topic, message=response.message)]
+
+        def refuse(refusal: Refusal) -> Sequence[Answer]:
             response.message = f'{refusal.code}: {refusal}'
             return [Answer.refused(refusal, topic=topic)]
-        response.success = True
-        return [Answer(topic=topic, message=response.message)]
 
-    def respond(name: str, _: Trigger.Request, response: Trigger.Response) -> Future:
-        call = partial(fill, name, response)
-        return calls.add(f'~/{name}', response, call, services[name].wait)
+        return calls.add(Call(topic, response, perform, refuse, service.wait))
 
     for name in services:
         calls.create(node, Trigger, f'~/{name}', partial(respond, name))

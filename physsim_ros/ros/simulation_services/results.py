@@ -15,17 +15,17 @@ from physsim_ros.model.shapes import extent_of
 from simulation_interfaces.msg import Bounds, Result
 
 
-class CodedRefusal(Exception):
+class CodedRefusal(BadProperty):
     """
-    A refusal with its result code.
+    A refusal with its result code; its other code is that of the refusal that it is made of.
 
     :param refusal: why it is refused
     :param result: code of the standard
     """
 
     def __init__(self, refusal: Refusal, result: int) -> None:
-        super().__init__(str(refusal))
-        self.refusal, self.result = refusal, result
+        super().__init__(str(refusal), field=refusal.field, values=refusal.values)
+        self.code, self.result = refusal.code, result
 
 
 def coded(message: str, result: int, *, field: str = '') -> CodedRefusal:
@@ -42,14 +42,14 @@ def coding_refusals(result: int) -> Iterator[None]:
         raise CodedRefusal(refusal, result) from refusal
 
 
-def result_of(error: CodedRefusal | Refusal) -> tuple[Refusal, int]:
-    """Return a refusal and its result code."""
-    match error:
+def result_of(refusal: Refusal) -> int:
+    """Return the result code of a refusal."""
+    match refusal:
         case CodedRefusal():
-            return error.refusal, error.result
+            return refusal.result
         case UnknownBody():
-            return error, int(Result.RESULT_NOT_FOUND)
-    return error, int(Result.RESULT_OPERATION_FAILED)
+            return int(Result.RESULT_NOT_FOUND)
+    return int(Result.RESULT_OPERATION_FAILED)
 
 
 def box_around(shape: Any) -> Bounds:

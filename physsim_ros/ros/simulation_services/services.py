@@ -12,10 +12,10 @@ from typing import Any
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.requests.services import ServiceCalls
+from physsim_ros.ros.requests.services import Call, ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
 from physsim_ros.ros.simulation_services.named_poses import NamedPoses
-from physsim_ros.ros.simulation_services.results import CodedRefusal, result_of
+from physsim_ros.ros.simulation_services.results import result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import Worlds
@@ -98,35 +98,23 @@ class SimulationServices:
         self._calls.create(node, kind, topic, partial(self._add, topic, perform))
 
     def _add(self, topic: str, perform: _Perform, request: Any, response: Any) -> Future:
-        """Add a call, and return the future of its response."""
-        fill = partial(self._fill, topic, perform, request, response)
-        return self._calls.add(topic, response, fill, Wait.FOR_SEEK)
-
-    async def _fill(
-        self,
-        topic: str,
-        perform: _Perform,
-        request: Any,
-        response: Any,
-        refused: Refusal | None,
-    ) -> Sequence[Answer]:
-        """Fill in a response, and return the answer; what only reads has none."""
+        """Add a call, and return the future of its response; what only reads has no answer."""
         # Of all but one service.
         result = getattr(response, 'result', Result())
-        try:
-            if refused is not None:
-                raise refused
+
+        async def carry_out() -> Sequence[Answer]:
             message = await in_slices(partial(perform, request, response))
-        except (CodedRefusal, Refusal) as error:
-            refusal, result.result = result_of(error)
-        else:
             result.result = Result.RESULT_OK
             if not message:
                 return []
             self._control.note_change()
             return [Answer(topic=topic, message=message)]
-        result.error_message = str(refusal)
-        return [Answer.refused(refusal, topic=topic)]
+
+        def refuse(refusal: Refusal) -> Sequence[Answer]:
+            result.result, result.error_message = result_of(refusal), str(refusal)
+            return [Answer.refused(refusal, topic=topic)]
+
+        return self._calls.add(Call(topic, response, carry_out, refuse, Wait.FOR_SEEK))
 
     def _simulate_steps(self, goal: ServerGoalHandle) -> None:
         """Advance a paused world by frames, in the turn of the goal, and tell each."""

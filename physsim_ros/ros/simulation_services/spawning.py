@@ -108,8 +108,8 @@ class Spawning:
             try:
                 spawn = self._request_of(each, names)
                 self._perform(spawn, gesture)
-            except (CodedRefusal, Refusal) as error:
-                refusal, result.result.result = result_of(error)
+            except Refusal as refusal:
+                result.result.result = result_of(refusal)
                 result.result.error_message = str(refusal)
                 continue
             names.add(spawn.name)
