@@ -69,7 +69,7 @@ class DrawingTopics:
     def _click(self, message: PointStamped) -> None:
         origin = Origin('clicked_point', 'point')
         with self._drawing_on_snapshot(origin) as snapshot:
-            point, frame = point_in_frame(message, frame_id=self._frame_id)
+            point, frame = point_in_frame(message, self._frame_id)
             result = self._session.click(point, frame, snapshot)
             queue = self._simulation.requests
             if result.message:

@@ -76,6 +76,6 @@ def named_frame(frame: str, world_frame: str) -> str:
     return '' if frame in ('', world_frame) else frame
 
 
-def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
+def point_in_frame(message: PointStamped, frame_id: str) -> tuple[tuple[float, float], str]:
     """Return a point [m] and its frame, '' for the world; neither is validated."""
     return (message.point.x, message.point.y), named_frame(message.header.frame_id, frame_id)
