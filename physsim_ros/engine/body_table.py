@@ -269,6 +269,7 @@ def _body_records(scene: Scene) -> Table:
     names = 'reach', 'half_width', 'turning_radius', 'corners', 'pieces'
     for name, values in zip(names, numbers.T, strict=True):
         own[name] = values
+    own['reach'] += np.hypot(*(scene.centroids - own['offset']).T)
     own['area'] = [form.area for form in forms]
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
     own['slop'] = [_slop(body) for body in bodies]
@@ -311,7 +312,7 @@ def _slop(body: Body) -> float:
 
 
 def _numbers_of(form: Form) -> tuple[float, float, float, int, int]:
-    """Return reach, half width, turning radius, corners and count of pieces of a shape."""
+    """Return outer radius, half width, turning radius, corners and piece count of a shape."""
     # A disc covers the same ground however it turns.
     turning_radius = 0.0 if form.inner >= form.outer else form.outer
     corners = sum(

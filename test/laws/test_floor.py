@@ -377,22 +377,31 @@ def test_a_conveyor_carries_at_its_speed_and_of_several_the_last(report, speeds)
     report.check(40, 'way on a conveyor', abs(way - exact).max(), 0.0, 1e-9, 'm')
 
 
+def _polygon(points):
+    return Polygon(outline=tuple(map(tuple, points)))
+
+
+def _chain(points):
+    return Chain(points=tuple(map(tuple, points)), thickness=0.3)
+
+
+@pytest.mark.parametrize('held', ['anchored', 'kinematic'])
+@pytest.mark.parametrize('middle', [(0.0, 0.0), (3.0, -2.0)])
 @pytest.mark.parametrize(
-    'shape',
+    ('shape_of', 'points'),
     [
-        Disc(radius=0.7),
-        Polygon(outline=((-0.9, -0.6), (0.9, -0.6), (0.2, 0.1), (-0.5, 0.8))),
-        Chain(points=((-0.9, -0.5), (0.1, 0.4), (0.9, 0.2)), thickness=0.3),
+        (_polygon, ((-0.9, -0.6), (0.9, -0.6), (0.2, 0.1), (-0.5, 0.8))),
+        (_chain, ((-0.9, -0.5), (0.1, 0.4), (0.9, 0.2))),
     ],
-    ids=['disc', 'polygon', 'chain'],
 )
-def test_a_conveyor_of_any_shape_carries_what_has_its_centre_on_it(shape):
+def test_a_conveyor_carries_what_has_its_centre_on_it(shape_of, points, middle, held):
     sim = _floor()
-    said = {'anchored': True, 'sensor': True, 'surface_velocity': (0.4, 0.0)}
+    shape = shape_of(points + np.array(middle))
+    said = {held: True, 'sensor': True, 'surface_velocity': (0.4, 0.0)}
     spawn(sim, 'belt/0', shape, (0.0, 0.0, 0.0), **said)
     # Not on a grid, which would lie on edges.
     places = np.linspace(-0.93, 0.97, 9)
-    points = [(x, y) for x in places for y in places]
+    points = [(x + middle[0], y + middle[1]) for x in places for y in places]
     for number, (x, y) in enumerate(points):
         spawn(sim, f'disc/{number}', Disc(radius=0.05), (x, y, 0.0))
 

@@ -88,7 +88,7 @@ typedef struct Body {
     uint8_t sensor;        // its contacts have no effect
     uint8_t towed;         // it rolls on an axle without a motor
     cpVect offset;         // the engine's origin in the body's frame [m]
-    double reach;          // greatest distance of a point of it from the centre of mass [m]
+    double reach;          // greatest distance of a point of it from the engine's origin [m]
     double half_width;     // of its thinnest piece [m]
     double safe_depth;     // how far it may be entered in a sub-step unseen [m]
     double slop;           // how far it may overlap others at rest [m]

@@ -61,7 +61,8 @@ static Disc disc_of(const World *world, const Body *body, const Actor *own) {
     const cpBody *engine = body->engine;
     if (own == NULL) {
         Vec arm = to_center(body);
-        return (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm), body->reach, false};
+        double radius = body->reach - length(arm);
+        return (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm), radius, false};
     }
     Vec arm = arm_of(world, own);
     bool walks = own->kind != ACTOR_PATH && has_begun(world, own);
