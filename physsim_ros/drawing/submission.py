@@ -33,14 +33,10 @@ def submit_reading(
     queue, origin = simulation.requests, origin or Origin(topic)
     queue.tell(_answer(reading, origin))
     if reading.amends:
-        amend = Amend(reading.amends, reading.requests)
-        queue.submit(amend, origin, joined=True)
+        queue.submit(Amend(reading.amends, reading.requests), origin, joined=True)
         session.note_gesture(reading.amends[0])
-        return
-    for number, request in enumerate(reading.requests):
-        queue.submit(request, origin, joined=number > 0)
-    if reading.requests:
-        session.note_gesture(queue.gesture)
+    elif reading.requests:
+        session.note_gesture(queue.submit_gesture(reading.requests, origin))
 
 
 def _answer(reading: Reading, origin: Origin) -> Answer:

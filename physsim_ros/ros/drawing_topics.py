@@ -75,8 +75,8 @@ class DrawingTopics:
             if result.message:
                 topic, message = origin.topic, result.message
                 queue.tell(Answer(topic=topic, message=message, values=result.values))
-            for number, request in enumerate(result.requests):
-                queue.submit(request, origin, joined=number > 0)
+            if result.requests:
+                queue.submit_gesture(result.requests, origin)
 
     def _stroke(self, message: Path) -> None:
         origin = Origin('~/stroke', 'poses')

@@ -94,7 +94,6 @@ class RequestQueue:
         *,
         topic: str = '',
         joined: bool = False,
-        gesture: int | None = None,
     ) -> None:
         """
         Add a request; the next frame applies and answers it.
@@ -102,24 +101,42 @@ class RequestQueue:
         :param origin: the message from which it comes; None is one of `topic`
         :param topic: its source, where nothing else is known of the message
         :param joined: whether it is in the gesture of the entry before, and is undone with it
-        :param gesture: number of an earlier gesture that it is in, whatever came between
         """
         if isinstance(request, MoveHand) and self._waiting.replace_move(request):
             return
-        size = size_of(request)
-        if gesture is None:
-            gesture = self.gesture if joined else self.begin_gesture()
-        subject = request.subject if isinstance(request, Request | Unread) else ''
-        entry = Entry(request, origin or Origin(topic), subject, gesture, size)
-        if busy := self._waiting.busy(size):
-            self._waiting.add_answer(replace(entry, request=busy, size=0))
-        else:
-            self._waiting.add(entry)
+        gesture = self.gesture if joined else None
+        self.submit_gesture((request,), origin or Origin(topic), gesture)
+
+    def submit_gesture(
+        self,
+        requests: Sequence[Request | Unread | Amend | TakeBack],
+        origin: Origin,
+        gesture: int | None = None,
+    ) -> int:
+        """
+        Add requests that are undone together, and return the number of their gesture.
+
+        Where they are too many beside those that wait, each of them is refused.
+
+        :param requests: at least one
+        :param gesture: number of an earlier gesture that they are in, whatever came between
+        """
+        gesture = self.begin_gesture() if gesture is None else gesture
+        sizes = [size_of(each) for each in requests]
+        busy = self._waiting.busy(sum(sizes), len(sizes))
+        for request, size in zip(requests, sizes, strict=True):
+            subject = request.subject if isinstance(request, Request | Unread) else ''
+            entry = Entry(request, origin, subject, gesture, size)
+            if busy:
+                self._waiting.add_answer(replace(entry, request=busy, size=0))
+            else:
+                self._waiting.add(entry)
+        return gesture
 
     def submit_seek(self, stamp: int, origin: Origin) -> None:
         """Add a seek to a simulation time [ns], in place of one that is the last entry."""
         if busy := self._waiting.busy():
-            self.refuse(busy, origin, joined=True)
+            self.refuse(busy, origin)
             return
         seek = Seek(stamp)
         self._waiting.add_seek(Entry(seek, origin, '', self.gesture), seek)
@@ -147,17 +164,13 @@ class RequestQueue:
         entry = Entry(Call(call, wait, on_told), Origin(''), '', self.begin_gesture())
         self._waiting.add(entry)
 
-    def refuse(
-        self, refusal: Refusal, origin: Origin, *, subject: str = '', joined: bool = False
-    ) -> None:
+    def refuse(self, refusal: Refusal, origin: Origin, *, subject: str = '') -> None:
         """
         Add the refusal of a message that is no request.
 
         :param subject: name of the body or joint that the message names, or ''
-        :param joined: whether it is in the gesture of the entry before
         """
-        gesture = self.gesture if joined else self.begin_gesture()
-        self._waiting.add_answer(Entry(refusal, origin, subject, gesture))
+        self._waiting.add_answer(Entry(refusal, origin, subject, self.gesture))
 
     def tell(self, answer: Answer) -> None:
         """Add an answer without a request, in the order of entries."""

@@ -45,9 +45,9 @@ class WaitingEntries:
     def __iter__(self) -> Iterator[Entry]:
         return iter(self._entries)
 
-    def busy(self, size: int = 0) -> Busy | None:
-        """Return a refusal if a request of a size [bytes] exceeds the limits."""
-        if len(self) < MOST_WAITING and self._size + size <= MOST_BYTES:
+    def busy(self, size: int = 0, count: int = 1) -> Busy | None:
+        """Return a refusal if as many requests of a size together [bytes] exceed the limits."""
+        if len(self) + count <= MOST_WAITING and self._size + size <= MOST_BYTES:
             return None
         return Busy(f'{len(self)} requests wait; this one was one too many')
 

@@ -36,6 +36,7 @@ class Opened:
     :ivar key: with which a page is that person again
     :ivar received: identifier of the last message of that person's page before; '' where there
         was none
+    :ivar goes_on: whether it was connected before, and goes on as that person left it
     :ivar watches: whether it is a teacher's page of a class, which is nobody in this world
     """
 
@@ -43,6 +44,7 @@ class Opened:
     person: int
     key: str
     received: str = ''
+    goes_on: bool = False
     watches: bool = False
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The session of one page, on the world's thread: its drawing, material and hand, and its requests.
+The session of one page, on the world's thread: its person and hand, and its requests.
 
 Law: a session changes nothing itself; it submits requests, and every message has an answer.
 """
@@ -10,19 +10,15 @@ Law: a session changes nothing itself; it submits requests, and every message ha
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from functools import partial
 import time
 from typing import Any, NamedTuple
 
-from physsim_ros.drawing import DrawingSession
 from physsim_ros.files import OwnWorlds
 from physsim_ros.model.answer import Answer
-from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
 from physsim_ros.model.preview import NO_PREVIEW, Preview
-from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
+from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced
@@ -33,25 +29,19 @@ from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts
-from physsim_ros.sketchpad.results import Result, Results
+from physsim_ros.sketchpad.person import author_of, Person
+from physsim_ros.sketchpad.results import Results
 from physsim_ros.sketchpad.rights import (
     check_locked,
     check_right,
     check_unchanged,
     Right,
-    Role,
 )
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
 # 5 s.
 HAND_PERIOD = 2.0
-# Beginning of the names of people who have chosen none; their numbers follow.
-UNNAMED = 'Page '
-# Name of a teacher who has chosen none.
-TEACHER = 'Teacher'
-# End of the names of teachers as authors; names that people choose are printable.
-_TEACHES = '\n'
 
 
 class Shared(NamedTuple):
@@ -88,49 +78,37 @@ class PageSession:
 
     :param number: of the page
     :param opened: who is at it, with which rights
+    :param person: at it
     :param shared: with other pages
 
     :ivar world: that it draws in
     :ivar role: its rights
     :ivar watches: whether a teacher watches a class with it, and is nobody in this world
-    :ivar person: name of the person at it
-    :ivar unnamed: name of that person before one is chosen
-    :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
     :ivar driven: name of the robot that it drives, '' is none; and the gesture of that
-    :ivar answered: last answer to a lesson of this person; empty where there is none
-    :ivar raised: whether the person has raised a hand
     :ivar followed: names of the bodies whose touches it is told of
-    :ivar material: properties of the bodies that it draws; those that are unset are the world's
-    :ivar color: of the bodies that it draws; None is the world's choice
     """
 
-    def __init__(self, number: int, opened: Opened, shared: Shared) -> None:
+    def __init__(self, number: int, opened: Opened, person: Person, shared: Shared) -> None:
         self.number = number
+        self.person = person
         self.shared = shared
         self.world = shared.world
         self.role = opened.role
         self.watches = opened.watches
-        teaches = self.role is Role.TEACH
-        self.person = self.unnamed = TEACHER if teaches else f'{UNNAMED}{opened.person}'
-        self.drawing = DrawingSession(self.world.drawing_settings, clock=time.thread_time)
         self.hand = f'page {number}'
         self.driven = '', 0
-        self.answered: Result = {}
-        self.raised = False
         self.followed: frozenset[str] = frozenset()
-        self.material = Properties()
-        self.color: Color | None = None
         self._preview: Preview = NO_PREVIEW
         # Steady time of the last request of the hand [s]; None while it holds nothing.
         self._hand_used: float | None = None
 
     def handle(self, message: Message) -> None:
         """Carry out a message."""
-        self.drawing.settings = self.world.drawing_settings
+        self.person.drawing.settings = self.world.drawing_settings
         kind = message.kind
         asker = asker_key(self.number, message.request)
-        origin = Origin(kind.topic, asker=asker, author=author_of(self.person, self.role))
+        origin = Origin(kind.topic, asker=asker, author=author_of(self.person.name, self.role))
         if kind.right is Right.CHANGE:
             locked = self.world.locked_bodies
             check = partial(check_unchanged, self.role, locked, self.world)
@@ -201,10 +179,7 @@ class PageSession:
         if message:
             topic, asker = origin.topic, origin.asker
             queue.tell(Answer(topic=topic, message=message, values=values, asker=asker))
-        for request in requests:
-            queue.submit(request, origin, gesture=gesture)
-            gesture = queue.gesture if gesture is None else gesture
-        return gesture or 0
+        return queue.submit_gesture(requests, origin, gesture) if requests else 0
 
     def use_hand(self, origin: Origin, request: HandRequest) -> None:
         """
@@ -212,22 +187,9 @@ class PageSession:
 
         :raises Frozen: it grabs a locked body
         """
-        self.submit(origin, (request,))
+        check_locked(self.role, (request,), self.world)
+        self.world.simulation.requests.submit(request, origin)
         self._hand_used = None if isinstance(request, LetGo) else time.monotonic()
-
-    def with_material(self, requests: Iterable[Request]) -> tuple[Request, ...]:
-        """Return the requests of a drawing, with the page's material for the bodies they add."""
-        return tuple(
-            self._with_material(each) if isinstance(each, Spawn) else each for each in requests
-        )
-
-    def _with_material(self, spawn: Spawn) -> Spawn:
-        chosen = self.material.explicit()
-        if spawn.properties.anchored:
-            # A wall does not move.
-            chosen.pop('velocity', None)
-        properties = replace(spawn.properties, **chosen)
-        return replace(spawn, color=self.color or spawn.color, properties=properties)
 
     # Answers
 
@@ -294,16 +256,12 @@ class PageSession:
 
     def _send_preview(self) -> None:
         """Send the page its unfinished gesture, if that has changed."""
-        if self.drawing.preview == self._preview:
+        preview = self.person.drawing.preview
+        if preview == self._preview:
             return
-        self._preview = preview = self.drawing.preview
+        self._preview = preview
         lines = [*preview.lines, *([preview.points] if preview.points else [])]
         self.send({'type': 'preview', 'lines': lines, 'label': preview.label})
-
-
-def author_of(person: str, role: Role) -> str:
-    """Return the author of the requests of a person: a teacher is no pupil of that name."""
-    return person + _TEACHES if role is Role.TEACH else person
 
 
 async def answers_of(

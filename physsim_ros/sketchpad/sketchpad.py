@@ -29,9 +29,11 @@ from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UP
 from physsim_ros.sketchpad.message import answer_content, asker_key, Message
 from physsim_ros.sketchpad.page_session import answers_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts, timeline_content, TimelineReport
+from physsim_ros.sketchpad.person import Person
 from physsim_ros.sketchpad.results import Results, results_file
 from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
+from physsim_ros.sketchpad.server.open_pages import MOST_PAGES
 from physsim_ros.sketchpad.server.server import Server
 from physsim_ros.sketchpad.world_control import open_content, WorldControl
 
@@ -102,6 +104,8 @@ class Sketchpad:
             self._server.ask_to_leave,
         )
         self._sessions: dict[int, PageSession] = {}
+        # Those who came last, by number and role: their pages may connect again.
+        self._people: dict[tuple[int, Role], Person] = {}
         # Numbers of the colours of people, by name.
         self._colors: dict[str, int] = {}
         # The last one; None before the first.
@@ -208,7 +212,7 @@ class Sketchpad:
 
     def _choose_colors(self) -> None:
         """Choose a number for the colour of each person, the least that no other one has."""
-        present = {session.person for session in self._sessions.values()}
+        present = {session.person.name for session in self._sessions.values()}
         colors = {name: color for name, color in self._colors.items() if name in present}
         for name in present - colors.keys():
             colors[name] = min(set(range(len(present))) - set(colors.values()))
@@ -220,11 +224,11 @@ class Sketchpad:
         people = [
             {
                 'page': number,
-                'name': session.person,
-                'color': self._colors[session.person],
+                'name': session.person.name,
+                'color': self._colors[session.person.name],
                 'role': session.role.value,
-                'answered': session.answered or None,
-                'raised': session.raised,
+                'answered': session.person.answered or None,
+                'raised': session.person.raised,
             }
             for number, session in self._sessions.items()
             if session.role.draws and not session.watches
@@ -243,8 +247,8 @@ class Sketchpad:
     def _named_people(self) -> list[str]:
         """Return the names that people who draw have chosen."""
         present = self._sessions.values()
-        drawing = [each for each in present if each.role.draws and not each.watches]
-        return sorted({each.person for each in drawing if each.person != each.unnamed})
+        drawing = [each.person for each in present if each.role.draws and not each.watches]
+        return sorted({each.name for each in drawing if each.name != each.unnamed})
 
     def _world_text(self) -> Callable[[int], str]:
         """Return a function that returns the world as text, of at most a length [characters]."""
@@ -272,10 +276,24 @@ class Sketchpad:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
             simulation.requests.refuse(refusal, origin)
 
+    def _person_at(self, opened: Opened) -> Person:
+        """Return the person at a page: the same as before, if the page goes on with that."""
+        key = opened.person, opened.role
+        person = self._people.pop(key, None)
+        if person is None or not opened.goes_on:
+            person = Person(*key, self._world.drawing_settings)
+        # The page has dropped what it does not send again.
+        person.drawing.drop()
+        self._people[key] = person
+        if len(self._people) > MOST_PAGES:
+            del self._people[next(iter(self._people))]
+        return person
+
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
         role = opened.role
-        self._sessions[number] = PageSession(number, opened, self._shared)
+        person = self._person_at(opened)
+        self._sessions[number] = PageSession(number, opened, person, self._shared)
         simulation, settings = self._simulation, self._simulation.settings
         drawing = self._world.drawing_settings
         self._server.send(

@@ -153,7 +153,7 @@ def test_a_later_moment_of_a_gesture_leaves_the_gestures_between_alone():
     queue.submit(spawning('b/0', BOX, RIGHT), Origin('t', author='Ben'))
     between = queue.gesture
     late = spawning('a/1', DISC, (0.0, 9.0, 0.0))
-    queue.submit(late, Origin('t', author='Anna'), gesture=gesture)
+    queue.submit_gesture((late,), Origin('t', author='Anna'), gesture)
     simulation.advance_frame()
     assert queue.gesture == between
 

@@ -3,11 +3,12 @@
 
 """The queue is bounded, each request is answered, and of seeks in a row the last is made."""
 
+from dataclasses import replace
 from typing import Any
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Malformed
-from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
+from physsim_ros.model.requests import Command, Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation import waiting_entries
 from physsim_ros.simulation.entries import Origin, size_of, Wait
@@ -85,6 +86,33 @@ def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(bound, monkeypa
         assert [each.code for each in frame.answers] == [''] * 5 + ['busy'] * 2
         assert [each.subject for each in frame.answers][-2:] == ['a/5', 'a/6']
         assert len(sim.world) == 5
+
+
+@pytest.mark.parametrize('bound', ['MOST_WAITING', 'MOST_BYTES'])
+@pytest.mark.parametrize('room', [1, 2, 3])
+def test_a_gesture_is_carried_out_as_a_whole_or_refused_as_a_whole(bound, room, monkeypatch):
+    sim = Simulation(speed=0.0)
+    size = size_of(SPAWN)
+    monkeypatch.setattr(waiting_entries, bound, room if bound == 'MOST_WAITING' else room * size)
+    sim.requests.submit_gesture([replace(SPAWN, name=f'a/{n}') for n in range(3)], Origin('t'))
+
+    frame = sim.apply_requests()
+
+    assert [each.code for each in frame.answers] == ([''] * 3 if room == 3 else ['busy'] * 3)
+    assert len(sim.world) == (3 if room == 3 else 0)
+
+
+def test_an_undo_takes_back_the_commands_since_a_gesture_also_after_a_refusal():
+    sim = Simulation(speed=0.0)
+    spawn(sim, 0)
+    sim.requests.refuse(Malformed('no'), Origin('~/spawn'))
+    command = Command(names=('a/0',), twists=((1.0, 0.0, 0.0),))
+    sim.requests.submit(command, topic='cmd_vel', joined=True)
+    sim.apply_requests()
+
+    sim.undo()
+
+    assert len(sim.world) == 0
 
 
 @pytest.fixture

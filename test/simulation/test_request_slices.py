@@ -208,7 +208,7 @@ def test_a_refused_request_is_no_hold():
     simulation = Simulation(settings=NOWHERE)
     tick(simulation, 0)
     for _ in range(COUNT):
-        simulation.requests.refuse(Refusal('no'), Origin('~/spawn'), joined=True)
+        simulation.requests.refuse(Refusal('no'), Origin('~/spawn'))
     # Refusals are answers: none of them waits for the world.
     assert tick(simulation, 1) == 1
 

@@ -212,6 +212,7 @@ def test_what_is_drawn_without_a_socket_waits_for_one_and_is_there_once(
     sheet.told('Not done')
     cable.mend()
     plane = sheet.wait_for_new(before)
+    assert ['again' in each.url for each in cable.sockets] == [False, True]
     # After its answer no other one would come.
     sheet.press('Play')
     sheet.wait('physsim.speed === 1')

@@ -6,6 +6,7 @@
 import asyncio
 import gzip
 import inspect
+import itertools
 import json
 import math
 from pathlib import Path
@@ -13,6 +14,7 @@ import re
 import threading
 import time
 from typing import Any
+from urllib.parse import quote
 
 import numpy as np
 from physsim_ros.files import load_world, text_of
@@ -27,6 +29,7 @@ from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.message import KINDS, Message
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.person import author_of
 from physsim_ros.sketchpad.server import open_pages
 from physsim_ros.sketchpad.server.frame_codec import Show
 from physsim_ros.testing import PhysSim
@@ -227,6 +230,47 @@ def test_a_page_takes_the_runner_up_of_a_stroke_instead(browser: Browser) -> Non
     assert page.last('reading')['meaning'] == runner_up == 'wall'
     page.until(lambda: len(physsim.names) == 3)
     assert page.ask('instead', meaning='nothing of the kind')['code'] == 'not_recognised'
+
+
+@pytest.mark.parametrize('pause', [0.3, 20.0])
+@pytest.mark.parametrize('begins', [100.0, 2e9])
+def test_strokes_read_the_same_sent_one_by_one_at_once_or_after_a_lost_connection(
+    browser: Browser, pause: float, begins: float
+) -> None:
+    corners = np.array([[0.0, 4.0], [2.0, 4.0], [2.0, 6.0], [0.0, 6.0], [0.0, 4.0]])
+    share = np.linspace(0.0, 1.0, 21)[:, None]
+    strokes = [
+        np.column_stack((a + share * (b - a), begins + number * (0.5 + pause) + share / 2))
+        for number, (a, b) in enumerate(itertools.pairwise(corners))
+    ]
+
+    def drawn(page: Page, delivery: str) -> list[str]:
+        """Draw a square of four lines; return the author and the colour of what comes of it."""
+        assert page.ask('person', name='Anna')['ok']
+        assert page.ask('draw_with', color='#ff0000')['ok']
+        for number, stroke in enumerate(strokes):
+            if number == 2 and delivery == 'connected again':
+                key = quote(page.last('welcome')['person'])
+                page.close()
+                page = browser.open_page(f'/ws?person={key}&again')
+            send = page.send if delivery == 'at once' else page.ask
+            send('stroke', points=stroke.tolist())
+        page.ask('drop')
+        browser.physsim.settle()
+        past = browser.physsim.node.simulation.past
+        bodies, _ = past.added_by(author_of('Anna', Role.DRAW))
+        scene = browser.physsim.node.simulation.world.scene
+        looks = [f'{each.shape} {each.color}' for each in scene.bodies if each.name in bodies]
+        assert len(looks) == len(scene.bodies)
+        assert page.ask('service', name='clear')['ok']
+        return looks
+
+    ways = [
+        drawn(browser.open_page(), delivery)
+        for delivery in ('one by one', 'at once', 'connected again')
+    ]
+    assert ways[0] == ways[1] == ways[2]
+    assert len(ways[0]) == (1 if pause < 1.0 else 4)
 
 
 def test_a_page_draws_with_its_own_material(browser: Browser) -> None:

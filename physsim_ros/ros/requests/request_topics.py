@@ -135,5 +135,4 @@ class RequestTopics:
 
     def _make_walls(self, message: OccupancyGrid) -> None:
         requests = conversions.walls_requests(message, self._frame_id)
-        for number, request in enumerate(requests):
-            self._requests.submit(request, topic='~/walls', joined=number > 0)
+        self._requests.submit_gesture(requests, Origin('~/walls'))

@@ -169,7 +169,7 @@ class Fleet:
                 self.match_publishers()
 
     def _refuse(self, body: str, refusal: Refusal, topic: str) -> None:
-        self._requests.refuse(refusal, Origin(topic), subject=body, joined=True)
+        self._requests.refuse(refusal, Origin(topic), subject=body)
 
     # Frames
 

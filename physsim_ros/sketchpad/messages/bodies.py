@@ -109,7 +109,7 @@ def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
 def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Add bodies like others, of a part the whole robot, with their joints, at a distance [m]."""
-    requests = page.drawing.copy_machine(names, by, page.world.current_snapshot())
+    requests = page.person.drawing.copy_machine(names, by, page.world.current_snapshot())
     if len(requests) == 1:
         page.submit(origin, requests)
         return

@@ -16,7 +16,8 @@ from physsim_ros.simulation.entries import Origin, TakeBack, Unread
 from physsim_ros.sketchpad.message import message
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
-from physsim_ros.sketchpad.page_session import author_of, PageSession, TEACHER, UNNAMED
+from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.person import author_of, TEACHER, UNNAMED
 from physsim_ros.sketchpad.rights import check_taken_back, locks_of, Right, Role
 
 # Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
@@ -44,11 +45,11 @@ def _title(value: object, name: str) -> str:
 @message('person', 'page', Right.DRAW, name=fields.person)
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
-    if name != page.unnamed and re.fullmatch(rf'{UNNAMED}\d+|{TEACHER}', name):
+    if name != page.person.unnamed and re.fullmatch(rf'{UNNAMED}\d+|{TEACHER}', name):
         raise BadProperty(f'{name} may be another person, who has no name', field='name')
-    page.person = name
+    page.person.name = name
     # A page that was loaded again does not know.
-    page.answered = page.shared.results.last_of(name)
+    page.person.answered = page.shared.results.last_of(name)
     page.answer_page(origin, f'you are {name}')
 
 
@@ -57,12 +58,12 @@ def note_answer(
     page: PageSession, origin: Origin, lesson: str, answer: str, *, right: bool
 ) -> None:
     """Note an answer to a lesson, which a teacher sees."""
-    person = page.person
+    name = page.person.name
 
     def note() -> str:
         with reaching('the results'):
-            page.answered = page.shared.results.note(
-                person, lesson, answer[:LONGEST_ANSWER], right=right, visitor=page.unnamed
+            page.person.answered = page.shared.results.note(
+                name, lesson, answer[:LONGEST_ANSWER], right=right, visitor=page.person.unnamed
             )
         return 'the answer is noted'
 
@@ -84,7 +85,7 @@ def forget_results(page: PageSession, origin: Origin) -> None:
 @message('raise_hand', 'page', Right.DRAW, raised=flag)
 def raise_hand(page: PageSession, origin: Origin, *, raised: bool) -> None:
     """Raise a hand, or lower it."""
-    page.raised = raised
+    page.person.raised = raised
     page.answer_page(origin, 'your hand is raised' if raised else 'your hand is down')
 
 
@@ -105,7 +106,7 @@ def leave(page: PageSession, origin: Origin) -> None:
 @message('say', 'page', Right.TEACH, text=fields.text)
 def say(page: PageSession, origin: Origin, text: str) -> None:
     """Show a message on all pages of this world."""
-    page.send_all({'type': 'said', 'name': page.person, 'text': text[:LONGEST_MESSAGE]})
+    page.send_all({'type': 'said', 'name': page.person.name, 'text': text[:LONGEST_MESSAGE]})
     page.answer_page(origin, 'the message is shown')
 
 

@@ -28,23 +28,23 @@ from physsim_ros.sketchpad.rights import check_locked, check_taken_back, Right
 
 
 def _samples(value: object, name: str) -> Floats:
-    """Return (n, 3) float64: x, y [m], time since the first sample [s]."""
-    if not isinstance(value, list) or len(value) > MOST_SAMPLES:
-        raise Malformed(f'a stroke is a list of at most {MOST_SAMPLES} points', field=name)
+    """Return (n, 3) float64: x, y [m], time by a clock of the page [s]."""
+    if not isinstance(value, list) or not 0 < len(value) <= MOST_SAMPLES:
+        raise Malformed(f'a stroke is a list of 1 to {MOST_SAMPLES} points', field=name)
     for point in value:
         if not isinstance(point, list) or len(point) != 3:
             raise Malformed('a point of a stroke is [x, y, time]', field=name)
         if not all(type(each) in (int, float) for each in point):
             raise BadProperty('a point of a stroke is three numbers', field=name)
     try:
-        samples = np.array(value, dtype=np.float64).reshape(-1, 3)
+        samples = np.array(value, dtype=np.float64)
     except OverflowError as error:
         raise Malformed('a sample of the stroke is not finite', field=name) from error
     if not np.isfinite(samples).all():
         raise Malformed('a sample of the stroke is not finite', field=name)
     with np.errstate(over='ignore'):
-        samples[:, 2] -= samples[:1, 2]
-    if (np.abs(samples[:, 2]) > LONGEST).any():
+        duration = np.ptp(samples[:, 2])
+    if duration > LONGEST:
         raise BadProperty(f'a stroke takes at most {LONGEST:g} s', field=name)
     return samples
 
@@ -71,12 +71,13 @@ def _color(value: object, name: str) -> Color | Literal['']:
 @message('stroke', '~/stroke', points=_samples)
 def read_stroke(page: PageSession, origin: Origin, points: Floats) -> None:
     """Read a stroke, and submit the requests of its reading."""
-    duration = float(np.ptp(points[:, 2])) if len(points) else 0.0
-    began = time.monotonic() - duration
+    times = points[:, 2]
+    # A stroke that has waited for a connection comes late: its arrival counts only without a time.
+    began = float(times.min()) or time.monotonic() - float(np.ptp(times))
     snapshot = page.world.current_snapshot()
 
     def read(check: Check) -> Reading:
-        return page.drawing.stroke(points, '', snapshot, began=began, check=check)
+        return page.person.drawing.stroke(points, '', snapshot, began=began, check=check)
 
     _submit(page, origin, read)
 
@@ -86,7 +87,7 @@ def read_instead(page: PageSession, origin: Origin, meaning: str = '') -> None:
     """Replace the last reading by another guess; '' is the next one."""
     # The requests of the last reading may wait.
     page.world.current_snapshot()
-    _submit(page, origin, lambda check: page.drawing.instead(meaning, check=check))
+    _submit(page, origin, lambda check: page.person.drawing.instead(meaning, check=check))
 
 
 def _submit(page: PageSession, origin: Origin, read: Callable[[Check], Reading]) -> None:
@@ -102,8 +103,8 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[Check], Reading])
         page.send(_reading_content(origin, refusal.guesses))
         raise
     page.send(_reading_content(origin, reading.confidences, reading))
-    reading = replace(reading, requests=page.with_material(reading.requests))
-    submit_reading(page.world.simulation, page.drawing, reading, origin)
+    reading = replace(reading, requests=page.person.with_material(reading.requests))
+    submit_reading(page.world.simulation, page.person.drawing, reading, origin)
 
 
 def _reading_content(
@@ -132,16 +133,16 @@ def _reading_content(
 @message('click', 'clicked_point', tool=_tool, point=fields.point)
 def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
-    page.drawing.tool = tool
-    result = page.drawing.click(point, '', page.world.current_snapshot())
-    requests = page.with_material(result.requests)
+    page.person.drawing.tool = tool
+    result = page.person.drawing.click(point, '', page.world.current_snapshot())
+    requests = page.person.with_material(result.requests)
     page.submit(origin, requests, message=result.message, values=result.values)
 
 
 @message('drop', 'page', Right.DRAW)
 def drop(page: PageSession, origin: Origin) -> None:
     """Drop the unfinished gesture."""
-    page.drawing.drop()
+    page.person.drawing.drop()
     page.answer_page(origin, 'dropped what was unfinished')
 
 
@@ -162,9 +163,9 @@ def draw_with(
     **properties: Any,
 ) -> None:
     """Choose the material of the next bodies of this page; properties that are not given stay."""
-    page.material = replace(page.material, **properties)
+    page.person.material = replace(page.person.material, **properties)
     if color is not None:
-        page.color = color or None
+        page.person.color = color or None
     page.answer_page(origin, 'the material of what is drawn next')
 
 

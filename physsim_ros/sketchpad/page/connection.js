@@ -59,6 +59,8 @@ export class Connection extends Emitter {
   connect() {
     const query = new URLSearchParams(location.search);
     query.set('person', sessionStorage.getItem(PERSON) ?? '');
+    // A page that is loaded anew has another clock, no material, and no stroke in mind.
+    if (this.number) query.set('again', '');
     this.silence = 0;
     this.opened = this.welcomed = false;
     this.socket = new WebSocket(`${location.protocol.replace('http', 'ws')}//${location.host}${this.path}?${query}`);

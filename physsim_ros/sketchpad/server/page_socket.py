@@ -76,6 +76,7 @@ class PageSocket(GuardedSocket):
             person=person,
             key=self.access.person_key(person),
             received=self.feed.pages.received.get(person, ''),
+            goes_on='again' in self.request.arguments,
             watches=watches,
         )
         self._inbox.put(self._page.number, opened)

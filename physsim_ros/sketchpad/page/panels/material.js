@@ -15,7 +15,7 @@ export class Material {
     this.worldColor = null;
     connection.on('welcome', ({settings = {}}) => {
       this.worldColor = settings.draw_color ?? null;
-      // The server knows this page as a new one, without a material, and answers nothing of before.
+      // A server that was started anew knows no material of this page; none answers what was asked before.
       [this.known, this.asked] = [this.chosen, []];
       if (Object.keys(this.known).length && !people.viewOnly) connection.send('draw_with', this.known);
     });
