@@ -20,7 +20,7 @@ from physsim_ros.engine.saved_state import engine_motion, engine_pose
 from physsim_ros.files.world_schema import MOST_COMING, ROUNDING
 from physsim_ros.model.body_description import check_command
 from physsim_ros.model.checkpoint import BodyState, Motion
-from physsim_ros.model.checks import ListOf, LONGEST, LOST, number, pair, Row, Whole, Within
+from physsim_ros.model.checks import ListOf, LONGEST, LOST, number, Numbers, pair, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Command
@@ -38,8 +38,8 @@ from physsim_ros.model.transform import NO_WRENCH, ORIGIN, Point, Pose
 from physsim_ros.simulation.world import steps_covering
 
 # The state of a robot lies in the range of a motion; squares and products of such numbers.
-_POSE = Row((Within(-LOST, LOST),) * 3)
-_PRODUCTS = Row((Within(-(LOST**2), LOST**2),) * len(SPAWNED.covariance))
+_POSE = Numbers((Within(-LOST, LOST),) * 3)
+_PRODUCTS = Numbers((Within(-(LOST**2), LOST**2),) * len(SPAWNED.covariance))
 # Greatest number of points that an actor has reached, and of steps that a wrench acts.
 _MOST_REACHED, _MOST_STEPS = 2**53, 10**14
 

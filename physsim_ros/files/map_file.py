@@ -25,7 +25,7 @@ from physsim_ros.files.world_schema import entries_of
 from physsim_ros.files.yaml12 import load_mapping
 from physsim_ros.maps import Grid, MOST_CELLS, walls_of
 from physsim_ros.model.arrays import Flags
-from physsim_ros.model.checks import number, Row, shown, Within
+from physsim_ros.model.checks import number, Numbers, shown, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 
@@ -41,7 +41,7 @@ _FORMATS = ('PPM', 'PNG')
 _NEEDED = ('image', 'resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh')
 _SHARE = Within(0.0, 1.0)
 # x, y [m], yaw [rad].
-_ORIGIN = Row((number, number, number))
+_ORIGIN = Numbers((number, number, number))
 
 
 def with_map_walls(content: Mapping[Any, Any], folder: Path, most: int) -> dict[Any, Any]:

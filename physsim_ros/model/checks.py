@@ -159,7 +159,7 @@ class Whole:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Numbers:
     """
     A check of a list of as many numbers as it has checks, one each.
 
@@ -186,7 +186,7 @@ class Row:
 
 
 # The check of two finite numbers.
-pair = Row((number, number))
+pair = Numbers((number, number))
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ Latency: the time that a command is on its way to a drive or a motor, or a messa
 Law: it depends on seed, name and step alone, so that a rewind repeats it.
 """
 
-from physsim_ros.model.checks import Row, Within
+from physsim_ros.model.checks import Numbers, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.noise import uniform
 from physsim_ros.model.texts import Words
@@ -33,7 +33,7 @@ def delays(value: object, name: str) -> Point:
     """
     if not isinstance(value, list | tuple):
         value = (value, value)
-    low, high = Row((_DELAY, _DELAY))(value, name)
+    low, high = Numbers((_DELAY, _DELAY))(value, name)
     if low > high:
         raise BadProperty(f'{name} is [{low:g}, {high:g}]; the least time is first', field=name)
     return low, high

@@ -15,7 +15,7 @@ from physsim_ros.model.checks import (
     FRICTION,
     FRICTION_WORDS,
     HEAVIEST,
-    Row,
+    Numbers,
     shown,
     Vector,
     VELOCITY,
@@ -55,7 +55,7 @@ def rectangle(value: object, name: str) -> Bounds:
     :raises Malformed: a number is not finite, or there are more or fewer than four
     :raises BadProperty: it is no list of numbers, one is out of range, or a min not below its max
     """
-    left, bottom, right, top = Row((Within(-LARGEST, LARGEST, 'm'),) * 4)(value, name)
+    left, bottom, right, top = Numbers((Within(-LARGEST, LARGEST, 'm'),) * 4)(value, name)
     if not (left < right and bottom < top):
         raise BadProperty(
             f'{name} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
@@ -168,7 +168,7 @@ class WorldSettings(Checked):
     ] = 0.001
     datum: Annotated[
         Point | None,
-        Row((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),
+        Numbers((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),
         'latitude and longitude of the origin, -90 .. 90 and -180 .. 180 [deg], for receivers of '
         'satellite navigation; x points east, y north. Without a datum they have no fix',
     ] = None

@@ -10,20 +10,12 @@ Law: arrays count by their `nbytes`, all else by constants, measured with tracem
 
 from __future__ import annotations
 
+import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import Checkpoint
 from physsim_ros.model.declarations import Checked
-from physsim_ros.model.requests import (
-    ChangeBody,
-    Command,
-    CommandMotors,
-    Cut,
-    DeleteBodies,
-    MoveBodies,
-    Request,
-    Restore,
-    Spawn,
-)
+from physsim_ros.model.motor_command import MotorCommand
+from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Convex, Shape
 from physsim_ros.model.snapshot import Contacts, Snapshot
@@ -41,27 +33,32 @@ _ENTRY = 50
 
 def request_size(request: Request) -> int:
     """Return the memory of a request [bytes]."""
-    match request:
-        case Command(names=names):
-            return _VALUE + request.nbytes + _NAME * len(names)
-        case MoveBodies(names=names):
-            return _VALUE + _NAME * len(names)
-        case DeleteBodies(names=names, joints=joints):
-            return _VALUE + _NAME * (len(names) + len(joints))
-        case CommandMotors(commands=commands):
-            return _VALUE + _ENTRY * _entries(commands)
-        case Spawn(shape=shape) | ChangeBody(shape=shape):
-            form = 0 if shape is None else _shape_size(shape)
-            return _VALUE + form + _role_size(request.properties)
-        case Cut(pieces=pieces, joints=joints, severed=severed):
-            return sum(map(request_size, (*pieces, *joints, *severed)))
-        case Restore(state=state):
-            bodies = [each.body for each in state.bodies]
-            parts = sum(_shape_size(each.shape) + _role_size(each) for each in bodies)
-            parts += _ENTRY * _entries(tuple(each.command for each in state.commands))
-            impulses = 0 if state.memory is None else state.memory.nbytes
-            return _VALUE * (1 + len(bodies) + len(state.joints)) + parts + impulses
-    return _VALUE
+    if isinstance(request, Restore):
+        state = request.state
+        bodies = [each.body for each in state.bodies]
+        parts = sum(_shape_size(each.shape) + _role_size(each) for each in bodies)
+        parts += _ENTRY * _entries(tuple(each.command for each in state.commands))
+        impulses = 0 if state.memory is None else state.memory.nbytes
+        return _VALUE * (1 + len(bodies) + len(state.joints)) + parts + impulses
+    return _VALUE + sum(map(_field_size, request.explicit().values()))
+
+
+def _field_size(value: object) -> int:
+    """Return the memory of a field of a request, beyond that of every request [bytes]."""
+    match value:
+        case np.ndarray():
+            return value.nbytes
+        case (str(), *_):
+            return _NAME * len(value)
+        case tuple():
+            return sum(map(_field_size, value))
+        case Request():
+            return request_size(value)
+        case MotorCommand():
+            return _ENTRY * _entries(value)
+        case Properties():
+            return _role_size(value)
+    return _shape_size(value) if isinstance(value, Shape) else 0
 
 
 def checkpoint_size(checkpoint: Checkpoint, before: Checkpoint | None) -> int:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import ListOf, Row, shown, text, Within
+from physsim_ros.model.checks import ListOf, Numbers, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.latency import delays, LATENCY_WORDS
@@ -39,7 +39,7 @@ class Odometry(Checked):
     rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'messages a second'] = 30.0
     slip: Annotated[
         Point,
-        Row((Within(0.0, 1.0),) * 2),
+        Numbers((Within(0.0, 1.0),) * 2),
         'standard deviations of its drift, 0 .. 1: of the path after 1 m [m], of the heading '
         'after 1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
     ] = (0.0, 0.0)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import ListOf, OneOf, Row, text, Whole, Within
+from physsim_ros.model.checks import ListOf, Numbers, OneOf, text, Whole, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.sensor import (
     angles,
@@ -154,6 +154,6 @@ class Landmarks(Sensor):
     ] = (0.0, 10.0)
     noise: Annotated[
         Point,
-        Row((LENGTH, Within(0.0, math.pi, 'rad'))),
+        Numbers((LENGTH, Within(0.0, math.pi, 'rad'))),
         'standard deviations of range [m] and bearing [rad]',
     ] = (0.0, 0.0)

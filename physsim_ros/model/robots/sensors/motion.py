@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import FASTEST, OneOf, Row, Whole, Within
+from physsim_ros.model.checks import FASTEST, Numbers, OneOf, Whole, Within
 from physsim_ros.model.robots.sensors.sensor import FULL_TURN, LENGTH, Sensor
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
@@ -31,7 +31,7 @@ class Imu(Sensor):
     rate: float = 100.0
     noise: Annotated[
         Point,
-        Row((Within(0.0, FASTEST),) * 2),
+        Numbers((Within(0.0, FASTEST),) * 2),
         'standard deviations of acceleration [m/s²] and turn rate [rad/s]',
     ] = (0.0, 0.0)
     gravity: Annotated[

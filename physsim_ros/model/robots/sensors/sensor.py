@@ -9,7 +9,7 @@ import math
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import AT_WORDS, Row, shown, text, Within
+from physsim_ros.model.checks import AT_WORDS, Numbers, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.latency import delays, LATENCY_WORDS
@@ -76,7 +76,7 @@ def span(value: object, name: str, limits: Within) -> Point:
     :raises Malformed: there are not two of them, or one is not finite
     :raises BadProperty: they are out of range or out of order
     """
-    low, high = Row((limits, limits))(value, name)
+    low, high = Numbers((limits, limits))(value, name)
     if low > high:
         raise BadProperty(f'{name} must be [min, max], not {shown(value)}', field=name)
     return low, high
