@@ -95,6 +95,7 @@ def _add_body(conversion: Conversion, body: Content) -> _Placed:
 
 
 def _piece_of(fixture: Content) -> Piece:
+    fixture.skip('name')
     if 'circle' in fixture:
         circle = fixture.entry('circle')
         return Circle(_vector(circle, 'center'), circle.number('radius'))
