@@ -142,16 +142,16 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _create_outputs(self) -> None:
         """Create the outputs and the loop that shows them frames."""
         values, boundary, simulation = self._values, self.boundary, self.simulation
-        self.outputs = Outputs(self, values, self._session, simulation, boundary)
-        self._closing.callback(self.outputs.close)
-        expected = self._expected_commands
+        expected, session = self._expected_commands, self._session
         requests, past = simulation.requests, simulation.past
-        self.fleet = Fleet(self, values, requests, past, boundary, expected=expected)
-        self._live = LiveParameters(self, values, simulation, self._session, boundary)
-        self.outputs.all.insert(0, self._live)
-        self.outputs.all.append(self.fleet)
-        self.outputs.topics.timeline.publish()
-        self.loop = FrameLoop(simulation, self.outputs, self.fleet)
+        self._live = live = LiveParameters(self, values, simulation, session, boundary)
+        self.fleet = fleet = Fleet(self, values, requests, past, boundary, expected=expected)
+        self.outputs = outputs = Outputs(
+            self, values, session, simulation, boundary, parameters=live, robots=fleet
+        )
+        self._closing.callback(outputs.close)
+        outputs.topics.timeline.publish()
+        self.loop = FrameLoop(simulation, outputs, fleet)
 
     def _create_doors(self) -> None:
         """Create topics and services of requests."""

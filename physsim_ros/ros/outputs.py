@@ -44,8 +44,9 @@ class Outputs:
     :param session: the drawing session, whose preview is added to each frame
     :param simulation: whose frames are shown
     :param boundary: of each output
+    :param parameters: of the node, which mirror the world before others are told of it
+    :param robots: the topics of robots
 
-    :ivar all: the outputs, in the order in which they are shown a frame
     :ivar topics: the publishers of the world
     :ivar viewer: of the world
     :ivar sketchpad: of the world; None where it is not served
@@ -61,6 +62,9 @@ class Outputs:
         session: DrawingSession,
         simulation: Simulation,
         boundary: ErrorBoundary,
+        *,
+        parameters: Output,
+        robots: Output,
     ) -> None:
         self.topics = Publishers(node, values, lambda: simulation.status)
         self.viewer = Viewer(boundary, context=self._context)
@@ -69,7 +73,8 @@ class Outputs:
         self.frame: Frame | None = None
         self.records_contacts = False
         self._log = _Log(node)
-        self.all: list[Output] = [self._log, *self.topics.outputs, self.viewer]
+        # In the order in which they are shown a frame.
+        self._all = [parameters, self._log, *self.topics.outputs, self.viewer, robots]
         self._values = values
         self._session = session
         self._boundary = boundary
@@ -92,7 +97,7 @@ class Outputs:
 
     def show(self, frame: Frame) -> None:
         """Show a frame."""
-        self._show_on(self.all, frame)
+        self._show_on(self._all, frame)
 
     def _show_on(self, outputs: Iterable[Output], frame: Frame) -> None:
         """Show a frame, with the preview of now, on some outputs."""
@@ -136,14 +141,14 @@ class Outputs:
     def open_sketchpad(self, sketchpad: Sketchpad) -> None:
         """Show frames on a sketchpad, the last one at once."""
         self.sketchpad = sketchpad
-        self.all.append(sketchpad)
+        self._all.append(sketchpad)
         if self.frame is not None:
             sketchpad.show(replace(self.frame, answers=()))
 
     def close_sketchpad(self) -> None:
         """Close the sketchpad, if it is served."""
         if self.sketchpad is not None:
-            self.all.remove(self.sketchpad)
+            self._all.remove(self.sketchpad)
             self.sketchpad.close()
             self.sketchpad = None
 

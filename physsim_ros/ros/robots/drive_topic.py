@@ -180,7 +180,7 @@ class DriveTopic(CommandTopic):
         reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         if not types:
             return None if self._expected is None else (self._expected, reliable), ignored
-        kind = self._choose_type(types, self._new_types(publishers))
+        kind = self._choose_type(types, self._take_new_types(publishers))
         if len(types) > 1:
             words = ' and of '.join(sorted(each.__name__ for each in types))
             ignored = f'publishers of {words} are there; the newest is heard, as long as it speaks'
@@ -192,8 +192,8 @@ class DriveTopic(CommandTopic):
         )
         return (kind, best_effort if is_lossy else reliable), ignored
 
-    def _new_types(self, publishers: Sequence[TopicEndpointInfo]) -> set[type]:
-        """Return the types of the publishers that have come since the last look."""
+    def _take_new_types(self, publishers: Sequence[TopicEndpointInfo]) -> set[type]:
+        """Return the types of the publishers that have come since the last call."""
         before = self._known
         self._known = {bytes(each.endpoint_gid) for each in publishers}
         new = (each for each in publishers if bytes(each.endpoint_gid) not in before)

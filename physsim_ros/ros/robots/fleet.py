@@ -157,7 +157,7 @@ class Fleet:
         return any(new)
 
     def match_new_publishers(self) -> bool:
-        """Do the same where the number of publishers has changed."""
+        """Subscribe to commands whose number of publishers has changed, and return the same."""
         new = [topic.match_new_publishers() for topic in self._drive_topics]
         return any(new)
 
