@@ -161,7 +161,7 @@ class Diagnostics:
             'longest message [ms]': f'{took * 1e3:.1f} {name}'.rstrip(),
             'undecodable messages': self._counted['undecodable messages'],
             'unexpected errors': self._counted['unexpected errors'],
-            'answers that wait': outputs.topics.events.waiting,
+            'answers that wait': outputs.publishers.events.waiting,
             'memory of the past [MB]': f'{used:.1f} of {budget:g}',
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
             'potential energy [J]': f'{snapshot.potential_energy:.6g}',
@@ -191,7 +191,7 @@ class Diagnostics:
             yield f'{lost} messages cannot be decoded: check their publishers'
         if failed := new['unexpected errors']:
             yield f'{failed} unexpected errors: report them with the log of the node'
-        if self._outputs.topics.events.stopped:
+        if self._outputs.publishers.events.stopped:
             yield 'a subscriber of ~/events has stopped and loses answers: end it'
         if failure := self._outputs.viewer.failure:
             yield f'{failure}: set parameter viewer to open it again'

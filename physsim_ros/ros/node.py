@@ -150,7 +150,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self, values, session, simulation, boundary, parameters=live, robots=fleet
         )
         self._closing.callback(outputs.close)
-        outputs.topics.timeline.publish()
+        outputs.publishers.timeline.publish()
         self.loop = FrameLoop(simulation, outputs, fleet)
 
     def _create_doors(self) -> None:

@@ -62,7 +62,7 @@ class NodeControl:
         self.boundary = boundary
         self.simulation = simulation
         self.time = time
-        self.services = services
+        self._services = services
         self.values: Mapping[str, Any] = live.values
         self.on_quit: Callable[[], object] | None = None
         self._is_quitting = False
@@ -125,7 +125,7 @@ class NodeControl:
 
     def service(self, name: str) -> Service:
         """Return a service."""
-        return self.services[name]
+        return self._services[name]
 
     async def load_world(self, world: str) -> str:
         """

@@ -47,7 +47,7 @@ class Outputs:
     :param parameters: of the node, which mirror the world before others are told of it
     :param robots: the topics of robots
 
-    :ivar topics: the publishers of the world
+    :ivar publishers: the publishers of the world
     :ivar viewer: of the world
     :ivar sketchpad: of the world; None where it is not served
     :ivar statistics: cost of the frames
@@ -66,7 +66,7 @@ class Outputs:
         parameters: Output,
         robots: Output,
     ) -> None:
-        self.topics = Publishers(node, values, lambda: simulation.status)
+        self.publishers = Publishers(node, values, lambda: simulation.status)
         self.viewer = Viewer(boundary, context=self._context)
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
@@ -74,7 +74,7 @@ class Outputs:
         self.records_contacts = False
         self._log = _Log(node)
         # In the order in which they are shown a frame.
-        self._all = [parameters, self._log, *self.topics.outputs, self.viewer, robots]
+        self._all = [parameters, self._log, *self.publishers.outputs, self.viewer, robots]
         self._values = values
         self._session = session
         self._boundary = boundary
@@ -83,14 +83,14 @@ class Outputs:
     def is_read(self) -> bool:
         """Whether a subscriber, the viewer, a recording or a page reads each frame."""
         is_shown = self.sketchpad is not None and self.sketchpad.is_read
-        return is_shown or self.viewer.is_read or self.topics.is_read
+        return is_shown or self.viewer.is_read or self.publishers.is_read
 
     @property
     def wants_contacts(self) -> bool:
         """Whether a test, a subscriber, the viewer or a page reads contacts."""
         return (
             self.records_contacts
-            or self.topics.contacts.subscriptions > 0
+            or self.publishers.contacts.subscriptions > 0
             or self.viewer.reads_contacts
             or (self.sketchpad is not None and self.sketchpad.wants_contacts)
         )
@@ -112,7 +112,7 @@ class Outputs:
         """Show the last frame to late subscribers; called at ticks without a new frame."""
         if self.frame is None:
             return
-        for output in self.topics.late:
+        for output in self.publishers.late:
             with self._boundary.output(output.name):
                 output.show_late(self.frame)
 
@@ -123,16 +123,16 @@ class Outputs:
                 self.sketchpad.report(answers)
         for answer in answers:
             with self._boundary.output('~/events'):
-                self.topics.events.publish(answer)
+                self.publishers.events.publish(answer)
             self._log.add(answer)
         with self._boundary.output('~/events'):
-            self.topics.events.flush()
+            self.publishers.events.flush()
 
     def show_preview(self) -> None:
         """Show a preview that has changed since the last frame."""
         if self.frame is not None and self.frame.preview != self._session.preview:
             frame = replace(self.frame, answers=(), stepped=False)
-            self._show_on((self.topics.preview, self.viewer), frame)
+            self._show_on((self.publishers.preview, self.viewer), frame)
 
     def open_viewer(self) -> None:
         """Open the viewer of parameter `viewer`, in place of the one before."""

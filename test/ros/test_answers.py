@@ -56,7 +56,7 @@ class Bench:
 
 @pytest.fixture
 def bench(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> Bench:
-    bench = Bench(physsim.node.outputs.topics)
+    bench = Bench(physsim.node.outputs.publishers)
     monkeypatch.setattr(status_publishers.time, 'monotonic', lambda: bench.now)
     return bench
 

@@ -141,7 +141,7 @@ def test_a_paused_world_says_so(client: Client, tell: Tell) -> None:
         ('diagnostics.message_delay', 3.2, 'requests wait 3.2 s'),
         ('request_topics.undecodable', 7, '7 messages cannot be decoded'),
         ('boundary.failures', 2, '2 unexpected errors'),
-        ('outputs.topics.events.stopped', True, 'a subscriber of ~/events has stopped'),
+        ('outputs.publishers.events.stopped', True, 'a subscriber of ~/events has stopped'),
     ],
 )
 def test_what_is_amiss_is_a_warning_that_says_what_to_do(

@@ -126,7 +126,7 @@ def test_an_unseen_picture_that_takes_several_frames_is_finished_at_once(
     assert physsim.node.outputs.is_read
     physsim.step(1)
     assert encoded.count('markers') == 1
-    assert not physsim.node.outputs.topics.is_read
+    assert not physsim.node.outputs.publishers.is_read
 
 
 @pytest.mark.parametrize(
@@ -139,9 +139,9 @@ def test_frames_are_read_while_a_topic_of_them_has_a_listener(
     # The fixture itself hears the clock.
     physsim.node.set_parameters([Parameter('publish_clock', value=False)])
     physsim.step(2)
-    assert not physsim.node.outputs.topics.is_read
+    assert not physsim.node.outputs.publishers.is_read
     client.listen(kind, topic)
-    assert physsim.node.outputs.topics.is_read
+    assert physsim.node.outputs.publishers.is_read
 
 
 def test_an_unseen_picture_is_kept_up_with_a_changing_scene(
@@ -185,7 +185,7 @@ def test_a_listener_that_comes_late_to_a_paused_world_is_welcomed_once(
 def test_contacts_are_not_told_twice_and_wanted_while_somebody_listens(
     physsim: PhysSim, client: Client, encoded: list[str]
 ) -> None:
-    contacts = physsim.node.outputs.topics.contacts
+    contacts = physsim.node.outputs.publishers.contacts
     assert not contacts.subscriptions
     early = client.listen(MultiDOFJointState, '~/contacts')
     assert contacts.subscriptions

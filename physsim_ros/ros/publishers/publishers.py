@@ -93,13 +93,13 @@ class Publishers:
             self.streams.append(_transforms(node, frame_id))
         self.events = EventPublisher(node)
         self.timeline = TimelinePublisher(node, status)
-        self._markers = InteractiveMarkers(node, frame_id, publish_rate)
-        self.late: tuple[LateOutput, ...] = (*self.streams, self._markers)
+        self._interactive_markers = InteractiveMarkers(node, frame_id, publish_rate)
+        self.late: tuple[LateOutput, ...] = (*self.streams, self._interactive_markers)
         self.outputs: tuple[Output, ...] = (
             self.events,
             *self.streams,
             self.contacts,
-            self._markers,
+            self._interactive_markers,
             self.timeline,
         )
 
@@ -107,7 +107,7 @@ class Publishers:
     def is_read(self) -> bool:
         """Whether a topic of frames has subscribers."""
         streams = (each.is_read for each in (*self.streams, self.contacts))
-        return any((self._markers.is_read, self.timeline.is_read, *streams))
+        return any((self._interactive_markers.is_read, self.timeline.is_read, *streams))
 
 
 def _transforms(node: Node, frame_id: str) -> Stream:
