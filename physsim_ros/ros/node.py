@@ -27,9 +27,9 @@ from physsim_ros.ros.drawing_topics import DrawingTopics
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.node_control import NodeControl
+from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.pages import Pages
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.parameter_services import ParameterServices
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls

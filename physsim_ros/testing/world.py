@@ -15,7 +15,7 @@ from typing import Any, Self, Unpack
 from geometry_msgs.msg import PointStamped
 from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
 from physsim_ros.ros.robots.fleet import LOOK_PERIOD
 from physsim_ros.runtime.slices import finish
 from physsim_ros.testing.client import RequestClient, SettlingExecutor

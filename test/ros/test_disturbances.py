@@ -9,7 +9,7 @@ from contextlib import suppress
 import random
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
 from physsim_ros.testing import messages, Refused
 import pytest
 from rclpy.parameter import Parameter

@@ -15,7 +15,7 @@ from geometry_msgs.msg import Point, Pose, PoseStamped
 from nav_msgs.msg import Path
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box, Compound, Disc
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
 from physsim_ros.ros.topics import LOSSLESS
 from physsim_ros.sketchpad.messages import ACTIONS
 from physsim_ros.testing import messages

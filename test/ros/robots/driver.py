@@ -9,7 +9,7 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
 from physsim_ros.testing import PhysSim
 from rclpy.context import Context
 from sensor_msgs.msg import LaserScan

@@ -12,7 +12,7 @@ from geometry_msgs.msg import PoseArray, Twist
 from nav_msgs.msg import Odometry
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.ros import frame_loop
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
 from physsim_ros.ros.robots import fleet
 from physsim_ros.testing import box, delete, PhysSim
 import pytest

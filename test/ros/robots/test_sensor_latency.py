@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 from nav_msgs.msg import Odometry
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
 from physsim_ros.testing import box, PhysSim
 import pytest
 from rclpy.time import Time
