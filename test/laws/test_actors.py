@@ -284,6 +284,16 @@ def test_a_pedestrian_finds_the_way_where_walls_leave_one(walls, start, kind):
     assert math.dist(sim.world.snapshot().poses[row, :2], goal) < 0.3
 
 
+@pytest.mark.parametrize(('shift', 'side'), [(0.0, -1.0), (-3e-8, 1.0), (3e-8, -1.0)])
+def test_a_pedestrian_takes_the_shorter_way_around_a_wall_or_of_equal_ways_the_right(shift, side):
+    sim = _floor()
+    _walls(sim, (0.2, 4.0, 0.0, shift))
+    walks = {'kind': 'orca', 'points': [[3.0, 0.0]]}
+    row = spawn(sim, 'person/0', PERSON, (-3.0, 0.0, 0.0), kinematic=True, actor=walks)
+    sim.world.step(1)
+    assert sim.world.snapshot().twists[row, 1] * side > 0.5
+
+
 @pytest.mark.parametrize('kind', ['social_force', 'orca'])
 def test_a_crowd_goes_through_a_door_both_ways(kind):
     sim = _floor()

@@ -507,6 +507,23 @@ def test_what_moves_while_it_touches_is_given_what_its_momentum_tells(shape):
         assert (contacts.normals[contacts.pairs[:, 1] == -1, 1] < 0.0).all()
 
 
+@pytest.mark.parametrize('mass', [0.2, 1.0, 5.0])
+def test_what_a_new_body_hands_on_is_told_but_for_half_a_sub_step_of_weight(mass):
+    world = watched(YARD)
+    # It comes in by 3 m/s as the other one is there, and stops.
+    pose = (0.0, 1.5 + 3.0 * DT + 1e-3, 0.0)
+    spawn(world, 'b/0', BOX, pose, mass=mass, velocity=(0.0, -3.0), elasticity=0.0)
+    frame(world, 1)
+    spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0), mass=1.0, elasticity=0.0)
+    before, masses = world.snapshot().twists[:, 1], np.array([mass, 1.0])
+
+    contacts = frame(world, 1)
+
+    gained = masses * (world.snapshot().twists[:, 1] - before + G * DT)
+    assert contacts.pairs.tolist() == [[0, 1], [1, -1]]
+    assert abs(-contacts.impulses[:, 1] - np.cumsum(gained)).max() < mass * G * DT / 8 + 1e-9
+
+
 def test_the_normal_of_a_slanted_contact_is_that_of_the_slope():
     world = watched(WorldSettings(friction=2.0, elasticity=0.0))
     angle = 0.3
