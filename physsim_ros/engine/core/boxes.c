@@ -22,18 +22,12 @@ typedef struct Tile {
 
 static int by_x(const void *one, const void *other) {
     const Tile *a = one, *b = other;
-    if (a->middle.x == b->middle.x) {
-        return a->number - b->number;
-    }
-    return a->middle.x < b->middle.x ? -1 : 1;
+    return compared(2, (double[][2]){{a->middle.x, b->middle.x}, {a->number, b->number}});
 }
 
 static int by_y(const void *one, const void *other) {
     const Tile *a = one, *b = other;
-    if (a->middle.y == b->middle.y) {
-        return a->number - b->number;
-    }
-    return a->middle.y < b->middle.y ? -1 : 1;
+    return compared(2, (double[][2]){{a->middle.y, b->middle.y}, {a->number, b->number}});
 }
 
 static void clear_nodes(Tree *tree) {

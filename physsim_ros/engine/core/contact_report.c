@@ -278,21 +278,16 @@ void forget_contacts(World *world) {
     }
 }
 
-static int by_number(int64_t x, int64_t y) {
-    return (x > y) - (x < y);
-}
-
 static int by_pair(const void *one, const void *other) {
     const int64_t *x = ((const Contact *)one)->pair, *y = ((const Contact *)other)->pair;
-    return x[0] != y[0] ? by_number(x[0], y[0]) : by_number(x[1], y[1]);
+    return compared(2, (double[][2]){{(double)x[0], (double)y[0]}, {(double)x[1], (double)y[1]}});
 }
 
 static int by_time_and_pair(const void *one, const void *other) {
     const Begun *x = one, *y = other;
-    if (x->time != y->time) {
-        return (x->time > y->time) - (x->time < y->time);
-    }
-    return x->pair[0] != y->pair[0] ? by_number(x->pair[0], y->pair[0]) : by_number(x->pair[1], y->pair[1]);
+    return compared(3, (double[][2]){{x->time, y->time},
+                                     {(double)x->pair[0], (double)y->pair[0]},
+                                     {(double)x->pair[1], (double)y->pair[1]}});
 }
 
 static Contact contact_of(const World *world, const ReportedPair *pair) {

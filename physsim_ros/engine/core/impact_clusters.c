@@ -103,14 +103,10 @@ static void add_contact(Cluster *cluster, cpArbiter *arbiter) {
 
 static int by_bodies(const void *one, const void *other) {
     const Hit *x = one, *y = other;
-    if (x->a != y->a || x->b != y->b) {
-        return x->a != y->a ? (x->a > y->a) - (x->a < y->a) : (x->b > y->b) - (x->b < y->b);
-    }
-    uintptr_t first = x->contact->a->hashid, second = y->contact->a->hashid;
-    if (first == second) {
-        first = x->contact->b->hashid, second = y->contact->b->hashid;
-    }
-    return (first > second) - (first < second);
+    return compared(4, (double[][2]){{x->a, y->a},
+                                     {x->b, y->b},
+                                     {(double)x->contact->a->hashid, (double)y->contact->a->hashid},
+                                     {(double)x->contact->b->hashid, (double)y->contact->b->hashid}});
 }
 
 int list_hits(World *world, Hit *hits) {

@@ -27,10 +27,6 @@ typedef struct Bearings {
     int count;
 } Bearings;
 
-static int compared(double a, double b) {
-    return (a > b) - (a < b);
-}
-
 static int compare_bearings(const void *one, const void *other) {
     const Bearing *a = one, *b = other;
     double keys[][2] = {{(double)a->a, (double)b->a},
@@ -39,13 +35,7 @@ static int compare_bearings(const void *one, const void *other) {
                         {(double)a->shapes[1], (double)b->shapes[1]},
                         {a->arm_a.x, b->arm_a.x},
                         {a->arm_a.y, b->arm_a.y}};
-    for (int key = 0; key < 6; key++) {
-        int order = compared(keys[key][0], keys[key][1]);
-        if (order != 0) {
-            return order;
-        }
-    }
-    return 0;
+    return compared(6, keys);
 }
 
 static void add_bearings(World *world, Bearings *bearings, const cpArbiter *arbiter) {

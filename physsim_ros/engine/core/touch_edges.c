@@ -59,7 +59,7 @@ static uintptr_t cornered_shape(const Touch *face) {
 
 static int by_shape(const void *one, const void *other) {
     uintptr_t first = cornered_shape(*(const Touch *const *)one), second = cornered_shape(*(const Touch *const *)other);
-    return (first > second) - (first < second);
+    return compared(1, (double[][2]){{(double)first, (double)second}});
 }
 
 int list_faces(const Touch *touches, int count, const Touch **faces) {

@@ -12,6 +12,14 @@ void *allocated(size_t count, size_t size) {
     return memory;
 }
 
+int compared(int count, const double keys[][2]) {
+    int key = 0;
+    while (key < count - 1 && keys[key][0] == keys[key][1]) {
+        key++;
+    }
+    return (keys[key][0] > keys[key][1]) - (keys[key][0] < keys[key][1]);
+}
+
 void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *)) {
     if (count > 1) {
         qsort(list, (size_t)count, size, compare);
@@ -20,10 +28,7 @@ void sort(void *list, int count, size_t size, int (*compare)(const void *, const
 
 static int by_numbers(const void *one, const void *other) {
     const Pair *a = one, *b = other;
-    if (a->low != b->low) {
-        return a->low < b->low ? -1 : 1;
-    }
-    return (a->high > b->high) - (a->high < b->high);
+    return compared(2, (double[][2]){{(double)a->low, (double)b->low}, {(double)a->high, (double)b->high}});
 }
 
 void sort_pairs(Pair *list, int count) {

@@ -153,6 +153,9 @@ static inline cpArbiter *arbiter_at(const World *world, int number) {
     return world->space->arbiters->arr[number];
 }
 
+// The order of two things by pairs of their keys: -1, 0 or 1, by the first pair whose keys differ.
+int compared(int count, const double keys[][2]);
+
 // `qsort`, which in GNU's library takes time and memory for an empty list, too.
 void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *));
 
