@@ -248,19 +248,13 @@ def test_the_program_ends_after_its_reply(caller: Caller) -> None:
 def test_an_error_that_nobody_expected_fails_a_call_and_nothing_else(
     caller: Caller, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from physsim_ros.ros.simulation_services.services import (  # noqa: PLC0415
-        SimulationServices,
-    )
+    from physsim_ros.ros.simulation_services import services  # noqa: PLC0415
     from simulation_interfaces import srv  # noqa: PLC0415
 
-    fill, node = vars(SimulationServices)['_fill'], caller.physsim.node
+    node = caller.physsim.node
     errors: list[BaseException] = []
     node.boundary.on_error = errors.append
-    monkeypatch.setattr(
-        SimulationServices,
-        '_fill',
-        lambda self, topic, _, *others: fill(self, topic, fail, *others),
-    )
+    monkeypatch.setattr(services, 'in_slices', fail)
     kinds = [each for each in vars(srv) if each[0].isupper() and '_' not in each]
     offered = [each.srv_name for each in node.services if '/simulation/' in each.srv_name]
     # Each service of the standard is there.
