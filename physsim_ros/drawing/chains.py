@@ -22,10 +22,10 @@ from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadSize
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import WORLD
+from physsim_ros.model.names import shown_end, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
-from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import counted, Text
 
 # Length of a link by its thickness [1]: the proportions of an anchor chain.
 _SLENDER = 3.0
@@ -77,8 +77,9 @@ def message(requests: tuple[Request, ...], ends: tuple[str, str]) -> str:
     :param requests: for its links and axles
     :param ends: names of the bodies there, or 'world' for the background
     """
-    first, last = ('the background' if name == WORLD else name for name in ends)
-    return f'a chain of {counted(len(requests) // 2, "link")} from {first} to {last}'
+    first, last = map(shown_end, ends)
+    links = counted(len(requests) // 2, 'link')
+    return Text('a chain of {links} from {first} to {last}', links=links, first=first, last=last)
 
 
 def _links(length: float, link: float) -> int:

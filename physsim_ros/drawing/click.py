@@ -22,6 +22,7 @@ from physsim_ros.model.errors import BadSize, nothing_at, UnknownBody
 from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # The least length that clicks can draw, in shares of `snap`: 15 mm by default.
 SLIP = 0.1
@@ -135,10 +136,8 @@ def checked_length(length: float, settings: DrawingSettings, name: str) -> float
     """
     least = _least(settings)
     if length < least:
-        raise BadSize(
-            f'{name} is {length:.3g} m long; below {least:.3g} m it is a slip of the hand',
-            field='point',
-        )
+        template = '{line} is {length:.3g} m long; below {least:.3g} m it is a slip of the hand'
+        raise BadSize(Text(template, line=name, length=length, least=least), field='point')
     return length
 
 

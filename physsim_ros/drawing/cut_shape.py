@@ -39,6 +39,7 @@ from physsim_ros.model.shapes import (
     Triangles,
 )
 from physsim_ros.model.transform import cross, dots, next_vertices, norms, Point
+from physsim_ros.model.translation import Text
 
 # Corners of the polygon that a disc is cut as: its rim is off by 0.3 % of the radius.
 _CORNERS = 32
@@ -196,7 +197,7 @@ def _triangles(outlines: list[Floats]) -> Polygon | Triangles:
     # The least width of a triangle is its height on its longest side.
     kept = doubled > SMALLEST * longest
     if doubled[~kept].sum() / 2 > _SLIVERS * whole or not kept.any():
-        raise BadSize(f'a part is thinner than {SMALLEST:g} m', field='points')
+        raise BadSize(Text('a part is thinner than {least:g} m', least=SMALLEST), field='points')
     return Triangles(vertices=as_tuples(fans[kept].reshape(-1, 2)))
 
 

@@ -34,6 +34,7 @@ from physsim_ros.model.rope_path import spans
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import cross, Point, rotated
+from physsim_ros.model.translation import Text
 
 # Difference of the areas of a body and of its pieces above which material was lost, in shares.
 _SAME_AREA = 1e-9
@@ -66,9 +67,8 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
                     field='point',
                     body=name,
                 )
-        raise NothingThere(
-            'the stroke passes right through no body, rope, rod or spring', field='point'
-        )
+        message = Text('the stroke passes right through no body, rope, rod or spring')
+        raise NothingThere(message, field='point')
     new = scene.new_bodies()
     parts: list[ChangeBody | Spawn] = []
     names: dict[str, dict[str, Shape]] = {}
@@ -103,9 +103,8 @@ def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shap
     try:
         pieces = cut_shape(shape, scene.local(name, start), scene.local(name, end))
     except (BadOutline, BadSize) as error:
-        raise BadSize(
-            f'a piece of {name} would be too thin to be simulated', field='point', body=name
-        ) from error
+        message = Text('a piece of {body} would be too thin to be simulated', body=name)
+        raise BadSize(message, field='point', body=name) from error
     return [] if pieces == [shape] else pieces
 
 

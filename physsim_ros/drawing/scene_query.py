@@ -40,6 +40,7 @@ from physsim_ros.model.transform import (
     Twist,
     world_to_local,
 )
+from physsim_ros.model.translation import Text
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
@@ -242,9 +243,8 @@ class SceneQuery:
         """
         strength = math.hypot(*self.settings.gravity)
         if strength == 0.0:
-            raise BadProperty(
-                'there is no gravity to turn; set the parameter gravity first', field='gravity'
-            )
+            message = Text('there is no gravity to turn; set the parameter gravity first')
+            raise BadProperty(message, field='gravity')
         return strength
 
     def new_bodies(self) -> Iterator[str]:

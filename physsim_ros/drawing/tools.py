@@ -30,7 +30,7 @@ from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
-from physsim_ros.model.names import WORLD
+from physsim_ros.model.names import shown_end, WORLD
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -45,6 +45,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.shapes import Box, MOST_POINTS
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
 # Force of an arrow of 1 m [N]: nearly the weight of 1 kg.
@@ -54,7 +55,7 @@ _NEWTONS = 10.0
 def circle(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Draw a disc: its centre, then a point on its rim."""
     if len(clicks) < 2:
-        return _next_click('the centre is set', 'a point on the rim')
+        return _next_click('the centre is set', Text('a point on the rim'))
     center, rim = _points(clicks)
     radius = checked_distance(center, rim, settings, 'the radius')
     return _finished(new_bodies.disc(scene.next_body(), center, radius, settings))
@@ -65,7 +66,7 @@ def circle_diameter(
 ) -> ClickResult:
     """Draw a disc: one end of a diameter, then the other."""
     if len(clicks) < 2:
-        return _next_click('an end of a diameter is set', 'the other end')
+        return _next_click('an end of a diameter is set', Text('the other end'))
     start, end = _points(clicks)
     radius = checked_distance(start, end, settings, 'the diameter') / 2
     return _finished(new_bodies.disc(scene.next_body(), _middle(start, end), radius, settings))
@@ -76,11 +77,11 @@ def rectangle(
 ) -> ClickResult:
     """Draw a rectangle: a corner, the next corner, then a point of the side across."""
     if len(clicks) < 2:
-        return _next_click('a corner is set', 'the next corner')
+        return _next_click('a corner is set', Text('the next corner'))
     start, end, *rest = _points(clicks)
     width = checked_distance(start, end, settings, 'the first side')
     if not rest:
-        return _next_click('a side is set', 'a point of the side across')
+        return _next_click('a side is set', Text('a point of the side across'))
     along = (end[0] - start[0]) / width, (end[1] - start[1]) / width
     # To the left of the first side, or, where it is negative, to the right.
     height = along[0] * (rest[0][1] - start[1]) - along[1] * (rest[0][0] - start[0])
@@ -103,13 +104,13 @@ def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
         raise BadOutline(f'a polygon has at most {MOST_POINTS} corners', field='point')
     count = len(without_repeats(points, settings))
     done = 'a corner is set' if count == 1 else f'{count} corners are set'
-    return _next_click(done, 'the next corner, or the first one again to close it')
+    return _next_click(done, Text('the next corner, or the first one again to close it'))
 
 
 def wall(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Draw a wall: one end, then the other."""
     if len(clicks) < 2:
-        return _next_click('an end is set', 'the other end')
+        return _next_click('an end is set', Text('the other end'))
     start, end = _points(clicks)
     checked_distance(start, end, settings, 'the wall')
     return _finished(new_bodies.wall(scene.next_body(), (start, end), settings))
@@ -126,7 +127,7 @@ def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettin
     if scene.body(name).anchored:
         raise Anchored(f'{name} is anchored; it has no velocity', field='point', body=name)
     if len(clicks) < 2:
-        return _next_click(f'the arrow begins on {name}', 'its tip, 1 m for 1 m/s')
+        return _next_click(f'the arrow begins on {name}', Text('its tip, 1 m for 1 m/s'))
     tail, tip = _points(clicks)
     checked_distance(tail, tip, settings, 'the arrow')
     spin = scene.twist(name)[2]
@@ -138,7 +139,7 @@ def gravity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
     """Turn gravity: the tail of an arrow, then its tip; its magnitude stays."""
     strength = scene.gravity_strength()
     if len(clicks) < 2:
-        return _next_click('the arrow begins there', 'its tip')
+        return _next_click('the arrow begins there', Text('its tip'))
     tail, tip = _points(clicks)
     share = strength / checked_distance(tail, tip, settings, 'the arrow')
     turned = (tip[0] - tail[0]) * share, (tip[1] - tail[1]) * share
@@ -149,7 +150,7 @@ def force(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings)
     """Add a constant force: its point on a body, then the tip of an arrow, 1 m for 10 N."""
     name = clicks[0].hit_body(scene)
     if len(clicks) < 2:
-        return _next_click(f'the force acts on {name}', 'the tip of its arrow, 1 m for 10 N')
+        return _next_click(f'the force acts on {name}', Text('the tip of its arrow, 1 m for 10 N'))
     tail, tip, body = clicks[0].current_point(scene), clicks[1].point, scene.body(name)
     checked_distance(tail, tip, settings, 'the arrow')
     form, at = body.shape.form, clicks[0].local
@@ -165,7 +166,7 @@ def force(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings)
 def cut(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Cut bodies with a knife: from one end of a stroke right through them to the other."""
     if len(clicks) < 2:
-        return _next_click('the cut begins there', 'its other end, beyond the bodies')
+        return _next_click('the cut begins there', Text('its other end, beyond the bodies'))
     start, end = _points(clicks)
     checked_distance(start, end, settings, 'the cut')
     return _finished(knife.cut(start, end, scene))
@@ -186,8 +187,8 @@ def join(
 ) -> ClickResult:
     """Join the body, or the background, under the first click to that under the second."""
     if len(clicks) < 2:
-        where = clicks[0].body or 'the background'
-        return _next_click(f'the {kind} begins on {where}', 'its other end')
+        where = shown_end(clicks[0].body or WORLD)
+        return _next_click(f'the {kind} begins on {where}', Text('its other end'))
     # Each end stays at its place on the body that was clicked, which may have moved since.
     ends = [(click.current_point(scene), click.body or WORLD) for click in clicks]
     if ends[0][1] == WORLD:
@@ -222,15 +223,15 @@ def pulley(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
     if len(points) > MOST_STOPS:
         # Each click looks at all points.
         raise BadOutline(f'a rope has at most {MOST_STOPS} points', field='point')
-    where = clicks[-1].body or 'the background'
-    return _next_click(f'the rope is on {where}', 'the next wheel or ring; its end twice')
+    where = shown_end(clicks[-1].body or WORLD)
+    return _next_click(f'the rope is on {where}', Text('the next wheel or ring; its end twice'))
 
 
 def chain(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Draw a chain of links from the body, or the background, under one click to another."""
     if len(clicks) < 2:
-        where = clicks[0].body or 'the background'
-        return _next_click(f'the chain begins on {where}', 'its other end')
+        where = shown_end(clicks[0].body or WORLD)
+        return _next_click(f'the chain begins on {where}', Text('its other end'))
     start, end = (click.current_point(scene) for click in clicks)
     checked_distance(start, end, settings, 'the chain')
     first, last = (click.body or WORLD for click in clicks)
@@ -242,7 +243,7 @@ def gear(clicks: Sequence[Click], scene: SceneQuery, _settings: DrawingSettings)
     """Couple two wheels by their teeth, at the ratio of their radii: one wheel, then the other."""
     names = [click.hit_body(scene) for click in clicks]
     if len(names) < 2:
-        return _next_click(f'{names[0]} is a gear', 'the other one')
+        return _next_click(f'{names[0]} is a gear', Text('the other one'))
     a, b = names
     centers = scene.centroid(a), scene.centroid(b)
     radii = [scene.body(name).shape.form.outer for name in names]
@@ -265,7 +266,7 @@ def rack(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) 
     """Let a wheel roll on a rack: the wheel, then a bar, along which the rack goes, or a point."""
     pinion = clicks[0].hit_body(scene)
     if len(clicks) < 2:
-        return _next_click(f'{pinion} is the pinion', 'its rack')
+        return _next_click(f'{pinion} is the pinion', Text('its rack'))
     center, other = scene.centroid(pinion), clicks[1].body or WORLD
     foot = clicks[1].current_point(scene)
     if other != WORLD and isinstance(bar := scene.body(other).shape, Box):
@@ -323,8 +324,8 @@ def _middle(start: Point, end: Point) -> Point:
     return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
 
 
-def _next_click(done: str, wanted: str) -> ClickResult:
-    return ClickResult(message=f'{done}; next: {wanted}')
+def _next_click(done: str, wanted: Text) -> ClickResult:
+    return ClickResult(message=Text('{done}; next: {wanted}', done=done, wanted=wanted))
 
 
 def _finished(*requests: Request) -> ClickResult:

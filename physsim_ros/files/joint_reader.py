@@ -32,6 +32,7 @@ from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Guide, Joint, Seat
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Point, Pose, REST
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.world import World
 
 # Range of the numbers of a seat: the yaw of a body that is not lost, times the ratio of a gear,
@@ -70,7 +71,7 @@ def joints_from(
                 raise BadProperty('a joint needs a name', field='name')
             name = canonical(name)
             if name in joints:
-                raise BadProperty('the name appears twice', field='name')
+                raise BadProperty(Text('the name appears twice'), field='name')
             terms = {key: entry[key] for key in entry if key not in OWN_JOINT_KEYS}
             points = point_list(entry.get('points'), 'points')
             joints[name] = None

@@ -16,6 +16,7 @@ from physsim_ros.files.regular_file import make_directory, move_and_keep
 from physsim_ros.files.resources import is_plain
 from physsim_ros.files.world_file import is_shipped, kept_path, user_lessons
 from physsim_ros.model.errors import BadWorldFile, Exists
+from physsim_ros.model.translation import Text
 
 # Length of a name [characters], and in UTF-8 [bytes]: below the 255 of the name of a file, which
 # has a suffix.
@@ -33,9 +34,12 @@ def check_world_name(name: str) -> str:
     if not name.strip():
         raise BadWorldFile('a world needs a name', field='name')
     if len(name) > LONGEST_NAME:
-        raise BadWorldFile(f'a name has at most {LONGEST_NAME} characters', field='name')
+        raise BadWorldFile(
+            Text('a name has at most {most} characters', most=LONGEST_NAME), field='name'
+        )
     if not is_plain(name) or '.' in name or '\\' in name or not name.isprintable():
-        raise BadWorldFile(f'{name!r} cannot be a name: it has no "/" and no "."', field='name')
+        message = Text('{name!r} cannot be a name: it has no "/" and no "."', name=name)
+        raise BadWorldFile(message, field='name')
     if len(name.encode()) > LONGEST_FILE:
         raise BadWorldFile(f'a name has at most {LONGEST_FILE} bytes in UTF-8', field='name')
     return name
@@ -84,7 +88,7 @@ class OwnWorlds:
             # That of a world which had the name before.
             self.picture(to).unlink(missing_ok=True)
             self.picture(name).rename(self.picture(to))
-        return f'renamed {name} to {to}'
+        return Text('renamed {world} to {to}', world=name, to=to)
 
     def delete(self, name: str) -> str:
         """
@@ -95,7 +99,7 @@ class OwnWorlds:
         path, kept = self._existing(name), self._kept(name)
         make_directory(kept.parent)
         path.replace(kept)
-        return f'deleted the world {name}'
+        return Text('deleted the world {world}', world=name)
 
     def put_back(self, name: str) -> str:
         """
@@ -107,9 +111,9 @@ class OwnWorlds:
         """
         kept = self._kept(name)
         if not kept.is_file():
-            raise BadWorldFile(f'nothing of {name} is kept', field='name')
+            raise BadWorldFile(Text('nothing of {world} is kept', world=name), field='name')
         move_and_keep(kept, self._path(name), kept)
-        return f'put back the world {name}'
+        return Text('put back the world {world}', world=name)
 
     def picture(self, name: str) -> Path:
         """Return the path of a world's picture, which may not be there."""
@@ -118,7 +122,9 @@ class OwnWorlds:
     def _existing(self, name: str) -> Path:
         path = self._path(name)
         if not path.is_file():
-            raise BadWorldFile(f'there is no world {name} of your own', field='name')
+            raise BadWorldFile(
+                Text('there is no world {world} of your own', world=name), field='name'
+            )
         return path
 
     def _path(self, name: str) -> Path:

@@ -34,6 +34,7 @@ from physsim_ros.model.errors import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.garbage_collection import suspended_collection
 
 # Suffix of world files.
@@ -114,11 +115,14 @@ def find_world(
         else {path.parent for path in paths}
     )
     looked = ', '.join(sorted(str(each) for each in directories))
-    raise BadWorldFile(
-        f'there is no world {name!r}{nearest_name(Path(name).stem, known)}; physsim --help lists '
-        f'the shipped ones; searched in {looked}',
-        field='world_file',
+    message = Text(
+        'there is no world {world!r}{near}; physsim --help lists the shipped ones; searched in '
+        '{looked}',
+        world=name,
+        near=nearest_name(Path(name).stem, known),
+        looked=looked,
     )
+    raise BadWorldFile(message, field='world_file')
 
 
 def worlds_in(directory: Path) -> dict[str, Path]:
@@ -164,12 +168,17 @@ def load_world(
         raise _unreadable(path.name, error) from error
     except Malformed as error:
         # Only `load_mapping` names the file itself.
-        message = str(error) if error.field == path.name else f'{path.name}: {error}'
+        message = error.text if error.field == path.name else _of_file(path, error)
         raise _refused(path.name, text, error, message) from error
     except WorldFull:
         raise
     except Refusal as refusal:
-        raise _refused(path.name, text, refusal, f'{path.name}: {refusal}') from refusal
+        raise _refused(path.name, text, refusal, _of_file(path, refusal)) from refusal
+
+
+def _of_file(path: Path, refusal: Refusal) -> str:
+    """Return the message about the content of a file."""
+    return Text('{file}: {wrong}', file=path.name, wrong=refusal.text)
 
 
 def _refused(name: str, text: str, refusal: Refusal, message: str) -> BadWorldFile:

@@ -42,6 +42,7 @@ from physsim_ros.model.settings import check_limit, OF_WORLD, WorldSettings
 from physsim_ros.model.shapes import shape_in, SHAPES
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Pose
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.world import steps_covering
 
 # Keys of a body whose values follow from `motion`.
@@ -74,7 +75,7 @@ def state_from(
             'a map is read from beside a world file, and this world has none', field='map'
         )
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
-        raise BadProperty(f'format must be {FORMAT}', field='format')
+        raise BadProperty(Text('format must be {format}', format=FORMAT), field='format')
     changes = {key: content[key] for key in SETTINGS if key in content}
     changes |= {key: None for key in ('bounds', 'datum') if changes.get(key) == []}
     own = {
@@ -104,7 +105,7 @@ def _lesson(value: object) -> Lesson:
     except BadProperty as refusal:
         if isinstance(value, dict) and refusal.field not in value:
             # Of what is missing, the line is that of the lesson.
-            raise BadProperty(str(refusal), field='lesson') from refusal
+            raise BadProperty(refusal.text, field='lesson') from refusal
         raise
 
 
@@ -130,7 +131,7 @@ def _body_states(
         with naming(entry, 'body', count):
             state, is_unmoved = _body_state(entry, settings, physics_rate)
             if state.body.name in bodies:
-                raise BadProperty('the name appears twice', field='name')
+                raise BadProperty(Text('the name appears twice'), field='name')
             links, of_links = _parts_of(state)
             made = {state.body.name: state}
             if named.isdisjoint(link.name for link in links):

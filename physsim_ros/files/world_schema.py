@@ -23,6 +23,7 @@ from physsim_ros.model.settings import LIMIT, WorldSettings
 from physsim_ros.model.shapes import SHAPE_WORDS
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 FORMAT = 1
 # Limits protect the node: files do not change them.
@@ -82,7 +83,14 @@ def naming(entry: Mapping[Any, Any], noun: str = 'body', count: int = 0) -> Iter
         name = entry.get('name')
         which = f'number {count}' if name is None else shown(name)
         raise BadWorldFile(
-            f'{noun} {which}: {refusal}',
+            Text(
+                '{kind} {name}: {wrong}',
+                kind=Text(noun),
+                name=which,
+                # Not in English, whose messages name the key.
+                key=refusal.field and f', {refusal.field}',
+                wrong=refusal.text,
+            ),
             field=refusal.field,
             line=entry.line if isinstance(entry, Located) else None,
             cause=refusal.code,

@@ -23,6 +23,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 from physsim_ros.model.errors import Malformed
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.garbage_collection import suspended_collection
 import yaml
 from yaml.composer import Composer
@@ -213,13 +214,17 @@ def load_mapping(
         # The text of PyYAML's errors spans lines and quotes the input; their `problem` does not.
         said = getattr(error, 'problem', None) or str(error) or type(error).__name__
         line = _line(error, text)
-        place = '' if line is None else f', line {line}'
-        reason = said.partition('\n')[0][:200] + place
-        raise NotYaml(f'{field} is not YAML: {reason}', field=field, line=line) from error
+        reason = said.partition('\n')[0][:200]
+        message = Text('{file} is not YAML: {reason}', file=field, reason=reason)
+        if line is not None:
+            template = '{file} is not YAML: {reason}, line {line}'
+            message = Text(template, file=field, reason=reason, line=line)
+        raise NotYaml(message, field=field, line=line) from error
     if value is None:
         return {}
     if not isinstance(value, dict):
-        raise Malformed(f'{field} must be a YAML mapping as {{friction: 0.3}}', field=field)
+        message = Text('{file} must be a YAML mapping as {{friction: 0.3}}', file=field)
+        raise Malformed(message, field=field)
     return value
 
 

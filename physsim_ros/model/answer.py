@@ -26,7 +26,7 @@ class Answer:
 
     :param topic: of the request, as '~/spawn', or the event, as 'body_lost'; '' until it is known
     :param subject: name of the body or joint, '' if there is none
-    :param message: a sentence
+    :param message: a sentence; one that pages translate is a `Text`
     :param code: '' for success, else the stable code of the refusal
     :param field: the offending field of a refusal
     :param values: further pairs of key and value
@@ -61,7 +61,7 @@ class Answer:
         return cls(
             topic=topic,
             subject=shown_name(subject),
-            message=str(refusal),
+            message=refusal.text,
             code=refusal.code,
             field=refusal.field if refusal.field == _FRAME or not field else field,
             values=(*refusal.values, *body),

@@ -23,6 +23,7 @@ from physsim_ros.model.robots import check_namespace
 from physsim_ros.model.scene import Body, BODY_DEFAULTS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import REST, Twist
+from physsim_ros.model.translation import Text
 
 
 def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Twist]:
@@ -75,11 +76,13 @@ def changed_body(
         body = replace(body, density=body.mass / body.shape.form.area)
     if not LIGHTEST <= body.total_mass <= HEAVIEST:
         field = 'density' if body.mass is None else 'mass'
-        raise BadProperty(
-            f'the body would weigh {body.total_mass:g} kg; {LIGHTEST:g} to {HEAVIEST:g} kg can be '
-            'simulated',
-            field=field,
+        message = Text(
+            'the body would weigh {value:g} kg; {low:g} to {high:g} kg can be simulated',
+            value=body.total_mass,
+            low=LIGHTEST,
+            high=HEAVIEST,
         )
+        raise BadProperty(message, field=field)
     _check_role(body)
     return body
 

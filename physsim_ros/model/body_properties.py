@@ -35,6 +35,7 @@ from physsim_ros.model.media import Medium
 from physsim_ros.model.robots import Robot, Towed, TOWED_WORDS
 from physsim_ros.model.texts import is_printable, Words
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # Greatest charge [C], of either sign: impulses between any two are finite.
 MOST_CHARGE = 1e6
@@ -44,7 +45,8 @@ LONGEST_LABEL = 200
 
 def _group(value: object, name: str) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
-        raise BadProperty(f'{name} must be a whole number, not {shown(value)}', field=name)
+        message = Text('{key} must be a whole number, not {value}', key=name, value=shown(value))
+        raise BadProperty(message, field=name)
     # Chipmunk's cpGroup is an unsigned 64-bit word; negative numbers wrap to distinct words.
     if not -(2**31) <= value < 2**31:
         raise BadProperty(f'{name} must fit into 32 bits', field=name)
@@ -54,7 +56,8 @@ def _group(value: object, name: str) -> int:
 def _label(value: object, name: str) -> str:
     label = text(value, name, BadProperty)
     if len(label) > LONGEST_LABEL:
-        raise BadProperty(f'{name} has more than {LONGEST_LABEL} characters', field=name)
+        message = Text('{key} has more than {most} characters', key=name, most=LONGEST_LABEL)
+        raise BadProperty(message, field=name)
     if not is_printable(label.replace('\n', '')):
         raise BadProperty(f'{name} has an unprintable character', field=name)
     return label

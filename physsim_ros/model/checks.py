@@ -22,6 +22,7 @@ from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.texts import nearest_name, Words
 from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.translation import Text
 
 # Greatest speed [m/s] and spin [rad/s]. A body at this speed covers metres in a step, which
 # float64 positions resolve.
@@ -86,7 +87,8 @@ def number(value: object, name: str) -> float:
     """
     # Numbers of NumPy are `Real`, too.
     if isinstance(value, bool) or not isinstance(value, int | float | Real):
-        raise BadProperty(f'{name} must be a number, not {shown(value)}', field=name)
+        message = Text('{key} must be a number, not {value}', key=name, value=shown(value))
+        raise BadProperty(message, field=name)
     try:
         result = float(value)
     except OverflowError:
@@ -124,8 +126,15 @@ class Within:
         """
         result = number(value, name)
         if not self.low <= result <= self.high:
-            span = f'{self.low:g} and {self.high:g} {self.unit}'.rstrip()
-            raise BadProperty(f'{name} is {result:g}; it must lie between {span}', field=name)
+            message = Text(
+                '{key} is {value:g}; it must lie between {low:g} and {high:g}{unit}',
+                key=name,
+                value=result,
+                low=self.low,
+                high=self.high,
+                unit=self.unit and f' {self.unit}',
+            )
+            raise BadProperty(message, field=name)
         return result
 
 
@@ -177,9 +186,9 @@ class Numbers:
         """
         count = len(self.checks)
         if not isinstance(value, list | tuple):
-            raise BadProperty(
-                f'{name} is {shown(value)}; it must be a list of {count} numbers', field=name
-            )
+            template = '{key} is {value}; it must be a list of {count} numbers'
+            message = Text(template, key=name, value=shown(value), count=count)
+            raise BadProperty(message, field=name)
         if len(value) != count:
             raise Malformed(f'{name} needs {count} numbers, not {len(value)}', field=name)
         return tuple(check(each, name) for check, each in zip(self.checks, value, strict=True))
@@ -250,9 +259,14 @@ class Vector:
         """
         vector = pair(value, name)
         if math.hypot(*vector) > self.longest:
-            raise BadProperty(
-                f'{name} is {self.beyond} than {self.longest:g} {self.unit}'.rstrip(), field=name
+            message = Text(
+                '{key} is {beyond} than {most:g}{unit}',
+                key=name,
+                beyond=self.beyond,
+                most=self.longest,
+                unit=self.unit and f' {self.unit}',
             )
+            raise BadProperty(message, field=name)
         return vector
 
 
@@ -277,7 +291,8 @@ def flag(value: object, name: str) -> bool:
     :raises BadProperty: it is neither
     """
     if not isinstance(value, bool):
-        raise BadProperty(f'{name} must be true or false, not {shown(value)}', field=name)
+        message = Text('{key} must be true or false, not {value}', key=name, value=shown(value))
+        raise BadProperty(message, field=name)
     return value
 
 
@@ -408,9 +423,10 @@ def check_yaw(yaw: Any, name: str) -> float:
 
 def _check_near(x: float, y: float, name: str) -> None:
     if max(abs(x), abs(y)) > FARTHEST:
-        raise BadProperty(f'{name} is further away than {FARTHEST:g} m', field=name)
+        message = Text('{key} is further away than {most:g} m', key=name, most=FARTHEST)
+        raise BadProperty(message, field=name)
 
 
 def _check_turn(yaw: float, name: str) -> None:
     if abs(yaw) > FARTHEST:
-        raise BadProperty(f'the yaw of {name} is too large', field=name)
+        raise BadProperty(Text('the yaw of {key} is too large', key=name), field=name)

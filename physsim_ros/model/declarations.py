@@ -25,7 +25,8 @@ from typing import Any, ClassVar, Generic, Self, TypeVar
 
 from physsim_ros.model.checks import Check, LONGEST_SHOWN, shown
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.texts import name_meant, nearest_name, Words
+from physsim_ros.model.texts import hint_of, no_kind, Words
+from physsim_ros.model.translation import Text
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +133,7 @@ class Checked:
         cls.check_keys(mapping)
         for each in cls.FIELDS.values():
             if each.default is MISSING and each.name not in mapping:
-                raise BadProperty(f'{each.name} is missing', field=each.name)
+                raise BadProperty(Text('{key} is missing', key=each.name), field=each.name)
         return cls(**mapping)
 
     @classmethod
@@ -214,11 +215,11 @@ def check_key(key: object, known: Mapping[str, Collection[str]]) -> None:
     if key in known:
         return
     word = str(key)
-    meant = name_meant(word, known)
-    hint = f'; use {meant!r}' if meant else nearest_name(word.lower(), known)
+    hint = hint_of(word, known)
     if known and not hint:
-        hint = f'; there are {", ".join(known)}'
-    raise UnknownProperty(f'there is no property {shown(word)}{hint}', field=word[:LONGEST_SHOWN])
+        hint = Text('; there are {names}', names=', '.join(known))
+    message = Text('there is no property {key}{hint}', key=shown(word), hint=hint)
+    raise UnknownProperty(message, field=word[:LONGEST_SHOWN])
 
 
 def known_mapping(value: object, name: str, known: Collection[str]) -> dict[Any, Any]:
@@ -273,12 +274,8 @@ class OfKind(Generic[_Value]):
             raise BadProperty(f'{name} has no kind, which is one of {words}', field='kind')
         if not isinstance(kind, str) or kind not in self.kinds:
             word = shown(kind).strip("'")
-            meant = name_meant(word, self.everyday)
-            hint = f"; use '{meant}'" if meant else nearest_name(word, self.kinds)
-            raise BadProperty(
-                f'there is no kind of {self.noun} {shown(kind)}{hint}; there are {words}',
-                field='kind',
-            )
+            hint = hint_of(word, self.everyday)
+            raise BadProperty(no_kind(self.noun, shown(kind), hint, words), field='kind')
         rest, known = {key: value[key] for key in value if key != 'kind'}, self.kinds[kind].FIELDS
         for key in rest:
             if key not in known and any(key in each.FIELDS for each in self.kinds.values()):

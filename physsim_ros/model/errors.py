@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from physsim_ros.model.texts import abbreviated, message_text, nearest_name
+from physsim_ros.model.translation import Text
 
 
 class PhysSimError(Exception):
@@ -23,6 +24,12 @@ class PhysSimError(Exception):
 
     def __init__(self, message: str = '') -> None:
         super().__init__(message_text(message))
+
+    @property
+    def text(self) -> str:
+        """Return the message; one that pages translate is a `Text`."""
+        message: str = self.args[0]
+        return message
 
 
 class Refusal(PhysSimError):
@@ -267,7 +274,8 @@ def no_body(name: str, known: Iterable[str], field: str) -> UnknownBody:
     :param known: names of which the most similar one is told
     :param field: of the request, that has the name
     """
-    return UnknownBody(f'there is no body {name!r}{nearest_name(name, known)}', field=field)
+    message = Text('there is no body {body!r}{near}', body=name, near=nearest_name(name, known))
+    return UnknownBody(message, field=field)
 
 
 def no_joint(name: str, known: Iterable[str], field: str) -> UnknownJoint:
@@ -290,4 +298,4 @@ def no_frame(frame: str, known: Iterable[str]) -> UnknownFrame:
 def nothing_at(point: tuple[float, float], field: str) -> NothingThere:
     """Return the refusal of a point in no body [m], of a field of the request."""
     x, y = point
-    return NothingThere(f'there is no body at ({x:g}, {y:g})', field=field)
+    return NothingThere(Text('there is no body at ({x:g}, {y:g})', x=x, y=y), field=field)

@@ -31,8 +31,9 @@ from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.latency import COMMAND_RATE, COMMAND_RATE_WORDS, delays, LATENCY_WORDS
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.texts import name_meant, nearest_name, Words
+from physsim_ros.model.texts import hint_of, no_kind, Words
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # Greatest ratio of a gear, and the inverse of the least: between the fastest and the slowest wheel
 # of a clock it is 1e6.
@@ -67,7 +68,8 @@ def _direction(value: object, name: str) -> float:
 def _ratio(value: object, name: str) -> float:
     ratio = Within(-MOST_RATIO, MOST_RATIO)(value, name)
     if abs(ratio) < 1.0 / MOST_RATIO:
-        raise BadProperty(f'{name} is {ratio:g}; it must not be 0', field=name)
+        message = Text('{key} is {value:g}; it must not be 0', key=name, value=ratio)
+        raise BadProperty(message, field=name)
     return ratio
 
 
@@ -244,11 +246,8 @@ def kind_from(value: object) -> JointKind:
         raise BadProperty(f'a joint needs a kind: {kinds}', field='kind')
     # `shown` bounds the text: aliases of YAML may unfold to millions of words.
     word = shown(value).strip("'")
-    meant = name_meant(word, {kind: kind.schema.words for kind in JointKind})
-    hint = f"; use '{meant}'" if meant else nearest_name(word.lower(), JointKind)
-    raise BadProperty(
-        f'there is no kind of joint {shown(value)}{hint}; there are {kinds}', field='kind'
-    )
+    hint = hint_of(word, {kind: kind.schema.words for kind in JointKind})
+    raise BadProperty(no_kind('joint', shown(value), hint, kinds), field='kind')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -428,10 +427,8 @@ class JointProperties(Checked):
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
         if self.lower is not None and self.upper is not None and self.lower > self.upper:
-            raise BadProperty(
-                f'lower is {self.lower:g} and upper {self.upper:g}; lower must not be greater',
-                field='lower',
-            )
+            message = 'lower is {lower:g} and upper {upper:g}; lower must not be greater'
+            raise BadProperty(Text(message, lower=self.lower, upper=self.upper), field='lower')
         if self.rate is not None and self.effort:
             raise BadProperty(
                 'a slider has either a rate, with which it is driven, or an effort, with which '

@@ -11,6 +11,7 @@ from physsim_ros.model.checks import text
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.spelling import has_invisible
 from physsim_ros.model.texts import abbreviated, is_printable, LONGEST_WORD
+from physsim_ros.model.translation import Text
 
 # Name of the background in joints, contacts and frames.
 WORLD = 'world'
@@ -93,6 +94,11 @@ def _check_visible(name: str, field: str) -> None:
 def shown_name(name: str) -> str:
     """Return a name for answers: unchanged, or abbreviated if it is too long for a body."""
     return abbreviated(name, LONGEST_NAME if len(name) <= LONGEST_NAME else LONGEST_WORD)
+
+
+def shown_end(name: str) -> str:
+    """Return a body of a joint for messages: its name, or the background."""
+    return Text('the background') if name == WORLD else name
 
 
 def split_name(name: str) -> tuple[str, int]:

@@ -28,6 +28,7 @@ from physsim_ros.model.media import DRAG, FLUID_DENSITY, GUST_TIME, GUSTS, Mediu
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 Bounds = tuple[float, float, float, float]
 
@@ -245,4 +246,11 @@ def check_limit(limit: str, count: int, settings: WorldSettings) -> None:
     """
     most = getattr(settings, limit)
     if count > most:
-        raise WorldFull(f'the world would have {count} {_COUNTED[limit]}; {limit} is {most}')
+        message = Text(
+            'the world would have {count} {things}; {limit} is {most}',
+            count=count,
+            things=Text(_COUNTED[limit]),
+            limit=limit,
+            most=most,
+        )
+        raise WorldFull(message)

@@ -11,6 +11,8 @@ from itertools import islice
 from typing import Self
 import unicodedata
 
+from physsim_ros.model.translation import Text
+
 # Unicode categories of control characters, surrogates, line and paragraph separators. Format
 # characters are allowed: Persian, Hindi and emoji need them.
 _UNPRINTABLE = {'Cc', 'Cs', 'Zl', 'Zp'}
@@ -64,16 +66,11 @@ def abbreviated(text: str, longest: int = LONGEST_WORD) -> str:
 
 def message_text(text: str) -> str:
     """Return a message, escaped; its long words and the message itself are abbreviated."""
+    english = text
     if len(text) > LONGEST_WORD:
-        text = ' '.join(map(abbreviated, text.split(' ')))
-    return abbreviated(text, LONGEST_MESSAGE)
-
-
-def counted(number: int, noun: str) -> str:
-    """Return a number and its noun: 1 body, 2 bodies."""
-    if number != 1:
-        noun = f'{noun[:-1]}ies' if noun.endswith('y') else f'{noun}s'
-    return f'{number} {noun}'
+        english = ' '.join(map(abbreviated, text.split(' ')))
+    english = abbreviated(english, LONGEST_MESSAGE)
+    return text.abbreviated(english) if isinstance(text, Text) else english
 
 
 def nearest_name(name: str, known: Iterable[str]) -> str:
@@ -89,8 +86,10 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
     similar = difflib.get_close_matches(abbreviated(name), compared, 1, _SIMILAR)
     begun = [each for each in compared if f'_{name}' in f'_{each}']
     near = (begun[:_MOST_NAMED] if len(name) >= _LEAST_PART else []) or similar
-    verb = 'are' if len(near) > 1 else 'is'
-    return f'; nearest {verb} {", ".join(map(repr, near))}' if near else ''
+    if not near:
+        return ''
+    template = '; nearest are {names}' if len(near) > 1 else '; nearest is {names}'
+    return Text(template, names=', '.join(map(repr, near)))
 
 
 def name_meant(word: str, everyday: Mapping[str, Collection[str]]) -> str:
@@ -101,3 +100,25 @@ def name_meant(word: str, everyday: Mapping[str, Collection[str]]) -> str:
     """
     word = word.lower().replace(' ', '_').replace('-', '_')
     return next((name for name, words in everyday.items() if word in words), '')
+
+
+def hint_of(word: str, everyday: Mapping[str, Collection[str]]) -> str:
+    """
+    Return the end of a sentence that names what people mean by a word, or the most similar name.
+
+    :param everyday: words by the names that there are
+    """
+    meant = name_meant(word, everyday)
+    return Text("; use '{name}'", name=meant) if meant else nearest_name(word.lower(), everyday)
+
+
+def no_kind(noun: str, kind: str, hint: str, kinds: str) -> Text:
+    """
+    Return the message about a kind that there is not.
+
+    :param noun: of which it would be a kind
+    :param hint: `hint_of` it
+    :param kinds: that there are
+    """
+    template = 'there is no kind of {noun} {kind}{hint}; there are {kinds}'
+    return Text(template, noun=noun, kind=kind, hint=hint, kinds=kinds)

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
 
+from physsim_ros.model.translation import Text
+
 
 class RunState(StrEnum):
     """
@@ -33,7 +35,9 @@ class RunState(StrEnum):
 def run_state(speed: float) -> str:
     """Return the word for a speed: paused, playing or rewinding, with its factor if not 1."""
     state = RunState.of(speed)
-    return state if abs(speed) in (0.0, 1.0) else f'{state} at {abs(speed):g}'
+    if abs(speed) in {0.0, 1.0}:
+        return Text(state)
+    return Text('{state} at {speed:g}', state=Text(state), speed=abs(speed))
 
 
 def stamp_of(step: int, physics_rate: float) -> int:

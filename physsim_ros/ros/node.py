@@ -20,7 +20,7 @@ from physsim_ros.drawing import DrawingSession, Tool
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.model.texts import counted
+from physsim_ros.model.translation import counted
 from physsim_ros.ros import parameters
 from physsim_ros.ros.diagnostics import Diagnostics
 from physsim_ros.ros.drawing_topics import DrawingTopics

@@ -17,6 +17,7 @@ from physsim_ros.files import on_thread
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Running
 from physsim_ros.model.timeline import run_state
+from physsim_ros.model.translation import Text
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.frame_statistics import FrameStatistics
 from physsim_ros.ros.requests.request_topics import RequestTopics
@@ -87,7 +88,7 @@ class NodeTimeControl:
         """
         # + 0.0 removes the sign of a negative zero.
         self._simulation.speed = speed + 0.0
-        return f'speed {self._simulation.speed:g}'
+        return Text('speed {speed:g}', speed=self._simulation.speed)
 
     def _run_at(self, speed: float) -> str:
         self.set_speed(speed)
@@ -115,7 +116,7 @@ class NodeTimeControl:
         :raises Running: time is running
         """
         if self._simulation.speed == 0 and not self._loop.apply_in_time():
-            return f'at {self._simulation.playback.queue_frame() * 1e-9:.6f} s'
+            return _at(self._simulation.playback.queue_frame())
         return self.advance_frame()
 
     def advance_frame(self) -> str:
@@ -127,7 +128,7 @@ class NodeTimeControl:
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
         self._loop.make_frame()
-        return f'at {self._simulation.world.stamp * 1e-9:.6f} s'
+        return _at(self._simulation.world.stamp)
 
     async def reset(self) -> str:
         """Go to the beginning, which a thread builds."""
@@ -137,3 +138,8 @@ class NodeTimeControl:
         """Return the beginning of the state that was loaded last, which a thread builds."""
         loaded, rate = self._simulation.loaded, self._simulation.physics_rate
         return await on_thread(partial(beginning_of, loaded, rate))
+
+
+def _at(stamp: int) -> str:
+    """Return the message about a moment, by its simulation time [ns]."""
+    return Text('at {time}', time=f'{stamp * 1e-9:.6f} s')

@@ -25,7 +25,7 @@ from physsim_ros.files import (
 )
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
-from physsim_ros.model.texts import counted
+from physsim_ros.model.translation import counted, Text
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.requests.services import Service
 from physsim_ros.runtime.slices import finish
@@ -78,7 +78,7 @@ class WorldFiles:
         :raises Refusal: there is no such file, or it is refused
         """
         beginning, path = await self._build(name, confined=confined)
-        return f'{self._simulation.load(beginning)} from {path.name}'
+        return _loaded(self._simulation.load(beginning), path)
 
     async def open_world(self, name: str) -> str:
         """
@@ -89,7 +89,7 @@ class WorldFiles:
         :raises Refusal: there is no such file, or it is refused
         """
         beginning, path = await self._build(name, confined=True)
-        return f'{self._simulation.open_world(beginning)} from {path.name}'
+        return _loaded(self._simulation.open_world(beginning), path)
 
     async def save(self, name: str) -> str:
         """
@@ -106,9 +106,11 @@ class WorldFiles:
             return state, save_world(state, name, world_dir=directory, physics_rate=rate)
 
         state, path = await on_thread(write, finishes=True)
-        message = f'saved {counted(len(state.bodies), "body")} to {path.name}'
+        values = {'bodies': counted(len(state.bodies), 'body'), 'world': path.stem}
+        message = Text('saved {bodies} to {world}.yaml', **values)
         if hides_shipped(path, world_dir=directory):
-            message += '; from now on it comes before the shipped world of that name'
+            hint = Text('from now on it comes before the shipped world of that name')
+            return Text('{first}; {then}', first=message, then=hint)
         return message
 
     async def _build(self, name: str, *, confined: bool) -> tuple[Beginning, Path]:
@@ -139,3 +141,9 @@ class WorldFiles:
             # Peers on the graph, who may name any file here, are not told what it holds.
             raise BadWorldFile(refusal.brief, field='world_file') from refusal
         return state, path
+
+
+def _loaded(done: str, path: Path) -> str:
+    """Return the message about a world that was loaded from a file."""
+    template = '{loaded} from {world}{suffix}'
+    return Text(template, loaded=done, world=path.stem, suffix=path.suffix)

@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
 from physsim_ros.model.timeline import CourseSpan, RunState, stamp_of, TimelineStatus
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.past import CachedFrame, Moment, Past
 from physsim_ros.simulation.world import World
@@ -143,8 +144,8 @@ class Playback:
             course=past.tree.course,
             line=past.frames.line_number,
             parts=past.frames.parts / rate,
-            undo=undo and f'undo {undo}',
-            redo=redo and f'redo {redo}',
+            undo=undo and Text('undo {gesture}', gesture=undo),
+            redo=redo and Text('redo {gesture}', gesture=redo),
             courses=tuple(
                 CourseSpan(line.course, min(step, line.head) / rate, line.head / rate)
                 for line, step in courses

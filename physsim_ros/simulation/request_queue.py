@@ -29,6 +29,7 @@ from physsim_ros.model.requests import (
     MoveHand,
     Request,
 )
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.calls_under_way import CallsUnderWay
 from physsim_ros.simulation.entries import (
@@ -369,7 +370,7 @@ class RequestQueue:
             self._tell_arrival()
         else:
             self._supersede('seek')
-        return f'at {self._playback.time}'
+        return Text('at {time}', time=self._playback.time)
 
     def note_jump(self) -> None:
         """Show the moment to which something else than a seek has sent the cursor."""
@@ -385,7 +386,8 @@ class RequestQueue:
 
     def _supersede(self, by: str) -> None:
         """Answer the seek that was under way, in whose place the cursor went elsewhere."""
-        self._tell_arrival(f'superseded by a {by} to {self._playback.time}')
+        time = self._playback.time
+        self._tell_arrival(Text('superseded by a {by} to {time}', by=by, time=time))
 
     def _tell_arrival(self, superseded: str = '') -> None:
         if self._answer_arrival is not None:

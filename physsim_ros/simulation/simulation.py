@@ -23,6 +23,7 @@ from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
@@ -340,7 +341,7 @@ class Simulation(FrameMaker):
         with self._jump() as past:
             done = past.reset(seed, ahead)
             self._note_beginning()
-        return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
+        return Text('back at the beginning, time 0' if done else 'at the beginning, time 0')
 
     def open_world(self, world: WorldState | Beginning) -> str:
         """
@@ -363,7 +364,7 @@ class Simulation(FrameMaker):
         """
         with self._jump() as past:
             undone = past.undo()
-        return f'undid {undone}, back at {self.playback.time}'
+        return Text('undid {gesture}, back at {time}', gesture=undone, time=self.playback.time)
 
     def redo(self) -> str:
         """
@@ -373,7 +374,7 @@ class Simulation(FrameMaker):
         """
         with self._jump() as past:
             redone = past.redo()
-        return f'redid {redone}, at {self.playback.time}'
+        return Text('redid {gesture}, at {time}', gesture=redone, time=self.playback.time)
 
     def return_to_course(self, number: int) -> str:
         """
@@ -385,7 +386,7 @@ class Simulation(FrameMaker):
         with self._jump() as past:
             if past.return_to_course(number):
                 self.requests.hands.clear()
-        return f'on course {number}, at {self.playback.time}'
+        return Text('on course {course}, at {time}', course=number, time=self.playback.time)
 
     def seek(self, stamp: int) -> str:
         """

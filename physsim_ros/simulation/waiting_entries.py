@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy
 from physsim_ros.model.requests import KeepHand, MoveHand
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.entries import Entry, Seek
 
 # Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
@@ -71,7 +72,8 @@ class WaitingEntries:
     def add_seek(self, entry: Entry, seek: Seek) -> None:
         """Add a seek; the one that waits as the last entry is answered as superseded."""
         if (waiting := self._seek) is not None:
-            message = f'superseded by a seek to {seek.stamp * 1e-9:.3f} s'
+            time = f'{seek.stamp * 1e-9:.3f} s'
+            message = Text('superseded by a {by} to {time}', by='seek', time=time)
             topic, asker = waiting.origin.topic, waiting.origin.asker
             waiting.request = Answer(topic=topic, message=message, asker=asker)
         self.add(entry)

@@ -30,6 +30,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import InUse, WorldFull
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.translation import Text
 from physsim_ros.sketchpad.file_work import FileWork
 
 # Least time from one autosave to the next while bodies move and while nothing does [s], and its
@@ -150,7 +151,7 @@ class Autosave:
         """
         self._begin()
         self._unsaved.unlink(missing_ok=True)
-        return 'discarded the unsaved world'
+        return Text('discarded the unsaved world')
 
     def note_frame(self, frame: Frame, *, drawn: bool) -> None:
         """
@@ -223,7 +224,9 @@ class Autosave:
         before, self.failure = self.failure, None if error is None else _failure(error)
         if self.failure == before:
             return None
-        return self.failure or Answer(topic=_TOPIC, message='what was drawn is autosaved again')
+        return self.failure or Answer(
+            topic=_TOPIC, message=Text('what was drawn is autosaved again')
+        )
 
     def _write(self, text: Callable[[int], str], names: Sequence[str]) -> _Written:
         """
@@ -248,6 +251,6 @@ def _failure(error: _Failure) -> Answer:
     """Return the event of a failure."""
     # The path is nobody's business on a page.
     reason = error.strerror if isinstance(error, OSError) else error
-    message = f'what was drawn is not autosaved: {reason}'
+    message = Text('what was drawn is not autosaved: {reason}', reason=reason)
     code = error.code if isinstance(error, InUse) else 'autosave_failed'
     return Answer(topic=_TOPIC, message=message, code=code)

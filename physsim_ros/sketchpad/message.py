@@ -15,12 +15,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 import json
+from string import Formatter
 from typing import Any, NamedTuple, TypeVar
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.checks import shown
 from physsim_ros.model.declarations import check_key
 from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.texts import abbreviated
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.garbage_collection import suspended_collection
 from physsim_ros.simulation.entries import Origin
@@ -230,6 +233,24 @@ def request_of(origin: Origin) -> str:
     return asker_of(origin.asker)[1]
 
 
+def text_content(text: str) -> list[Any]:
+    """
+    Return a text for pages: its template, and its values by name, each a string or such a text.
+
+    A text that pages do not translate is its own template.
+    """
+    if not isinstance(text, Text):
+        return [text, {}]
+    formats = {name: format_ for _, name, format_, _ in Formatter().parse(text.template) if name}
+    values = {
+        name: text_content(value)
+        if isinstance(value, Text)
+        else abbreviated(format(value, formats.get(name) or ''))
+        for name, value in text.values.items()
+    }
+    return [text.template, values]
+
+
 def answer_content(answer: Answer, request: str) -> dict[str, Any]:
     """
     Return the message of an answer.
@@ -242,6 +263,7 @@ def answer_content(answer: Answer, request: str) -> dict[str, Any]:
         'ok': not answer.code,
         'code': answer.code,
         'message': answer.message,
+        'text': text_content(answer.message),
         'subject': answer.subject,
         'topic': answer.topic,
         'field': answer.field,

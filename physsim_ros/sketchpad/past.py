@@ -32,7 +32,7 @@ from physsim_ros.model.transform import local_to_world, rotated_each
 from physsim_ros.simulation.past import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.contacts import touches_content
-from physsim_ros.sketchpad.message import Content
+from physsim_ros.sketchpad.message import Content, text_content
 
 # Time from one timeline to the next while nothing but its time changes [s].
 TIMELINE_PERIOD = 0.1
@@ -111,6 +111,8 @@ def timeline_content(status: TimelineStatus) -> dict[str, Any]:
         'parts': status.parts,
         'undo': status.undo,
         'redo': status.redo,
+        'undo_text': text_content(status.undo),
+        'redo_text': text_content(status.redo),
         'courses': [
             {'id': each.number, 'from': each.begins, 'to': each.ends} for each in status.courses
         ],

@@ -72,4 +72,4 @@ def test_a_body_is_copied_beside_with_its_joint_to_the_background(sheet: Sheet) 
     sheet.wait('"drawn/0" in physsim.bodies')
     # By its width and half a metre.
     assert sheet.pose('drawn/0')[:2] == pytest.approx([0.5, 0.5])
-    sheet.told('Copied one body')
+    sheet.told('Copied 1 body')

@@ -30,8 +30,9 @@ from physsim_ros.drawing.strokes.stages import (
 )
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import WORLD
+from physsim_ros.model.names import shown_end
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # The size of an axle or a weld, in shares of the greatest.
 _SMALL = Limit(1.0)
@@ -144,11 +145,11 @@ def _largest_joint(center: Point, under: Sequence[str], context: Context) -> flo
 
 def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
     point, pairs = axle_pairs(center, context)
-    names = [pairs[0][0], *('the background' if b == WORLD else b for _, b in pairs)]
+    names = [pairs[0][0], *(shown_end(b) for _, b in pairs)]
     return Outcome(
         requests=tuple(outcomes.joins_at(JointKind.AXLE, point, pairs, context)),
         subject=names[0],
-        message=f'an axle between {", ".join(names[:-1])} and {names[-1]}',
+        message=Text('an axle between {a} and {b}', a=', '.join(names[:-1]), b=names[-1]),
         outline=circle_outline(point, radius),
     )
 
@@ -158,6 +159,6 @@ def _weld_bodies(point: Point, under: tuple[str, ...], context: Context) -> Outc
     return Outcome(
         requests=tuple(outcomes.joins_at(JointKind.PIN, point, [(a, b)], context)),
         subject=a,
-        message=f'a pin between {a} and {b}',
+        message=Text('a pin between {a} and {b}', a=a, b=b),
         outline=context.drawn.points,
     )

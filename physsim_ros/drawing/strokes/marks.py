@@ -16,6 +16,7 @@ from physsim_ros.drawing.strokes.grouping import follows, is_side
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.resampled import middle_half
 from physsim_ros.drawing.strokes.stages import Guess, Outcome, Reading
+from physsim_ros.model.translation import Text
 
 
 def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSettings) -> bool:
@@ -42,7 +43,10 @@ def mark_reading(line: Figure) -> Reading:
         confidence=line.guesses[0].confidence if line.guesses else 1.0,
         group_confidence=1.0,
         build=lambda: Outcome(
-            requests=(), subject='', message='a mark, which has no effect', outline=line.strokes[0]
+            requests=(),
+            subject='',
+            message=Text('a mark, which has no effect'),
+            outline=line.strokes[0],
         ),
     )
     return reading_of((mark, *line.guesses), 0)

@@ -28,6 +28,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.transform import cross
+from physsim_ros.model.translation import Text
 
 # The least straightness of a rod and of the advance of round teeth, the greatest of a rope: the
 # distance of the ends by the length. An arc as high as a seventh of its chord has 0.95.
@@ -165,6 +166,11 @@ def _make_heavier(name: str, lines: int, context: Context) -> Outcome:
     return Outcome(
         requests=(heavier,),
         subject=name,
-        message=f'{name} is heavier by {_HEAVIER**lines - 1.0:.0%}: {density:.3g} kg/m²',
+        message=Text(
+            '{body} is heavier by {share:.0%}: {density:.3g} kg/m²',
+            body=name,
+            share=_HEAVIER**lines - 1.0,
+            density=density,
+        ),
         outline=context.drawn.points,
     )

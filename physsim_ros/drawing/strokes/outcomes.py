@@ -22,6 +22,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
 from physsim_ros.model.requests import Join
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 
 def disc(points: Floats, context: Context) -> Outcome:
@@ -31,7 +32,7 @@ def disc(points: Floats, context: Context) -> Outcome:
     return Outcome(
         requests=(new_bodies.disc(name, center, radius, context.settings),),
         subject=name,
-        message=f'a disc of radius {radius:.3g} m',
+        message=Text('a disc of radius {radius:.3g} m', radius=radius),
         outline=circle_outline(center, radius),
     )
 
@@ -50,7 +51,7 @@ def rectangle(points: Floats, context: Context) -> Outcome:
     return Outcome(
         requests=(new_bodies.rectangle(name, pose, width, height, settings),),
         subject=name,
-        message=f'a rectangle of {width:.3g} m by {height:.3g} m',
+        message=Text('a rectangle of {width:.3g} m by {height:.3g} m', width=width, height=height),
         outline=_closed(np.array((x, y)) + corners),
     )
 
@@ -68,7 +69,7 @@ def smooth_polygon(corners: Floats, context: Context) -> Outcome:
     return Outcome(
         requests=(new_bodies.polygon(name, list(map(point_of, corners)), context.settings),),
         subject=name,
-        message=f'a polygon of {len(corners)} corners',
+        message=Text('a polygon of {count} corners', count=len(corners)),
         outline=_closed(corners),
     )
 
@@ -88,7 +89,7 @@ def wall(points: Floats, context: Context) -> Outcome:
     return Outcome(
         requests=(new_bodies.wall(name, corners, settings),),
         subject=name,
-        message=f'a wall of {length:.3g} m',
+        message=Text('a wall of {length:.3g} m', length=length),
         outline=np.array(corners),
     )
 
@@ -98,7 +99,8 @@ def join(kind: JointKind, ends: tuple[End, End], context: Context) -> Outcome:
     first, last = ends
     name = context.scene.next_joint()
     line: tuple[Point, ...] = (first.point, last.point)
-    message = f'{kind.phrase} from {first.body} to {last.body}'
+    a, b = first.body, last.body
+    message = Text('{joint} from {a} to {b}', joint=kind.phrase, kind=Text(kind), a=a, b=b)
     properties = JointProperties()
     passed = context.wheels[: MOST_STOPS - 2] if kind is JointKind.ROPE else ()
     if passed:
@@ -107,14 +109,13 @@ def join(kind: JointKind, ends: tuple[End, End], context: Context) -> Outcome:
         names = tuple(wheel for wheel, _ in passed)
         properties = JointProperties(over=names)
         line = (first.point, *(point for _, point in passed), last.point)
-        message += f' over {", ".join(names)}'
+        over = ', '.join(names)
+        message = Text('{message} over {names}', message=message, names=over)
     elif kind is JointKind.ROPE:
         # A rope is as long as it was drawn.
         straight = math.dist(first.point, last.point)
         properties = JointProperties(length=max(context.drawn.length, straight))
-    request = Join(
-        name=name, kind=kind, points=line, a=first.body, b=last.body, properties=properties
-    )
+    request = Join(name=name, kind=kind, points=line, a=a, b=b, properties=properties)
     return Outcome(
         requests=(request,),
         subject=name,

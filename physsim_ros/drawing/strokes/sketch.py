@@ -20,6 +20,7 @@ from physsim_ros.drawing.strokes.marks import marked_solid
 from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.waiting import readings_over
 from physsim_ros.drawing.strokes.waiting_joints import requests_with_waiting_joints
+from physsim_ros.model.translation import Text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -71,7 +72,7 @@ class Sketch:
         message, also, mark = reading.message, [], self.mark
         for (stroke, *_), over in readings_over(figure, earlier, settings):
             requests += over.requests
-            message += f'; {over.message}'
+            message = Text('{first}; {then}', first=message, then=over.message)
             also.append(over.meaning)
             if over.meaning == 'mark':
                 mark = replace(stroke, requests=(), gestures=())

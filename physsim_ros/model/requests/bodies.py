@@ -36,6 +36,7 @@ from physsim_ros.model.requests.request import (
 )
 from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import ORIGIN, Point, Pose, Twist
+from physsim_ros.model.translation import Text
 
 
 def _names(value: object, name: str) -> tuple[str, ...]:
@@ -71,7 +72,8 @@ def _duration(value: object, name: str) -> float:
 def _driven(value: object, name: str) -> Twist:
     vx, vy, turn = check_finite(value, 3, name)
     if max(abs(vx), abs(vy), abs(turn)) > FASTEST:
-        raise BadProperty(f'{name} is faster than {FASTEST:g} m/s or rad/s', field=name)
+        message = Text('{key} is faster than {most:g} m/s or rad/s', key=name, most=FASTEST)
+        raise BadProperty(message, field=name)
     return vx, vy, turn
 
 
@@ -109,7 +111,7 @@ class Spawn(Request):
 
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with what it is a part of."""
-        return Request.phrase(self, self.whole or subject)
+        return Request.phrase(self, Text(self.whole) or subject)
 
     @property
     def is_whole_gesture(self) -> bool:
@@ -247,14 +249,17 @@ class Command(Request):
             rows = checked_rows(getattr(self, array), len(self.names), name)
             object.__setattr__(self, array, rows)
         if greatest(self.poses[:, :2]) > FARTHEST:
-            raise BadProperty(
-                f'transforms is further away than {FARTHEST:g} m', field='transforms'
+            message = Text(
+                '{key} is further away than {most:g} m', key='transforms', most=FARTHEST
             )
+            raise BadProperty(message, field='transforms')
         if greatest(self.poses[:, 2]) > FARTHEST:
-            raise BadProperty('the yaw of transforms is too large', field='transforms')
+            message = Text('the yaw of {key} is too large', key='transforms')
+            raise BadProperty(message, field='transforms')
         # The coordinates first, so that their squares do not overflow.
         if greatest(self.twists) > FASTEST or greatest(np.hypot(*self.twists.T[:2])) > FASTEST:
-            raise BadProperty(f'twist is faster than {FASTEST:g} m/s or rad/s', field='twist')
+            message = Text('{key} is faster than {most:g} m/s or rad/s', key='twist', most=FASTEST)
+            raise BadProperty(message, field='twist')
         if greatest(self.wrenches) > HEAVIEST:
             raise BadProperty(f'wrench exceeds {HEAVIEST:g} N or N m', field='wrench')
 

@@ -10,6 +10,7 @@ from physsim_ros.model.checks import check_point, check_yaw, OfClass, text
 from physsim_ros.model.names import check_hand_name
 from physsim_ros.model.requests.request import as_field, Request
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +47,7 @@ class Grab(HandRequest):
 
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, by what the hand does with the body."""
-        return f'{"place" if self.paused else "drag"} {subject}'
+        return Text('place {thing}' if self.paused else 'drag {thing}', thing=subject)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

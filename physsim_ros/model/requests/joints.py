@@ -22,8 +22,8 @@ from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
 from physsim_ros.model.requests.request import AtPoint, OfNamespace, Request, several, UNSET
-from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import counted, Text
 
 
 def _check_ends(a: str, b: str) -> None:
@@ -98,13 +98,12 @@ class Join(Request):
         self.properties.check_kind(self.kind, self.unset)
         least = self.kind.schema.least_distance
         if least and math.dist(*self.points[:2]) < least:
-            raise BadSize(
-                f'the points of a {self.kind} must be at least {least:g} m apart', field='points'
-            )
+            message = 'the points of a {kind} must be at least {least:g} m apart'
+            raise BadSize(Text(message, kind=Text(self.kind), least=least), field='points')
 
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with its kind."""
-        return f'join {self.kind} {subject}'
+        return Text('join {kind} {joint}', kind=Text(self.kind), joint=subject)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

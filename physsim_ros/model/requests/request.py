@@ -13,6 +13,7 @@ from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.settings import check_setting, WorldSettings
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 UNSET = 'names of properties to reset to their defaults'
 
@@ -43,7 +44,8 @@ class Request(Checked):
         :param subject: name of the body or joint concerned, or ''
         """
         verb = self.VERB or type(self).__name__.lower()
-        return f'{verb} {subject or self.OBJECT}'.rstrip()
+        thing = subject or Text(self.OBJECT)
+        return Text(f'{verb} {{thing}}', thing=thing) if thing else verb
 
     @property
     def is_whole_gesture(self) -> bool:
@@ -56,10 +58,11 @@ def as_field(field: str, check: Callable[[Any, str], Any]) -> Callable[[object, 
     return lambda value, _: check(value, field)
 
 
-def several(bodies: Collection[object], joints: Collection[object]) -> str:
+def several(bodies: Collection[object], joints: Collection[object]) -> Text:
     """Return the object of a phrase about bodies, joints or both."""
-    kinds = ['bodies'] * bool(bodies) + ['joints'] * bool(joints)
-    return f'several {" and ".join(kinds)}'
+    if bodies and joints:
+        return Text('several bodies and joints')
+    return Text('several bodies' if bodies else 'several joints')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,7 +86,8 @@ class OfNamespace(Request):
         phrase = Request.phrase(self, subject)
         if self.namespace is None:
             return phrase
-        return f'{phrase} of {self.namespace or "no namespace"}'
+        namespace = self.namespace or Text('no namespace')
+        return Text('{gesture} of {namespace}', gesture=phrase, namespace=namespace)
 
 
 def _changes(value: object, name: str) -> dict[str, Any]:
@@ -113,7 +117,7 @@ class Configure(Request):
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with the setting if it is one."""
         names = list(self.changes)
-        return Request.phrase(self, names[0] if len(names) == 1 else subject)
+        return Request.phrase(self, Text(names[0]) if len(names) == 1 else subject)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

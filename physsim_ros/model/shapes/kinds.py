@@ -41,6 +41,7 @@ from physsim_ros.model.shapes.validation import (
 )
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import cross, Point
+from physsim_ros.model.translation import Text
 
 _Kind = TypeVar('_Kind', bound=Checked)
 
@@ -282,7 +283,8 @@ def shape_in(mapping: Mapping[Any, Any], noun: str, kinds: Mapping[str, type[_Ki
     """
     named = [key for key in kinds if key in mapping]
     if len(named) != 1:
-        raise BadProperty(f'{noun} has one of {", ".join(kinds)}', field='shape')
+        message = Text('{thing} has one of {keys}', thing=noun, keys=', '.join(kinds))
+        raise BadProperty(message, field='shape')
     return kinds[named[0]].from_value(mapping[named[0]], named[0])
 
 

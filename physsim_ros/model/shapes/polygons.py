@@ -27,6 +27,7 @@ from physsim_ros.model.errors import BadOutline, BadSize
 from physsim_ros.model.shapes.form import Convex, half_width
 from physsim_ros.model.shapes.validation import as_tuples, SMALLEST
 from physsim_ros.model.transform import cross, next_vertices
+from physsim_ros.model.translation import Text
 
 
 def signed_area(polygon: Floats) -> float:
@@ -93,7 +94,7 @@ def convex_piece(vertices: Floats) -> Convex:
     if signed_area(vertices) <= longest * DEGENERATE:
         raise BadOutline('an outline encloses no area', field='points')
     if 2 * half_width(piece) < SMALLEST:
-        raise BadSize(f'a part is thinner than {SMALLEST:g} m', field='points')
+        raise BadSize(Text('a part is thinner than {least:g} m', least=SMALLEST), field='points')
     return piece
 
 
@@ -124,7 +125,7 @@ def convex_pieces(outline: Floats) -> tuple[Convex, ...]:
     if abs(covered - whole) > SLIVERS * whole:
         raise BadOutline('the outline cannot be split into convex parts', field='points')
     if whole - kept > SLIVERS * whole:
-        raise BadSize(f'a part is thinner than {SMALLEST:g} m', field='points')
+        raise BadSize(Text('a part is thinner than {least:g} m', least=SMALLEST), field='points')
     return tuple(pieces)
 
 

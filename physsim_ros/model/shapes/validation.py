@@ -18,6 +18,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadOutline, BadSize, Malformed
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # Least length of a shape [m]: a fifth of the engine's collision slop (5 mm), within which bodies
 # overlap without force.
@@ -42,10 +43,14 @@ def checked_length(value: object, name: str) -> float:
     """
     length = number(value, name)
     if not SMALLEST <= length <= LARGEST:
-        raise BadSize(
-            f'{name} is {length:g} m; it must lie between {SMALLEST:g} and {LARGEST:g} m',
-            field=name,
+        message = Text(
+            '{key} is {value:g} m; it must lie between {low:g} and {high:g} m',
+            key=name,
+            value=length,
+            low=SMALLEST,
+            high=LARGEST,
         )
+        raise BadSize(message, field=name)
     return length
 
 
@@ -67,7 +72,9 @@ def checked_points(points: Sequence[Point], name: str) -> Floats:
     if len(array) > MOST_POINTS:
         raise BadOutline(f'{name} has more than {MOST_POINTS} points', field=name)
     if len(array) and np.abs(array).max() > LARGEST:
-        raise BadSize(f'{name} reaches further than {LARGEST:g} m', field=name)
+        raise BadSize(
+            Text('{key} reaches further than {most:g} m', key=name, most=LARGEST), field=name
+        )
     # Without negative zeros: equal shapes share one form, and have the same bits.
     return array + 0.0
 

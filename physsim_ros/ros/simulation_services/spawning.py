@@ -20,7 +20,7 @@ from physsim_ros.model.errors import Exists, Malformed, Refusal, UnknownFrame
 from physsim_ros.model.names import check_body_name
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.robots.robot import check_namespace
-from physsim_ros.model.texts import counted
+from physsim_ros.model.translation import counted
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.planar import named_frame, planar_pose
 from physsim_ros.ros.requests.conversions import mapping_of

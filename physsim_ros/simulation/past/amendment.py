@@ -16,6 +16,7 @@ from collections.abc import Generator, Iterator, Sequence
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.past.line import Line
 from physsim_ros.simulation.past.past import Past
 
@@ -59,10 +60,11 @@ def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Re
         raise InPast('the past is shown; go to its end first', field='history')
     first = past.line.last_gesture_of(author)
     if first is None:
-        raise OutOfHistory(f'there is nothing by {author.strip()} to undo', field='history')
+        message = Text('there is nothing by {person} to undo', person=author.strip())
+        raise OutOfHistory(message, field='history')
     before = yield from _Amendment(past, (first.gesture,), stands_alone=True).carry_out()
     past.tree.keep_undone(before, first.phrase(1))
-    return [Answer(message=f'undid {before.words}')]
+    return [Answer(message=Text('undid {gesture}', gesture=before.words))]
 
 
 class _Amendment:

@@ -25,6 +25,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.sizes import request_size
 from physsim_ros.model.snapshot import Contacts, Snapshot
+from physsim_ros.model.translation import Text
 
 
 class Moment(NamedTuple):
@@ -146,7 +147,9 @@ class Node:
         """
         phrase = self.request.phrase(self.subject)
         more = count > 1 and not self.request.is_whole_gesture
-        return f'{phrase} and {count - 1} more' if more else phrase
+        return (
+            Text('{gesture} and {count} more', gesture=phrase, count=count - 1) if more else phrase
+        )
 
     def __post_init__(self) -> None:
         self.end, parent = self.step, self.parent

@@ -26,6 +26,7 @@ from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
@@ -255,8 +256,13 @@ class Past:
         """Begin a course at this moment, and keep the line that is in force."""
         moment = self.cursor.moment
         left = self.tree.begin_course(moment, self.frames.drop_from(moment.step))
-        begun = f'course {self.tree.course} begins at {moment.step / self.physics_rate:.3f} s'
-        self.reports.append(Answer(topic='branch', message=f'{begun}; {left.course} is kept'))
+        message = Text(
+            'course {course} begins at {time:.3f} s; {left} is kept',
+            course=self.tree.course,
+            time=moment.step / self.physics_rate,
+            left=left.course,
+        )
+        self.reports.append(Answer(topic='branch', message=message))
 
     def added_by(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the bodies and the joints in the world that a person has added, by name."""
@@ -305,7 +311,7 @@ class Past:
         if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
-        self._begin_anew(state, 'reset', ahead)
+        self._begin_anew(state, Text('reset'), ahead)
         return True
 
     def open_world(self, state: WorldState, ahead: Beginning | None = None) -> None:
@@ -315,7 +321,7 @@ class Past:
         :param ahead: the beginning of the state, if it is built
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
-        self._begin_anew(state, 'open world', ahead)
+        self._begin_anew(state, Text('open world'), ahead)
 
     def _begin_anew(self, state: WorldState, words: str, ahead: Beginning | None) -> None:
         """

@@ -47,8 +47,8 @@ from physsim_ros.model.requests import (
     Release,
     Spawn,
 )
-from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, REST
+from physsim_ros.model.translation import counted, Text
 from physsim_ros.simulation.world import joint_requests
 from physsim_ros.simulation.world.assembly import (
     all_members,
@@ -87,7 +87,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
             changes['color'] = old.body.color
         here = old.pose
         _change(live, old, changes, here if is_same_pose(here, pose) else pose, request)
-        return Answer(subject=name, message=f'changed {name}')
+        return Answer(subject=name, message=Text('changed {body}', body=name))
     links, joints = parts_of(replace(request, pose=pose, frame=''))
     check_new_parts(space, links, joints)
     made = [
@@ -104,9 +104,11 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
         space.add(each, at, twist)
     for joint in joints:
         joint_requests.join(live, joint)
-    hint = '; gravity pulls it: robots are seen from above, with gravity [0, 0]'
-    falls = body.robot is not None and body.dynamic and any(live.settings.gravity)
-    return Answer(subject=name, message=f'spawned {name}{hint if falls else ""}')
+    message = Text('spawned {body}', body=name)
+    if body.robot is not None and body.dynamic and any(live.settings.gravity):
+        hint = 'gravity pulls it: robots are seen from above, with gravity [0, 0]'
+        message = Text('{first}; {then}', first=message, then=Text(hint))
+    return Answer(subject=name, message=message)
 
 
 def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
@@ -117,7 +119,7 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
     if request.pose is not None:
         pose = pose_in_world(space, request.pose, request.frame)
     _change(live, rigid, fields_set_by(request), pose, request)
-    return Answer(subject=name, message=f'changed {name}')
+    return Answer(subject=name, message=Text('changed {body}', body=name))
 
 
 def cut(live: LiveSpace, request: Cut) -> Answer:
@@ -146,8 +148,14 @@ def cut(live: LiveSpace, request: Cut) -> Answer:
     _regrip(live.space, whole, {piece.name for piece in request.pieces})
     subjects = whole + severed
     subject = subjects[0] if len(subjects) == 1 else ''
-    cuts = [f'into {len(request.pieces)} pieces'] * bool(whole) + severed
-    return Answer(subject=subject, message=f'cut {", ".join(cuts)}')
+    values = {'count': len(request.pieces), 'joints': ', '.join(severed)}
+    if not whole:
+        message = Text('cut {joints}', **values)
+    elif severed:
+        message = Text('cut into {count} pieces, {joints}', **values)
+    else:
+        message = Text('cut into {count} pieces', **values)
+    return Answer(subject=subject, message=message)
 
 
 def _regrip(space: Space, whole: Collection[str], pieces: Collection[str]) -> None:
@@ -171,7 +179,7 @@ def move_bodies(live: LiveSpace, request: MoveBodies) -> Answer:
     for pose in poses.values():
         check_pose(pose, 'by')
     set_poses(live, poses)
-    return _done('moved', request.names)
+    return _done('moved {bodies}', request.names)
 
 
 def command(live: LiveSpace, request: Command) -> Answer:
@@ -191,8 +199,8 @@ def command(live: LiveSpace, request: Command) -> Answer:
     for rigid, wrench in zip(rigids, _tuples(request.wrenches), strict=False):
         space.set_wrench(rigid, wrench, until)
     quantities = {'pose': request.poses, 'velocity': request.twists, 'force': request.wrenches}
-    said = ' and '.join(noun for noun, rows in quantities.items() if len(rows))
-    return _done(f'set {said or "nothing"} of', request.names)
+    said = ' and '.join(noun for noun, rows in quantities.items() if len(rows)) or 'nothing'
+    return _done('set {quantities} of {bodies}', request.names, quantities=Text(said))
 
 
 def anchor(live: LiveSpace, request: Anchor) -> Answer:
@@ -209,7 +217,7 @@ def anchor(live: LiveSpace, request: Anchor) -> Answer:
             raise BadProperty(f'{rigid.body.name} is {noun}; it cannot be anchored', field='point')
     if not rigid.body.anchored:
         space.change(rigid, replace(rigid.body, anchored=True), rigid.pose, REST)
-    return Answer(subject=rigid.body.name, message=f'anchored {rigid.body.name}')
+    return _done('anchored {bodies}', (rigid.body.name,))
 
 
 def release(live: LiveSpace, request: Release) -> Answer:
@@ -231,14 +239,17 @@ def release(live: LiveSpace, request: Release) -> Answer:
         live.capacity.check_body(body, rigid.pose, old=rigid)
         space.change(rigid, body, rigid.pose, REST)
     loosened = joint_requests.loosen(space, name, point)
-    return Answer(subject=name, message=' and removed '.join((f'released {name}', *loosened)))
+    if not loosened:
+        return _done('released {bodies}', (name,))
+    removed = ' and removed '.join(loosened)
+    return _done('released {bodies} and removed {joints}', (name,), joints=removed)
 
 
 def delete(live: LiveSpace, request: Delete) -> Answer:
     """Remove a body, or the robot of which it is a part, and its joints."""
     body_of_name(live.space, request.name)
     live.space.remove(members(live.space, request.name))
-    return _done('deleted', (request.name,))
+    return _done('deleted {bodies}', (request.name,))
 
 
 def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
@@ -255,9 +266,10 @@ def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
         live.space.unjoin(name)
     live.space.remove(all_members(live.space, request.names))
     if request.names:
-        return _done('deleted', request.names)
+        return _done('deleted {bodies}', request.names)
     subject = request.joints[0] if len(request.joints) == 1 else ''
-    return Answer(subject=subject, message=f'deleted {counted(len(request.joints), "joint")}')
+    deleted = counted(len(request.joints), 'joint')
+    return Answer(subject=subject, message=Text('deleted {joints}', joints=deleted))
 
 
 def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
@@ -269,7 +281,7 @@ def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
         live.begin(WorldState(settings=live.settings, lesson=lesson), live.step_count)
     else:
         live.space.remove(names)
-    return Answer(message=f'deleted {counted(len(names), "body")}')
+    return Answer(message=Text('deleted {bodies}', bodies=counted(len(names), 'body')))
 
 
 def _topmost(space: Space, request: AtPoint) -> tuple[RigidBody, Point]:
@@ -286,10 +298,11 @@ def _tuples(rows: Floats) -> Iterator[tuple[float, float, float]]:
     return ((x, y, z) for x, y, z in rows.tolist())
 
 
-def _done(verb: str, names: tuple[str, ...]) -> Answer:
-    if len(names) == 1:
-        return Answer(subject=names[0], message=f'{verb} {names[0]}')
-    return Answer(message=f'{verb} {counted(len(names), "body")}')
+def _done(template: str, names: tuple[str, ...], **values: str) -> Answer:
+    """Return the answer about bodies: by its name where it is one, else by their number."""
+    subject = names[0] if len(names) == 1 else ''
+    bodies = subject or counted(len(names), 'body')
+    return Answer(subject=subject, message=Text(template, bodies=bodies, **values))
 
 
 def set_poses(live: LiveSpace, poses: Mapping[str, Pose]) -> None:

@@ -20,6 +20,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import rotated, world_to_local
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.world.body_requests import set_poses
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import points_in_world, pose_in_world
@@ -41,13 +42,13 @@ def grab(live: LiveSpace, request: Grab) -> Answer:
         raise nothing_at(point, 'mouse_point')
     if not names:
         x, y = point
-        message = f'the body there cannot be moved at ({x:g}, {y:g})'
+        message = Text('the body there cannot be moved at ({x:g}, {y:g})', x=x, y=y)
         raise NothingThere(message, field='mouse_point', body=under[0])
     live.capacity.check_hand(request.hand)
     name = names[0]
     anchor = world_to_local(point, space.bodies.by_name[name].pose)
     space.set_grip(Grip(request.hand, name, anchor, point))
-    return Answer(subject=name, message=f'grabbed {name}')
+    return Answer(subject=name, message=Text('grabbed {body}', body=name))
 
 
 def move_hand(live: LiveSpace, request: MoveHand) -> Answer:
@@ -85,9 +86,9 @@ def let_go(live: LiveSpace, request: LetGo) -> Answer:
     if grip is None:
         return holds_nothing(request)
     live.space.remove_grip(request.hand)
-    return Answer(subject=grip.body, message=f'let go of {grip.body}')
+    return Answer(subject=grip.body, message=Text('let go of {body}', body=grip.body))
 
 
 def holds_nothing(request: HandRequest) -> Answer:
     """Return the answer to a hand that holds no body."""
-    return Answer(message=f'{request.hand} holds no body')
+    return Answer(message=Text('{hand} holds no body', hand=request.hand))

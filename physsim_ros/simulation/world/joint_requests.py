@@ -21,18 +21,18 @@ from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.motor_command import TimedCommand
-from physsim_ros.model.names import names_in, WORLD
+from physsim_ros.model.names import names_in, shown_end, WORLD
 from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.rope_path import arc, side, spans
 from physsim_ros.model.scene import Guide, Joint, seat_of
 from physsim_ros.model.shapes import Disc
-from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import (
     ORIGIN,
     Point,
     Pose,
     world_to_local,
 )
+from physsim_ros.model.translation import counted, Text
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import are_same, body_of_name, points_in_world
 
@@ -85,11 +85,12 @@ def join(live: LiveSpace, request: Join) -> Answer:
         live.capacity.check_joint(joint)
         # Only if it differs: a joint that is built anew has no cached impulses to warm start from.
         space.join(joint)
-    other = 'the background' if b == WORLD else b
-    which = f'{request.kind} {request.name}'
+    values = {'kind': Text(request.kind), 'joint': request.name, 'a': a, 'b': shown_end(b)}
     if old is not None:
-        return Answer(subject=request.name, message=f'changed {which} of {a} and {other}')
-    return Answer(subject=request.name, message=f'joined {a} to {other} by {which}')
+        message = Text('changed {kind} {joint} of {a} and {b}', **values)
+    else:
+        message = Text('joined {a} to {b} by {kind} {joint}', **values)
+    return Answer(subject=request.name, message=message)
 
 
 def rejoin(live: LiveSpace, request: Rejoin) -> Answer:
@@ -108,7 +109,8 @@ def rejoin(live: LiveSpace, request: Rejoin) -> Answer:
     joint = replace(old, a=request.a, b=request.b)
     live.capacity.check_joint(joint)
     space.join(joint)
-    return Answer(subject=joint.name, message=f'changed {joint.kind} {joint.name}')
+    message = Text('changed {kind} {joint}', kind=Text(joint.kind), joint=joint.name)
+    return Answer(subject=joint.name, message=message)
 
 
 def join_at_point(live: LiveSpace, request: Pin | Axle) -> Answer:
@@ -129,7 +131,8 @@ def unjoin(live: LiveSpace, request: Unjoin) -> Answer:
     """
     check_names(live.space, (request.name,), 'name')
     live.space.unjoin(request.name)
-    return Answer(subject=request.name, message=f'deleted joint {request.name}')
+    message = Text('deleted joint {joint}', joint=request.name)
+    return Answer(subject=request.name, message=message)
 
 
 def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
@@ -154,7 +157,8 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
         begun = live.begin_of_command(command.joint, latency, rate)
         live.space.commands.command_motor(TimedCommand(command, begun), live.step_count)
     subject = names[0] if len(names) == 1 else ''
-    return Answer(subject=subject, message=f'commanded {counted(len(names), "motor")}')
+    message = Text('commanded {motors}', motors=counted(len(names), 'motor'))
+    return Answer(subject=subject, message=message)
 
 
 def check_names(space: Space, names: Iterable[str], field: str) -> None:
@@ -174,7 +178,7 @@ def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Answer:
     names = names_in(live.space.joints.by_name, request.namespace)
     for name in names:
         live.space.unjoin(name)
-    return Answer(message=f'deleted {counted(len(names), "joint")}')
+    return Answer(message=Text('deleted {joints}', joints=counted(len(names), 'joint')))
 
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:

@@ -27,8 +27,8 @@ from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Grip, NO_VECTORS, Snapshot
-from physsim_ros.model.texts import counted
 from physsim_ros.model.timeline import stamp_of
+from physsim_ros.model.translation import counted, Text
 from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.world import (
     body_requests,
@@ -56,7 +56,9 @@ def configure(live: LiveSpace, request: Configure) -> Answer:
         for rigid in space.wrenched():
             if rigid.wrench_until is None or rigid.wrench_until > until:
                 space.set_wrench(rigid, rigid.wrench, until)
-    return Answer(message=f'set {", ".join(request.changes)}')
+    changed = list(request.changes)
+    setting = Text(changed[0]) if len(changed) == 1 else ', '.join(changed)
+    return Answer(message=Text('set {setting}', setting=setting))
 
 
 def restore(live: LiveSpace, request: Restore) -> Answer:
@@ -72,8 +74,12 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
 
 def load_message(state: WorldState) -> str:
     """Return the message about a state that was loaded."""
-    joints = f' and {counted(len(state.joints), "joint")}' if state.joints else ''
-    return f'loaded {counted(len(state.bodies), "body")}{joints}'
+    if not state.bodies:
+        return Text('loaded 0 bodies')
+    bodies, joints = counted(len(state.bodies), 'body'), counted(len(state.joints), 'joint')
+    if state.joints:
+        return Text('loaded {bodies} and {joints}', bodies=bodies, joints=joints)
+    return Text('loaded {bodies}', bodies=bodies)
 
 
 # The handler of each type of request. It checks everything, then changes the space; a request that

@@ -33,8 +33,8 @@ from physsim_ros.model.requests import (
     Spawn,
     Unjoin,
 )
-from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, Pose, REST, Twist
+from physsim_ros.model.translation import counted, Text
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.sketchpad.message import message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
@@ -115,7 +115,8 @@ def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: 
         return
     # Before several answers stands one for all.
     robots = [each.properties.robot is not None for each in requests if isinstance(each, Spawn)]
-    message = 'copied a robot' if robots == [True] else f'copied {counted(len(robots), "body")}'
+    copied = Text('a robot') if robots == [True] else counted(len(robots), 'body')
+    message = Text('copied {bodies}', bodies=copied)
     page.submit(origin, requests, message=message, values=(request_count(len(requests)),))
 
 
@@ -142,7 +143,7 @@ def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
     """Tell the page when other bodies began to touch these, and begin to; none is no body."""
     page.shared.past_contacts.ask_touches(page.number, names)
     page.followed = names
-    page.answer_page(origin, f'following {counted(len(names), "body")}')
+    page.answer_page(origin, Text('following {bodies}', bodies=counted(len(names), 'body')))
 
 
 @message('drive', 'cmd_vel', name=fields.text, velocity=_velocity)

@@ -12,6 +12,7 @@ from physsim_ros.model.checks import flag, Whole
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.lesson import LONGEST_TITLE
 from physsim_ros.model.requests import DeleteBodies
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.entries import Origin, TakeBack, Unread
 from physsim_ros.sketchpad.message import message
 from physsim_ros.sketchpad.messages import fields
@@ -38,7 +39,8 @@ def _title(value: object, name: str) -> str:
     """Return the title of a lesson."""
     title = fields.text(value, name)
     if len(title) > LONGEST_TITLE:
-        raise BadProperty(f'{name} has more than {LONGEST_TITLE} characters', field=name)
+        message = Text('{key} has more than {most} characters', key=name, most=LONGEST_TITLE)
+        raise BadProperty(message, field=name)
     return title
 
 
@@ -50,7 +52,7 @@ def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     page.person.name = name
     # A page that was loaded again does not know.
     page.person.answered = page.shared.results.last_of(name)
-    page.answer_page(origin, f'you are {name}')
+    page.answer_page(origin, Text('you are {person}', person=name))
 
 
 @message('answered', 'page', Right.DRAW, lesson=_title, answer=fields.text, right=flag)
@@ -65,7 +67,7 @@ def note_answer(
             page.person.answered = page.shared.results.note(
                 name, lesson, answer[:LONGEST_ANSWER], right=right, visitor=page.person.unnamed
             )
-        return 'the answer is noted'
+        return Text('the answer is noted')
 
     page.answer_from_thread(origin, note)
 
@@ -77,7 +79,7 @@ def forget_results(page: PageSession, origin: Origin) -> None:
     def forget() -> str:
         with reaching('the results'):
             page.shared.results.forget()
-        return 'the results are forgotten'
+        return Text('the results are forgotten')
 
     page.answer_from_thread(origin, forget)
 
@@ -86,28 +88,28 @@ def forget_results(page: PageSession, origin: Origin) -> None:
 def raise_hand(page: PageSession, origin: Origin, *, raised: bool) -> None:
     """Raise a hand, or lower it."""
     page.person.raised = raised
-    page.answer_page(origin, 'your hand is raised' if raised else 'your hand is down')
+    page.answer_page(origin, Text('your hand is raised' if raised else 'your hand is down'))
 
 
 @message('lower_hand', 'page', Right.TEACH, page=Whole(1, 2**31))
 def lower_hand(session: PageSession, origin: Origin, page: int) -> None:
     """Have the page of a number lower its hand."""
     session.shared.send({'type': 'lower_hand'}, page)
-    session.answer_page(origin, 'the hand is lowered')
+    session.answer_page(origin, Text('the hand is lowered'))
 
 
 @message('leave', 'page', Right.TEACH)
 def leave(page: PageSession, origin: Origin) -> None:
     """Have the pupils who have come until now leave this world, as their seat is free."""
     page.shared.ask_to_leave()
-    page.answer_page(origin, 'pupils have left this world')
+    page.answer_page(origin, Text('pupils have left this world'))
 
 
 @message('say', 'page', Right.TEACH, text=fields.text)
 def say(page: PageSession, origin: Origin, text: str) -> None:
     """Show a message on all pages of this world."""
     page.send_all({'type': 'said', 'name': page.person.name, 'text': text[:LONGEST_MESSAGE]})
-    page.answer_page(origin, 'the message is shown')
+    page.answer_page(origin, Text('the message is shown'))
 
 
 @message('take_back', '~/undo')
@@ -125,14 +127,16 @@ def take_back(page: PageSession, origin: Origin) -> None:
 def freeze(page: PageSession, origin: Origin, *, frozen: bool) -> None:
     """Freeze the pages of pupils, or free them."""
     page.world.set_parameter('sketchpad_frozen', frozen)
-    page.answer_page(origin, f'the pages are {"frozen" if frozen else "no longer frozen"}')
+    told = Text('the pages are frozen' if frozen else 'the pages are no longer frozen')
+    page.answer_page(origin, told)
 
 
 @message('lock', 'page', Right.TEACH, names=_patterns)
 def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     """Lock bodies, so that pages of pupils do not change them, in place of those before."""
     page.world.set_parameter('sketchpad_locked', ','.join(names))
-    page.answer_page(origin, f'locked {", ".join(names)}' if names else 'no body is locked')
+    locked = Text('locked {names}', names=', '.join(names))
+    page.answer_page(origin, locked if names else Text('no body is locked'))
 
 
 @message('clear_of', '~/command', Right.TEACH, person=fields.person)

@@ -20,6 +20,7 @@ from physsim_ros.model.errors import BadProperty, Confidences, Malformed, NotRec
 from physsim_ros.model.requests import Grab, LetGo, MoveHand
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.sketchpad.message import message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
@@ -143,7 +144,7 @@ def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
 def drop(page: PageSession, origin: Origin) -> None:
     """Drop the unfinished gesture."""
     page.person.drawing.drop()
-    page.answer_page(origin, 'dropped what was unfinished')
+    page.answer_page(origin, Text('dropped what was unfinished'))
 
 
 @message(
@@ -166,7 +167,7 @@ def draw_with(
     page.person.material = replace(page.person.material, **properties)
     if color is not None:
         page.person.color = color or None
-    page.answer_page(origin, 'the material of what is drawn next')
+    page.answer_page(origin, Text('the material of what is drawn next'))
 
 
 # The hand

@@ -20,6 +20,7 @@ from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.spelling import has_invisible
 from physsim_ros.model.texts import is_printable
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # Length of the name of a person [characters].
 LONGEST_PERSON = 24
@@ -29,7 +30,8 @@ def text(value: object, name: str) -> str:
     """Return a text of at most the length of a name."""
     words = checks.text(value, name, BadProperty)
     if len(words) > LONGEST_NAME:
-        raise BadProperty(f'{name} has more than {LONGEST_NAME} characters', field=name)
+        message = Text('{key} has more than {most} characters', key=name, most=LONGEST_NAME)
+        raise BadProperty(message, field=name)
     return words
 
 
@@ -37,7 +39,8 @@ def person(value: object, name: str) -> str:
     """Return the name of a person."""
     checked = text(value, name).strip()
     if not 0 < len(checked) <= LONGEST_PERSON or not is_printable(checked):
-        raise BadProperty(f'a name has 1 to {LONGEST_PERSON} characters', field=name)
+        message = Text('a name has 1 to {most} characters', most=LONGEST_PERSON)
+        raise BadProperty(message, field=name)
     if has_invisible(checked):
         raise BadProperty('the name contains an invisible character', field=name)
     return checked

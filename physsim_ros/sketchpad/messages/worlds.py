@@ -14,6 +14,7 @@ from physsim_ros.model.answer import Answer
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced, with_checks
 from physsim_ros.simulation.entries import Origin, Wait
@@ -230,5 +231,5 @@ def _text_content(
     except Refusal as refusal:
         answer = Answer.refused(refusal, topic='page')
     else:
-        answer = Answer(topic='page', message='the world as text', values=(('yaml', text),))
+        answer = Answer(topic='page', message=Text('the world as text'), values=(('yaml', text),))
     return answer_content(answer, request_of(origin))

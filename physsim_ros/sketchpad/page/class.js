@@ -14,9 +14,8 @@ import {choice, createElement, elementOf, iconButton, inRow, languageField, show
 import {SceneView} from './view/scene_view.js';
 import {retold, showResults} from './ui/results.js';
 import {watchTheme} from './view/theme.js';
-import {SENTENCES} from './sentences.js';
-import {language, t} from './strings.js';
-import {capital, sentenceOf, Words} from './words.js';
+import {capital, language, t, told} from './strings.js';
+import {Words} from './words.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Classmate} from './types.js' */
@@ -25,11 +24,6 @@ import {WorldState} from './world_state.js';
 const KEY = 'physsim-seat'; // of this browser
 const PERIOD = 3000; // ms between two looks at who is where
 const GAP = 4; // px around the world in its picture
-/** Why a pupil gets no world, in the server's words and in those of this page. @type {[RegExp, string][]} */
-const REASONS = [
-  [/^every world of this class has a pupil$/, t('Every world of the class has a pupil')],
-  [/^(\d+) worlds of this class are those of this machine; .*/, t('$1 worlds of the class were given to this address: ask your teacher to free a seat')],
-];
 
 /** A card of a teacher's page: a seat, its pupil, and the world there, as it is now. */
 class Card {
@@ -205,14 +199,14 @@ const arrangeSoon = soon(arrange, 100);
  * @returns {Promise<?Response>} null where the class does not answer
  */
 function ask(path, fields) {
-  return fetch(path, {method: 'POST', body: JSON.stringify(fields)}).catch(() => null);
+  return fetch(path, {method: 'POST', headers: {Accept: 'application/json'}, body: JSON.stringify(fields)}).catch(() => null);
 }
 
 form.addEventListener('submit', async (event) => {
   event.preventDefault();
   const response = await ask('/join', {name: name.value, key: localStorage.getItem(KEY) ?? ''});
   if (!response?.ok) {
-    elementOf('refused').textContent = response ? capital(sentenceOf((await response.text()).trim(), [...REASONS, ...SENTENCES])) : t('The class is not reachable: try again.');
+    elementOf('refused').textContent = response ? capital(told((await response.json()).text)) : t('The class is not reachable: try again.');
     return;
   }
   const {address, key} = await response.json();

@@ -5,7 +5,11 @@
  *
  * A text has its values in braces, by name; a number among them has the decimal sign of the language, which is that
  * of the browser, until somebody chooses another one in the help; the page is then loaded again.
+ *
+ * Texts of the server have its template as their key, also in English, where the page says some of them otherwise.
  */
+
+/** @import {Text} from './types.js' */
 
 /** Names of the languages in themselves. @type {Record<string, string>} */
 export const LANGUAGES = {en: 'English', de: 'Deutsch'};
@@ -16,12 +20,12 @@ export const language = [localStorage.getItem(KEY), ...navigator.languages.map((
   .find((each) => each && each in LANGUAGES) ?? 'en';
 
 /**
- * Translations by English text, and sentences by the code of a refusal, where `{message}` is the server's own one.
- * @type {{texts: Record<string, string>, refusals: Record<string, string>}}
+ * Translations by English text, by template of the server, and by the code of a refusal, where `{message}` is the server's own one.
+ * @type {{texts: Record<string, string>, server: Record<string, string>, refusals: Record<string, string>}}
  */
-const table = language === 'en' ? {texts: {}, refusals: {}} :
-  await fetch(`/page/languages/${language}.json`).then((response) => response.json());
+const table = await fetch(`/page/languages/${language}.json`).then((response) => response.json());
 
+const PLACE = /\{(\w+)[^{}]*\}/g; // of a value, with its format where the server writes it
 const SIGN = (1.5).toLocaleString(language)[1];
 
 /** @param {string} number with a decimal point, which is given the sign of the language, and a hyphen that is its minus */
@@ -36,6 +40,26 @@ export function localized(number) {
  */
 export function t(text, values = {}) {
   return filled(table.texts[text] ?? text, values);
+}
+
+/** @param {string} template or word of the server */
+export function server(template) {
+  return table.server[template] ?? template;
+}
+
+/**
+ * @param {Text} text of the server
+ * @param {(value: string, place: string) => string} word for a value that is no text, by the name in its braces: with a
+ *   capital, it begins a sentence
+ * @returns {string} what the page says instead
+ */
+export function told([template, values], word = (value) => value) {
+  return server(template).replace(PLACE, (braces, place) => {
+    const name = place[0].toLowerCase() + place.slice(1), value = values[name];
+    if (value === undefined) return braces;
+    if (typeof value === 'string') return word(value, place);
+    return name === place ? told(value, word) : capital(told(value, word));
+  });
 }
 
 /**
@@ -58,10 +82,15 @@ export function chooseLanguage(chosen) {
  * @param {Record<string, string | number>} values
  */
 export function filled(text, values) {
-  return text.replace(/\{(\w+)\}/g, (braces, name) => {
+  return text.replace(PLACE, (braces, name) => {
     const value = values[name] ?? braces;
     return typeof value === 'number' ? localized(String(value)) : value;
   });
+}
+
+/** @param {string} text */
+export function capital(text) {
+  return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 const ATTRIBUTES = ['aria-label', 'title', 'placeholder', 'alt'];

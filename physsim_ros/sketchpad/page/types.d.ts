@@ -326,17 +326,21 @@ export interface Timeline {
   line: number;
   /** Time from which on it may differ from the line before [s]. */
   parts: number;
-  undo: string;
-  redo: string;
+  undo_text: Text;
+  redo_text: Text;
   speed: number;
   courses?: Course[];
 }
+
+/** A text of the server: the template that the page translates, and its values by name. */
+export type Text = [template: string, values: Record<string, string | Text>];
 
 export interface Answer {
   request: string;
   ok: boolean;
   code: string;
   message: string;
+  text: Text;
   subject: string;
   topic: string;
   values: Record<string, string>;

@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Answers in the words of people. The server's sentences, which other nodes and logs have too, name bodies
- * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
+ * Answers in the words of people. The server's texts, which other nodes and logs have too, name bodies by their names:
+ * `spawned drawn/3` is *Circle added* here.
  */
 
-import {GESTURES, SENTENCES, THINGS, VERBS} from './sentences.js';
-import {filled, localized, refusalText, t} from './strings.js';
+import {capital, localized, refusalText, server, t, told} from './strings.js';
 
-/** @import {Body, Connection} from './types.js' */
+/** @import {Body, Connection, Text} from './types.js' */
 
-/** A joint that is added, by its kind: its name is often that of a body, too. */
-const JOINED = /(^|: )join (\w+) .+?(?= and \d+ more$|$)/;
-const GESTURE = new RegExp(`(^|: )(${[...GESTURES.keys()].join('|')}) (.+?)( and \\d+ more)?$`);
 const LISTED = 200; // bodies that can be chosen from
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
-/** Names that nobody chose: of what a pen, a click or a tool of this page has drawn. */
-const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear|rack) )?((?:drawn|note|incline|water)\/\d+)(?!\/)/g;
 
 export class Words {
   /** @param {Connection} connection */
@@ -43,12 +37,11 @@ export class Words {
   }
 
   /**
-   * @param {{message: string, subject: string}} answer
+   * @param {Text} text
    * @returns {boolean} whether there is a word for what it is about; a name that was free may be used again
    */
-  knows({message, subject}) {
-    const name = subject || /^redid spawn ([^\s,]+)/.exec(message)?.[1] || '';
-    return !isDrawn(name) || this.known[0].has(name);
+  knows([, values]) {
+    return Object.values(values).every((value) => typeof value === 'string' ? !isDrawn(value) || this.known[0].has(value) : this.knows(value));
   }
 
   /**
@@ -56,7 +49,7 @@ export class Words {
    * @returns {string | undefined} what it is; undefined for a name that somebody has chosen
    */
   #word(name) {
-    return this.known[0].get(name) ?? this.known[1].get(name) ?? (isDrawn(name) ? thingWord('body') : undefined);
+    return this.known[0].get(name) ?? this.known[1].get(name) ?? (isDrawn(name) ? server('body') : undefined);
   }
 
   /**
@@ -91,47 +84,23 @@ export class Words {
   }
 
   /**
-   * @param {{message: string, code?: string, subject?: string, topic?: string, ok?: boolean}} answer
-   * @returns {string} what it says
+   * @param {{text: Text, code?: string, ok?: boolean}} answer
+   * @returns {string} what it says; '' where the clock, the hand or the tool show the same
    */
-  tell({message, code = '', subject = '', topic = '', ok = true}) {
-    if (topic === '~/clear' && ok) return t('All bodies deleted');
-    const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
-    const joint = /^changed (axle|pin|spring|rod|rope|motor|slider|gear|rack) /.exec(message)?.[1];
-    if (joint) return said('changed', capital(thingWord(joint)));
-    const added = /^joined .* by (\w+) /.exec(message) ?? /^an? (\w+) (?:of|between|from|turns) (?!\d+ links)/.exec(message);
-    if (added) return said('spawned', capital(thingWord(added[1])));
-    const opened = /^loaded .* from (.+)\.yaml/.exec(message)?.[1];
-    if (opened) return t('Opened {name}', {name: this.titles.get(opened) ?? opened});
-    if (VERBS.has(verb)) return said(verb, this.title(subject));
-    // There may be a body there, which the knife has not passed.
-    if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
-    const told = capital(this.phrase(sentenceOf(message))).replace(/\d\.\d/g, localized);
-    return ok ? told : refusalText(code, told);
+  tell({text, code = '', ok = true}) {
+    const said = capital(this.say(text));
+    return ok ? said : refusalText(code, said);
   }
 
-  /**
-   * @param {string} text with names of bodies
-   * @returns {string} with words for those that nobody chose
-   */
-  phrase(text) {
-    const the = (/** @type {string} */ thing) => t('the {thing}', {thing});
-    const named = text.replace(JOINED, (_, before, kind) => `${before}join ${the(thingWord(kind))}`)
-      .replace(/\S+/g, (name) => !isDrawn(name) && this.known[0].has(name) ? the(this.of(name)) : shorten(name))
-      .replace(DRAWN, (_, kind, name) => the(kind ? thingWord(kind) : this.of(name)));
-    return named.replace(GESTURE, (_, before, verb, thing, more) => {
-      const told = more ? `several ${verb === 'join' ? 'joints' : 'bodies'}` : thing;
-      return before + filled(GESTURES.get(verb) ?? '', {thing: THINGS.get(told) ?? told});
-    }).replace(/(^|: )reset$/, `$1${t('Reset')}`).replace(/(^|: )open world$/, `$1${t('Open the world')}`);
+  /** @param {Text} text with names of bodies and worlds, in whose place it has words for those that nobody chose */
+  say(text) {
+    return told(text, (value, place) => {
+      if (place === 'world') return this.titles.get(value) ?? value;
+      if (place === capital(place)) return this.title(value);
+      const word = this.#word(value);
+      return word ? t('the {thing}', {thing: word}) : shorten(value);
+    }).replace(/\d\.\d/g, localized);
   }
-}
-
-/**
- * @param {string} verb of the server
- * @param {string} thing
- */
-function said(verb, thing) {
-  return filled(VERBS.get(verb) ?? '', {thing});
 }
 
 /**
@@ -164,16 +133,6 @@ export function headingOf({name, shipped}) {
   return shipped ? t(capital(name.replaceAll('_', ' '))) : name;
 }
 
-/** @param {string} message of the server */
-export function sentenceOf(message, sentences = SENTENCES) {
-  return sentences.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message);
-}
-
-/** @param {string} text */
-export function capital(text) {
-  return text.charAt(0).toUpperCase() + text.slice(1);
-}
-
 /**
  * @param {Body} body
  * @returns {string} what somebody calls it who sees it
@@ -183,13 +142,8 @@ export function shapeWord({name, robot, medium, shape: {kind, outline, width}}) 
   if (medium) return t('water');
   if (name.startsWith('note/')) return t('note');
   if (name.startsWith('incline/')) return t('inclined plane');
-  if (kind === 'disc') return thingWord('disc');
-  if (kind === 'chain') return thingWord('wall');
-  if (width) return thingWord('rectangle');
+  if (kind === 'disc') return server('disc');
+  if (kind === 'chain') return server('wall');
+  if (width) return server('rectangle');
   return kind === 'polygon' && outline.length === 3 ? t('triangle') : t('shape');
-}
-
-/** @param {string} meaning of a stroke, or kind of a joint, as the server has it */
-export function thingWord(meaning) {
-  return THINGS.get(meaning) ?? meaning.replaceAll('_', ' ');
 }

@@ -19,7 +19,7 @@ export class WorldState {
     this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
       x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};
     /** @type {Timeline} */
-    this.timeline = {state: 'paused', oldest: 0, now: 0, newest: 0, course: 0, line: 0, parts: 0, undo: '', redo: '',
+    this.timeline = {state: 'paused', oldest: 0, now: 0, newest: 0, course: 0, line: 0, parts: 0, undo_text: ['', {}], redo_text: ['', {}],
       speed: 0, courses: []};
     /** @type {?Frame} of a course that was left, at the time that is shown */
     this.ghost = null;

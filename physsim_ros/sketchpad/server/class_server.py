@@ -189,9 +189,9 @@ class _Join(Guarded):
             keys, address = (key, self.get_cookie(cookie) or ''), self.request.remote_ip or ''
             number, key = self.seats.join(name, *keys, address=address)
         except WorldFull as refusal:
-            self.refuse(409, str(refusal))
+            self.refuse(409, refusal.text)
         except Refusal as refusal:
-            self.refuse(400, str(refusal))
+            self.refuse(400, refusal.text)
         # Some browsers forget what pages store, or a pupil asks twice.
         self.set_cookie(cookie, key, httponly=True, samesite='Strict', max_age=SEAT_AGE)
         name = quote(self.seats.names[number], safe='')

@@ -19,6 +19,7 @@ from typing import Any, NoReturn
 
 from physsim_ros.model.errors import Busy
 from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.sketchpad.message import text_content
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.access import Access, headers_for
 from physsim_ros.sketchpad.server.turns import Turns
@@ -148,10 +149,12 @@ class Guarded(RequestHandler):
     def write_error(self, status_code: int, **_: Any) -> None:
         """Write the reason of a refusal, or the meaning of the status; nothing of the request."""
         reason = self._refusal or HTTPStatus(status_code).phrase
-        if self._code:
-            self.finish({'ok': False, 'message': reason, 'code': self._code})
+        accepted = self.request.headers.get('Accept', '')
+        if self._code or 'application/json' in accepted:
+            text = text_content(reason)
+            self.finish({'ok': False, 'message': reason, 'text': text, 'code': self._code})
             return
-        if 'text/html' not in self.request.headers.get('Accept', ''):
+        if 'text/html' not in accepted:
             self.set_header('Content-Type', 'text/plain; charset=utf-8')
             self.finish(f'{reason}\n')
             return

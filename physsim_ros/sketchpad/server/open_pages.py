@@ -17,6 +17,7 @@ from typing import Any
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 from physsim_ros.sketchpad.message import answer_content, asker_of
 from physsim_ros.sketchpad.server.frame_codec import Show
 from physsim_ros.sketchpad.server.guarded import REPLACED, TOO_BIG
@@ -240,5 +241,5 @@ class OpenPages:
         for page in self:
             rest = len(answers) - MOST_ANSWERS_TO_OTHERS - own[page.number]
             if rest > 0:
-                more = Answer(topic='events', message=f'and {rest} more answers')
+                more = Answer(topic='events', message=Text('and {count} more answers', count=rest))
                 page.send(compact(answer_content(more, '')))

@@ -23,6 +23,7 @@ from typing import NamedTuple
 
 from physsim_ros.files import make_directory, read_bytes, write_file
 from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.translation import Text
 
 # Greatest number of seats of one machine: two browsers of each of two pupils who share it.
 MOST_OF_MACHINE = 4
@@ -127,9 +128,10 @@ class Seats:
         """
         taken = sum(bool(machine) and seat.machine == machine for seat in self._seats)
         if 0 < self._most_of_machine <= taken:
-            raise WorldFull(
-                f'{taken} worlds of this class are those of this machine; a teacher can free one'
+            template = (
+                '{taken} worlds of this class are those of this machine; a teacher can free one'
             )
+            raise WorldFull(Text(template, taken=taken))
 
     def _free_number(self) -> int:
         """
@@ -139,7 +141,7 @@ class Seats:
         """
         left = [number for number, seat in enumerate(self._seats) if not seat.machine]
         if not left:
-            raise WorldFull('every world of this class has a pupil')
+            raise WorldFull(Text('every world of this class has a pupil'))
         since = {number: self._seats[number].at for number in left if self._seats[number].name}
         number = min(left, key=lambda each: since.get(each, 0.0))
         self._seats[number] = _Seat()

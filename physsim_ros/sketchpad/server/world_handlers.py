@@ -29,6 +29,7 @@ from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Malformed, PhysSimError, Refusal
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
+from physsim_ros.sketchpad.message import text_content
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, GuardedUpload, TYPES
 from physsim_ros.sketchpad.server.world_picture import svg_of_world
@@ -170,7 +171,9 @@ class UploadWorld(GuardedUpload):
                 answer = await self._replace_world(content)
             except Refusal as refusal:
                 answer = Answer.refused(refusal, topic='~/load_world')
-        self.finish({'ok': not answer.code, 'message': answer.message, 'code': answer.code})
+        text = text_content(answer.message)
+        ok, message, code = not answer.code, answer.message, answer.code
+        self.finish({'ok': ok, 'message': message, 'text': text, 'code': code})
 
     async def _replace_world(self, file: bytes) -> Answer:
         """

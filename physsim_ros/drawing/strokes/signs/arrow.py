@@ -28,6 +28,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
 from physsim_ros.model.transform import cross, dots, norms, segment_distances
+from physsim_ros.model.translation import Text
 
 # The least distance between the ends of an arrow, in shares of its size: barbs reach back to the
 # tail's side, if they are as long as the shaft.
@@ -146,7 +147,7 @@ def _set_velocity(name: str, points: Floats, context: Context) -> Outcome:
     return Outcome(
         requests=(Command(names=(name,), twists=np.array((twist,))),),
         subject=name,
-        message=f'{name} moves with ({x:.3g}, {y:.3g}) m/s',
+        message=Text('{body} moves with ({x:.3g}, {y:.3g}) m/s', body=name, x=x, y=y),
         outline=context.drawn.points,
     )
 
@@ -166,7 +167,7 @@ def _turn_gravity(points: Floats, context: Context) -> Outcome:
     return Outcome(
         requests=(Configure(changes={'gravity': gravity}),),
         subject='',
-        message=f'gravity towards ({gravity[0]:.3g}, {gravity[1]:.3g}) m/s²',
+        message=Text('gravity towards ({x:.3g}, {y:.3g}) m/s²', x=gravity[0], y=gravity[1]),
         outline=context.drawn.points,
     )
 

@@ -30,6 +30,7 @@ from physsim_ros.model.requests import Join
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.transform import norms
+from physsim_ros.model.translation import Text
 
 # Distance of the points between which the pen turns at the tip [points].
 _STRIDE = 3
@@ -105,7 +106,7 @@ def _drive_axle(axle: Joint | None, sweep: float, context: Context) -> Outcome:
     return Outcome(
         requests=(request,),
         subject=request.name,
-        message=f'a motor turns {a} by {sweep:.3g} rad/s',
+        message=Text('a motor turns {body} by {rate:.3g} rad/s', body=a, rate=sweep),
         outline=context.drawn.points,
     )
 

@@ -29,6 +29,7 @@ from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Delete
+from physsim_ros.model.translation import Text
 
 # The least spread of swings: those of scribbles lie closer.
 _CLOSEST = 0.9
@@ -105,7 +106,7 @@ def _delete_bodies(covered: tuple[str, ...], context: Context) -> Outcome:
     return Outcome(
         requests=tuple(Delete(name=name) for name in covered),
         subject=covered[0] if len(covered) == 1 else '',
-        message=f'delete {", ".join(covered)}',
+        message=Text('delete {bodies}', bodies=', '.join(covered)),
         outline=context.drawn.points,
     )
 

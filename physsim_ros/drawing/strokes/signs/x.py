@@ -26,6 +26,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.requests import Anchor
 from physsim_ros.model.transform import cross, norms, Point
+from physsim_ros.model.translation import Text
 
 # The least number of points by which a line is followed beyond the crossing, of `COUNT`.
 _BEYOND = 8
@@ -132,7 +133,7 @@ def _anchor_body(under: tuple[str, Point] | None, crossing: Point, context: Cont
     return Outcome(
         requests=(Anchor(point=point),),
         subject=name,
-        message=f'anchor {name}',
+        message=Text('anchor {thing}', thing=name),
         outline=context.drawn.points,
     )
 

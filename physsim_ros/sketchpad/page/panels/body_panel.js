@@ -6,10 +6,10 @@ import {actorLines, drawWay} from './driving.js';
 import {mediumFields} from './field_fields.js';
 import {forceFields} from './force_fields.js';
 import {labelSize} from '../view/label_view.js';
-import {t} from '../strings.js';
+import {capital, server, t} from '../strings.js';
 import {inclineFields} from '../tools/incline.js';
 import {sendNote} from '../tools/note.js';
-import {capital, isDrawn, thingWord} from '../words.js';
+import {isDrawn} from '../words.js';
 import {materialFields} from './world_panel.js';
 
 /** @import {Body, Parts} from '../types.js' */
@@ -87,5 +87,5 @@ function oneWayFields({one_way: way, closed_sides: closed}, change) {
  */
 function jointRow({world, selection}, name) {
   const row = world.row(name), joints = world.scene.joints.filter(({a, b}) => a === row || b === row).slice(0, MOST_JOINTS);
-  return inRow(...joints.map((joint) => textButton(capital(thingWord(joint.kind)), () => selection.show('joint', [joint.name]))));
+  return inRow(...joints.map((joint) => textButton(capital(server(joint.kind)), () => selection.show('joint', [joint.name]))));
 }

@@ -3,9 +3,9 @@
 
 import {choiceField, createElement, inRow, labelled, numberField, range, showText, textButton} from '../dom.js';
 import {threeDigits} from '../rounding.js';
-import {t} from '../strings.js';
+import {capital, server, t} from '../strings.js';
 import {distance} from '../vectors.js';
-import {capital, isDrawn, thingWord} from '../words.js';
+import {isDrawn} from '../words.js';
 
 /** @import {Joint, Parts, WorldState} from '../types.js' */
 /** @import {Content} from './panel.js' */
@@ -44,7 +44,7 @@ export function jointContent({world, connection, selection, meters, words}, [nam
   const limits = [['break_force', t('Breaks at [{unit}]', {unit: unitOf(joint)})]];
   if (['rope', 'slider'].includes(joint.kind)) limits.unshift(['max_force', t('Greatest force [N]')]);
   if (LIMITED.includes(joint.kind)) limits.unshift(['lower', t('Least [{unit}]', {unit})], ['upper', t('Greatest [{unit}]', {unit})]);
-  return {title: capital(thingWord(joint.kind)), name: isDrawn(name) || world.scene.lesson ? '' : name, first: [force], rest: [
+  return {title: capital(server(joint.kind)), name: isDrawn(name) || world.scene.lesson ? '' : name, first: [force], rest: [
     ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
       const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
       return range(label, SIGNED.includes(key) ? -most : 0, most, step, value, (now) => change({[key]: now}));

@@ -51,16 +51,16 @@ export class Files {
       this.parts.notes.showMessage(t('This file is too large: a world has at most 1 MiB here.'), {ok: false});
       return false;
     }
-    const {ok, message, code} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
-      .then((response) => response.json().catch(() => ({ok: false, code: '', message: t('The server refused this file')})),
-        () => ({ok: false, code: '', message: t('Not done: the server is not reachable')}));
+    const {ok, text: told, code} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
+      .then((response) => response.json().catch(() => ({ok: false, code: '', text: [t('The server refused this file'), {}]})),
+        () => ({ok: false, code: '', text: [t('Not done: the server is not reachable'), {}]}));
     const {notes, room, words} = this.parts;
     if (ok) {
       this.name = '';
       this.dismiss();
       room.frameNext();
-      notes.showMessage(words.tell({message}));
-    } else await notes.load(import('./file_sentences.js'), ({fileSentence}) => notes.showMessage(words.tell({message: fileSentence(message), code, ok}), {ok}));
+    }
+    notes.showMessage(words.tell({text: told, code, ok}), {ok});
     return ok;
   }
 

@@ -107,8 +107,8 @@ export class Lessons {
    * @param {HTMLElement} result beside which that is told
    */
   async #report(answer, result) {
-    const {ok, code, message} = await this.parts.connection.ask('answered', answer);
-    const reason = this.parts.words.tell({ok, code, message});
+    const {ok, code, text} = await this.parts.connection.ask('answered', answer);
+    const reason = this.parts.words.tell({ok, code, text});
     if (!ok) result.append(createElement('span', {className: 'danger'}, ` ${t('Your answer was not saved: {reason}', {reason})}`));
   }
 

@@ -8,9 +8,6 @@ import {personWord} from '../people.js';
 /** @import {Answer, Parts, Point} from '../types.js' */
 
 const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
-/** Answers that are not shown: the clock, the hand and the tool show the same. */
-export const SILENT = /^at [\d.]+ s$|^(following|grabbed|dropped) |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
-const REST = /^and \d+ more answers$/; // of a frame, to a page that did not ask
 export const READ = 6000; // ms for which a note is shown
 const SHOWN = 2500, REFUSED = 5000, OFFERED = 10000; // ms: an answer, a refusal, a button
 
@@ -34,23 +31,23 @@ export class Notes {
 
   /** @param {Answer} answer */
   #tell(answer) {
-    const {request, ok, code, message, topic} = answer, own = request !== '';
+    const {request, ok, code, text, topic} = answer, {people, words} = this.parts, own = request !== '';
     // The button that opens the recording tells the same.
     if (ok && topic === 'viewer') return;
     // A dialog asks about a name that is taken where a world is saved.
-    if (SILENT.test(message) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
-    const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0), rest = REST.test(message);
+    if (!words.tell(answer) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
+    const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0), rest = topic === 'events'; // of a frame, to a page that did not ask
     if (several > 1) this.rest = {of, left: several};
     else if (this.rest.left && (rest || this.rest.of === of)) {
       this.rest.left = rest ? 0 : this.rest.left - 1;
       if (ok) return;
     }
-    const who = own ? '' : personWord(this.parts.people.nameOf(answer.page));
+    const who = own ? '' : personWord(people.nameOf(answer.page));
     const tell = () => {
       this.expected = () => {};
-      this.showMessage(`${who}${who && ': '}${this.parts.words.tell(answer)}`, {ok, quiet: !own});
+      this.showMessage(`${who}${who && ': '}${words.tell(answer)}`, {ok, quiet: !own});
     };
-    if (this.parts.words.knows(answer)) tell();
+    if (words.knows(text)) tell();
     else {
       this.expected = tell;
       setTimeout(() => this.expected === tell && tell(), SCENE_LATER);

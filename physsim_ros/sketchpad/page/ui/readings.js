@@ -2,8 +2,7 @@
 /** How strokes are read, with other guesses to choose. */
 
 import {textButton} from '../dom.js';
-import {t} from '../strings.js';
-import {thingWord} from '../words.js';
+import {server, t} from '../strings.js';
 
 /** @import {Parts, Point, Reading} from '../types.js' */
 
@@ -58,10 +57,10 @@ export class Readings {
       this.strokes.delete(request);
       // A rope may be meant as a chain: no stroke tells them apart.
       const other = guesses.slice(1).filter(([guess, sure], i) => i ? guess === 'chain' : sure > LIKELY)
-        .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: thingWord(guess)}), request, guess));
+        .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: server(guess)}), request, guess));
       // Where somebody has chosen another guess, it is sure.
-      const label = guesses.some(([, sure]) => sure > confidence) ? thingWord(meaning) : labelOf(meaning, confidence);
-      const content = [[label, ...also.map(thingWord)].join('; '), ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.parts;
+      const label = guesses.some(([, sure]) => sure > confidence) ? server(meaning) : labelOf(meaning, confidence);
+      const content = [[label, ...also.map(server)].join('; '), ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.parts;
       // A note at the place would cover a running machine.
       this.dismiss = world.paused ? notes.pin(() => at, content, shown) : notes.dock(content, shown);
       return;
@@ -96,5 +95,5 @@ export class Readings {
  * @param {number} confidence 0 .. 1
  */
 function labelOf(meaning, confidence) {
-  return `${thingWord(meaning)} ${Math.round(100 * confidence)} %`;
+  return `${server(meaning)} ${Math.round(100 * confidence)} %`;
 }

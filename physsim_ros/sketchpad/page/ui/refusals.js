@@ -24,11 +24,11 @@ export class Refusals {
     const {connection} = parts;
     connection.on('sent', (message) => this.#note(message));
     connection.on('unsent', (message) => this.#show(t('Not done: the server is not reachable'), placeOf(message)));
-    connection.on('answer', ({request, ok, code, message, subject, values}) => {
+    connection.on('answer', ({request, ok, code, text, subject, values}) => {
       const place = this.places.get(request) ?? {point: null, names: []};
       if (ok || code === 'not_recognised' || code === 'exists' || request === '') return;
       const name = values.body ?? subject;
-      this.#show(parts.words.tell({message, code, ok}), name ? {...place, names: [name]} : place);
+      this.#show(parts.words.tell({text, code, ok}), name ? {...place, names: [name]} : place);
     });
     connection.on('closed', () => this.places.clear());
     parts.view.overlays.push((view) => this.#draw(view));

@@ -3,7 +3,7 @@
 
 import {createElement, elementOf, iconButton} from '../dom.js';
 import {fixed} from '../rounding.js';
-import {localized, t} from '../strings.js';
+import {localized, server, t} from '../strings.js';
 
 /** @import {Parts} from '../types.js' */
 
@@ -15,8 +15,6 @@ export const TIME = [
 ];
 /** @type {typeof TIME} */
 export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0', t('back to the beginning')]];
-/** States of the timeline, as the server has them. */
-const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 const BESIDE = 24; // px: least distance of rings
 const WATCHED = 1500; // ms over which the pace is measured
@@ -187,14 +185,13 @@ export class TimeBar {
   }
 
   #showTimeline() {
-    const {undo, redo, oldest, newest, state, courses = []} = this.parts.world.timeline;
+    const {undo_text: undo, redo_text: redo, oldest, newest, state, courses = []} = this.parts.world.timeline;
     // What is undone is one's own, and that is not known here.
-    const gesture = (/** @type {string} */ told) => this.parts.words.phrase(told.replace(/^(undo|redo) /, ''));
-    const undone = this.parts.people.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)});
+    const {words, people} = this.parts, undone = people.isShared ? t('Undo what you did last') : words.say(undo);
     this.#showEdit('undo', undone, t('Nothing to undo'));
-    this.#showEdit('redo', redo && t('Redo: {gesture}', {gesture: gesture(redo)}), t('Nothing to redo'));
+    this.#showEdit('redo', words.say(redo), t('Nothing to redo'));
     this.clock.classList.toggle('past', state === 'in the past');
-    this.clock.title = STATES.get(state) ?? state;
+    this.clock.title = server(state);
     const before = this.rings;
     let place = '';
     this.rings = new Map([...courses].sort((one, other) => one.from - other.from).map(({id, from}) => {
