@@ -79,7 +79,9 @@ def files() -> dict[Path, str]:
     pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
     package = ROOT / 'physsim_ros'
     types, messages = (package / 'testing' / f'{name}.py' for name in ('parameters', 'messages'))
-    script = package / 'sketchpad' / 'page' / 'view' / 'joint_view.js'
+    page = package / 'sketchpad' / 'page'
+    scripts = {page / 'view' / 'joint_view.js': {'symbols': _symbols()}}
+    scripts[page / 'joint_kinds.js'] = {'kinds': _kinds_of_joints()}
     return {
         **{
             page: with_parts(page, parts, '<!-- {}: made by `make tables` -->')
@@ -89,7 +91,10 @@ def files() -> dict[Path, str]:
         messages: with_parts(
             messages, {'properties': _property_types()}, '# {}: made by `make tables`'
         ),
-        script: with_parts(script, {'symbols': _symbols()}, '// {}: made by `make tables`'),
+        **{
+            script: with_parts(script, parts, '// {}: made by `make tables`')
+            for script, parts in scripts.items()
+        },
         ROOT / 'config' / 'physsim.yaml': _YAML_HEAD + '\n'.join(_yaml()),
     }
 
@@ -337,6 +342,21 @@ def _property_type(hint: Any) -> str:
 def _symbols() -> str:
     """Return the counts of the symbols of joints, for the script that draws them on the page."""
     return f'const {", ".join(f"{name} = {number}" for name, number in SYMBOLS.items())};\n'
+
+
+def _kinds_of_joints() -> str:
+    """Return lists of kinds of joints, for the scripts of the page that treat each alike."""
+    schemas = {str(kind): kind.schema for kind in JointKind}
+    lists = {
+        # A gear couples rotations, wherever its point is.
+        'AT_POINT': lambda schema: schema.points == 1 and 'ratio' not in schema.own,
+        'ALONG_LINE': lambda schema: schema.along_line,
+        'ALONG_AXIS': lambda schema: schema.has_axis,
+    }
+    return ''.join(
+        f'export const {name} = {[kind for kind in schemas if is_in(schemas[kind])]};\n'
+        for name, is_in in lists.items()
+    )
 
 
 def _types() -> dict[str, str]:

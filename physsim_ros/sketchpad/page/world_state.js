@@ -2,11 +2,12 @@
 /** The newest scene, frame and timeline of the server, and geometry in them. The page computes no motion. */
 
 import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './view/body_path.js';
+import {ALONG_LINE, AT_POINT} from './joint_kinds.js';
 import {distance, rotated} from './vectors.js';
 
 /** @import {Body, Bounds, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
-const HINGED = ['axle', 'motor', 'spring', 'rod', 'rope'], HINGE = 0.35; // m: kinds of joints with a hinge on the background, and how far it reaches
+const HINGE = 0.35; // m: how far the symbol of a hinge on the background reaches
 
 export class WorldState {
   /** @param {Connection} connection */
@@ -193,7 +194,7 @@ export class WorldState {
   jointAt(point, reach, onBody) {
     const near = this.scene.joints.filter(({kind, a, b, points, guides}) => {
       const p = this.place(a, points[0]);
-      if (['axle', 'motor', 'pin'].includes(kind)) return distance(p, point) <= reach;
+      if (AT_POINT.includes(kind)) return distance(p, point) <= reach;
       if (onBody || kind === 'gear') return false;
       const passed = (guides ?? []).map(([row, x, y]) => this.place(row, [x, y]));
       return distanceTo([p, ...passed, this.place(b, points[1])], ...point) <= reach;
@@ -235,7 +236,7 @@ export class WorldState {
    * @returns {Bounds[]} of the symbols of hinges on the background that are in the box: below an axle, beyond the end of a line
    */
   #hingesIn([left, low, right, high]) {
-    const hinges = this.scene.joints.filter(({kind, b, points: [, [x, y]]}) => b < 0 && HINGED.includes(kind) && left <= x && x <= right && low <= y && y <= high);
+    const hinges = this.scene.joints.filter(({kind, b, points: [, [x, y]]}) => b < 0 && kind !== 'pin' && [...AT_POINT, ...ALONG_LINE].includes(kind) && left <= x && x <= right && low <= y && y <= high);
     return hinges.map(({a, points: [p, [x, y]]}) => {
       const [, from] = this.place(a, p);
       return from < y - HINGE / 2 ? [x, y, x, y + HINGE] : [x, y - HINGE, x, y];

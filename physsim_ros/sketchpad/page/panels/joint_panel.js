@@ -2,6 +2,7 @@
 /** The panel of a joint that was tapped: its constants, its force now, and deletion. */
 
 import {choiceField, createElement, inRow, labelled, numberField, range, showText, textButton} from '../dom.js';
+import {ALONG_AXIS, ALONG_LINE, AT_POINT} from '../joint_kinds.js';
 import {threeDigits} from '../rounding.js';
 import {capital, server, t} from '../strings.js';
 import {distance} from '../vectors.js';
@@ -25,7 +26,7 @@ const CONSTANTS = {
   gear: [['ratio', t('Ratio'), 5, 0.1, 1]],
 };
 const SIGNED = ['rate', 'ratio', 'rest_angle'];
-const MEASURED = ['spring', 'rod', 'rope'], LIMITED = ['axle', 'slider'];
+const LIMITED = ['axle', 'slider'];
 /** What an axle bears a torque by. @type {(keyof Joint)[]} */
 const TURNED = ['stiffness', 'damping', 'friction', 'ratchet', 'effort', 'lower', 'upper'];
 const RING = 9; // px: at its ends
@@ -98,7 +99,7 @@ function carrierField(gear, world, words, change) {
 export function jointTexts(world, joint) {
   const {kind, a, b, points: [p, q], rest_length: rest, stiffness = 100, guides} = joint;
   const force = `${threeDigits(world.frame.forces?.[world.scene.joints.indexOf(joint)] ?? 0)} ${unitOf(joint)}`;
-  if (!MEASURED.includes(kind) || guides) return [force];
+  if (!ALONG_LINE.includes(kind) || guides) return [force];
   const length = distance(world.place(a, p), world.place(b, q)), texts = [force, t('length {length} m', {length: threeDigits(length)})];
   return kind === 'spring' ? [...texts, t('energy {energy} J', {energy: threeDigits(stiffness * (length - rest) ** 2 / 2)})] : texts;
 }
@@ -109,6 +110,7 @@ export function jointTexts(world, joint) {
  */
 function unitOf(joint) {
   if (joint.kind === 'gear') return 'N m';
-  const bearsBoth = ['pin', 'motor', 'slider'].includes(joint.kind) || joint.kind === 'axle' && TURNED.some((key) => joint[key]);
+  const turns = joint.kind === 'axle' && !TURNED.some((key) => joint[key]);
+  const bearsBoth = [...AT_POINT, ...ALONG_AXIS].includes(joint.kind) && !turns;
   return bearsBoth ? t('N or N m') : 'N';
 }

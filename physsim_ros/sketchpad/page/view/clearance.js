@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What a text on the canvas leaves free: other texts, and joints, which are lines or points. */
 
+import {ALONG_LINE, AT_POINT} from '../joint_kinds.js';
 import {ropeStops} from '../rope_path.js';
 
 /** @import {Point, SceneView} from '../types.js' */
@@ -8,7 +9,6 @@ import {ropeStops} from '../rope_path.js';
 /** @typedef {[number, number, number, number]} Box left, top, right, bottom [px] */
 
 export const CLEAR = 4; // px beside a line
-const ALONG = ['spring', 'rod', 'rope'], HINGES = ['axle', 'motor', 'pin']; // kinds of joints that are lines, and points
 
 /** @type {(a: Box, b: Box) => boolean} */
 export function overlap(a, b) {
@@ -33,8 +33,8 @@ export function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
  */
 export function jointLines({camera, world}) {
   const at = (/** @type {Point} */ point) => camera.toPage(...point);
-  return world.scene.joints.filter(({kind, a, b}) => (ALONG.includes(kind) || HINGES.includes(kind)) && a < world.count && b < world.count).flatMap((joint) => {
-    const {a, b, kind} = joint, stops = ropeStops(world, joint), ends = HINGES.includes(kind) ? [stops[0], stops[0]] : stops;
+  return world.scene.joints.filter(({kind, a, b}) => (ALONG_LINE.includes(kind) || AT_POINT.includes(kind)) && a < world.count && b < world.count).flatMap((joint) => {
+    const {a, b, kind} = joint, stops = ropeStops(world, joint), ends = AT_POINT.includes(kind) ? [stops[0], stops[0]] : stops;
     return ends.slice(1).map((stop, i) => ({rows: [a, b], ends: /** @type {[Point, Point]} */ ([at(ends[i].at), at(stop.at)])}));
   });
 }

@@ -2,6 +2,7 @@
 /** Joints as what they are: coil, rod, rope, axle, motor, rail, toothed wheels. */
 
 import {boundsOf} from './body_path.js';
+import {ALONG_AXIS, AT_POINT} from '../joint_kinds.js';
 import {ropeHeadings, ropeStops} from '../rope_path.js';
 import {distance, rotated} from '../vectors.js';
 
@@ -9,7 +10,6 @@ import {distance, rotated} from '../vectors.js';
 
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
-const ON_BODIES = ['pin', 'axle', 'motor', 'slider']; // kinds whose symbol lies on their bodies, and is no larger than they
 // symbols: made by `make tables`
 const COILS = 8, SPIRAL = 3, TEETH = 10, TRACK = 8;
 // end: made by `make tables`
@@ -100,7 +100,8 @@ export class JointView {
    * @returns {number} half of the size for which its bodies have room [px]: the larger one, but a robot's parts each
    */
   #roomFor({kind, a, b}) {
-    if (!ON_BODIES.includes(kind)) return Infinity;
+    // The symbol of these lies on their bodies.
+    if (![...AT_POINT, ...ALONG_AXIS].includes(kind)) return Infinity;
     const {bodies} = this.world.scene;
     const rooms = [a, b].filter((row) => row >= 0).map((row) => this.view.bodies.appearance(bodies[row]).inner * this.camera.scale);
     return Math.max(...rooms);
