@@ -60,7 +60,7 @@ class DrawingTopics:
 
         :raises Refusal: there is none, or the world cannot have it
         """
-        self._loop.current_snapshot()
+        self._loop.bring_up_to_date()
         reading = self._session.instead()
         origin = Origin('~/instead', 'poses')
         submit_reading(self._simulation, self._session, reading, origin)
@@ -91,6 +91,6 @@ class DrawingTopics:
     def _drawing_on_snapshot(self, origin: Origin) -> Iterator[Snapshot]:
         """Yield the snapshot that a click or stroke refers to, and report its refusal."""
         try:
-            yield self._loop.current_snapshot()
+            yield self._loop.bring_up_to_date()
         except Refusal as refusal:
             self._simulation.requests.refuse(refusal, origin)

@@ -22,6 +22,7 @@ from physsim_ros.ros.robots import Fleet
 from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.ticks import FrameEnd, TickLimits
 
 # Time in which a tick is to end [ns]: requests, services and signals wait at most so long, which a
 # person hardly notices, or for one slice of work, and for the outputs of a frame. At speed 64 a
@@ -129,16 +130,19 @@ class FrameLoop:
         simulation, lockstep = self._simulation, self._fleet.lockstep
         # In a rewind commands are ignored, and no controller is awaited.
         if simulation.speed < 0.0 or not lockstep.waits():
+            frame_end = FrameEnd.STEP if self._was_overdue else FrameEnd.DUE
+            # Controllers answer whole frames.
+            frame_end = FrameEnd.PERIOD if lockstep.is_on else frame_end
             return simulation.advance(
                 now_ns,
-                is_overdue=tick_time.is_overdue,
-                is_spent=request_time.is_spent,
-                # Controllers answer whole frames.
-                ends_frame=lambda: lockstep.is_on or tick_time.is_overdue(),
-                by_steps=self._was_overdue and not lockstep.is_on,
+                TickLimits(
+                    is_overdue=tick_time.is_overdue,
+                    is_spent=request_time.is_spent,
+                    frame_end=frame_end,
+                ),
             )
         # By a service, as a reset, after which a robot may be gone, or its scan.
-        return (simulation.frame,) if simulation.is_changed else ()
+        return (simulation.frame,) if simulation.frames.is_changed else ()
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
@@ -162,9 +166,9 @@ class FrameLoop:
         self._handle_messages()
         self._note_readers()
         self._submit_commands()
-        if self._simulation.is_read:
+        if self._simulation.frames.is_read:
             return 0
-        frame = self._simulation.pass_frames(count)
+        frame = self._simulation.ticks.pass_frames(count)
         if frame is not None:
             self._show(frame)
         return count
@@ -211,10 +215,10 @@ class FrameLoop:
         elif wait is not Wait.NONE:
             self._simulation.requests.finish_calls()
             # No tick goes on with a replay that the call began.
-            self._simulation.finish_work(lambda: False)
+            self._simulation.ticks.finish_work(lambda: False)
 
-    def current_snapshot(self) -> Snapshot:
-        """Return the snapshot that is shown, with the waiting requests if they are applied."""
+    def bring_up_to_date(self) -> Snapshot:
+        """Apply the requests that there is time for, and return the snapshot that is shown."""
         if self.apply_in_time():
             self.apply_requests()
         shown = self._outputs.frame
@@ -222,7 +226,7 @@ class FrameLoop:
 
     def finish_short_seek(self) -> None:
         """Have a seek be done at once if it is short; else the next ticks go on with it."""
-        self._simulation.finish_work(_TickTime().is_overdue)
+        self._simulation.ticks.finish_work(_TickTime().is_overdue)
 
     def _handle_messages(self) -> None:
         """Carry out messages of pages."""
@@ -238,7 +242,7 @@ class FrameLoop:
     def _note_readers(self) -> None:
         """Make frames, and record contacts, while somebody reads them."""
         outputs, fleet = self._outputs, self._fleet
-        self._simulation.is_read = outputs.is_read or fleet.is_read
+        self._simulation.frames.is_read = outputs.is_read or fleet.is_read
         self._simulation.reports_contacts = outputs.wants_contacts or fleet.wants_contacts
 
     def _show_without_frame(self) -> tuple[Answer, ...]:

@@ -42,7 +42,7 @@ class NodeControl:
     :param boundary: of the node
 
     :ivar values: of the parameters of the node, by name, always up to date
-    :ivar current_snapshot: applies the waiting requests, and returns the snapshot that is shown
+    :ivar bring_up_to_date: applies the waiting requests, and returns the snapshot that is shown
     :ivar make_call: makes a call at its time among the requests
     :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
     """
@@ -67,7 +67,7 @@ class NodeControl:
         self.on_quit: Callable[[], object] | None = None
         self._is_quitting = False
         self._loop = loop
-        self.current_snapshot = loop.current_snapshot
+        self.bring_up_to_date = loop.bring_up_to_date
         self.make_call = loop.make_call
         self._outputs = outputs
         self._files = world_files

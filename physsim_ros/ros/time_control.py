@@ -105,7 +105,6 @@ class NodeTimeControl:
     def submit_seek(self, stamp: int, origin: Origin) -> None:
         """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
         self._statistics.reset_pace()
-        self._simulation.stop_driving()
         self._simulation.requests.submit_seek(stamp, origin)
         self._loop.apply_in_time()
 
@@ -128,7 +127,7 @@ class NodeTimeControl:
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
         self._loop.make_frame()
-        return _at(self._simulation.world.stamp)
+        return _at(self._simulation.stamp)
 
     async def reset(self) -> str:
         """Go to the beginning, which a thread builds."""

@@ -16,9 +16,9 @@ from physsim_ros.model.checks import Within
 
 # Check of a speed [simulation seconds a second].
 SPEED = Within(-64.0, 64.0)
-# Frames by which simulation time may be late before it slows down: a tenth of a second at 60 Hz,
-# longer than a garbage collection, and hardly seen.
-MOST_BEHIND = 6
+# Steady time by which simulation may be late, and at least two frames, before it slows down [s]:
+# longer than most collections of garbage, and hardly seen.
+LATEST = 0.1
 
 
 class Clock:
@@ -80,7 +80,7 @@ class Clock:
         # At the slowest speeds a frame is a fraction of a step, and is not late before that step.
         frame = max(quota, 1.0)
         behind = (target - step) / frame
-        if behind > MOST_BEHIND:
+        if target - step > max(2.0 * frame, LATEST * self._physics_rate * speed):
             self.late_frames += math.floor(behind) - 1
             target, behind = step + frame, 1.0
             self._anchor = (now_ns, target)

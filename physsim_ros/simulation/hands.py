@@ -81,7 +81,7 @@ class Hands:
             case Grab(hand=name):
                 self._dragging[name] = _Hand(gesture)
                 # Hands without a grip are dropped: their bodies have been deleted.
-                with_grip = {grip.hand for grip in self._past.cursor.world.grips}
+                with_grip = {grip.hand for grip in self._past.cursor.arrive().grips}
                 for other in self._dragging.keys() - with_grip:
                     del self._dragging[other]
             case MoveHand(hand=name) | KeepHand(hand=name):
@@ -93,7 +93,7 @@ class Hands:
     def release_grips(self) -> list[Answer]:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
         cursor = self._past.cursor
-        if self._playback.is_frame_cached or not (grips := cursor.world.grips):
+        if self._playback.is_frame_cached or not (grips := cursor.arrive().grips):
             return []
         if not cursor.is_newest:
             return []

@@ -5,9 +5,9 @@
 Playback: the moment that is shown, forward and back, and the steps that are due.
 
 Laws: a rewind or a seek shows a cached frame while the world is at another step. The world goes to
-the step that is shown before a request is applied, a step is made or the world is read, and while
-playback is paused. After a jump to another course the state of the world is shown, not a cached
-frame. Where contacts are reported, the frame of a paused world has those of its last steps.
+the step that is shown before a request is applied, a step is made or `arrive` returns the world,
+and while playback is paused. After a jump to another course the state of the world is shown, not a
+cached frame. Where contacts are reported, the frame of a paused world has those of its last steps.
 """
 
 from __future__ import annotations
@@ -152,11 +152,10 @@ class Playback:
             ),
         )
 
-    @property
-    def world(self) -> World:
-        """Return the world, at the moment that is shown."""
+    def arrive(self) -> World:
+        """Send the world to the moment that is shown, finish the way there, and return it."""
         self.seek_shown()
-        return self._past.cursor.world
+        return self._past.cursor.arrive()
 
     @property
     def is_world_due(self) -> bool:
@@ -176,7 +175,7 @@ class Playback:
     def _observe_world(self) -> CachedFrame:
         """Return the state of the world, and cache it for rewinds."""
         cursor, cache = self._past.cursor, self._past.frames
-        world = cursor.world
+        world = cursor.arrive()
         snapshot = world.snapshot()
         contacts = world.contacts(snapshot) if world.reports_contacts else None
         frame = CachedFrame(snapshot, contacts)
@@ -263,7 +262,8 @@ class Playback:
         """Advance the world, which is at the moment that is shown, by steps."""
         self._lacks_contacts, self.stepped = False, True
         cursor = self._past.cursor
-        cursor.advance(steps)
+        cursor.begin_advance(steps)
+        cursor.arrive()
         cursor.build_ahead(steps)
 
     def play(self, steps: int, *, by_steps: bool = False) -> Iterator[bool]:

@@ -58,11 +58,13 @@ class RequestQueue:
 
     :ivar gesture: number of the last gesture
     :ivar hands: that drag bodies
+    :ivar driving: the commands with which robots drive on, by the names of their bodies
     """
 
     def __init__(self, past: Past, playback: Playback) -> None:
         self.gesture = 0
         self.hands = Hands(past, playback)
+        self.driving: dict[str, DriveRobot] = {}
         # Those that wait for the next frame.
         self._answers: list[Answer] = []
         self._past = past
@@ -208,11 +210,21 @@ class RequestQueue:
             self.apply_up_to_seek()
         while (self._waiting or self._calls.hold_requests) and not self._is_applying:
             self._calls.wait_for_any()
-            self._playback.seek_shown()
-            self._past.cursor.finish_work()
+            self._playback.arrive()
             self.apply_up_to_seek()
         self._past.cursor.finish_amendment()
         self.note_arrival()
+
+    def settle(self) -> Past:
+        """
+        Apply all entries, and return the past, its cursor sent to the moment that is shown.
+
+        A cached frame may be shown while the cursor is elsewhere: what acts on the past, or reads
+        the world, calls this first.
+        """
+        self.apply_waiting()
+        self._playback.seek_shown()
+        return self._past
 
     def continue_calls(self) -> None:
         """Go on with the calls for which no request waits, also during a seek."""
@@ -363,14 +375,16 @@ class RequestQueue:
 
         :raises OutOfHistory: the time is no longer kept, or in the future
         """
-        has_arrived = self._playback.has_arrived
+        self.note_arrival()
         self._playback.seek(stamp)
-        self.hands.clear()
-        if has_arrived:
-            self._tell_arrival()
-        else:
-            self._supersede('seek')
+        self.let_go()
+        self._supersede('seek')
         return Text('at {time}', time=self._playback.time)
+
+    def let_go(self) -> None:
+        """End drags and drives, since another moment or world is shown."""
+        self.hands.clear()
+        self.driving.clear()
 
     def note_jump(self) -> None:
         """Show the moment to which something else than a seek has sent the cursor."""

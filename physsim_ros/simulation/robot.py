@@ -61,7 +61,7 @@ class Robot:
         self.simulation = simulation
         self.name = name
         # After the requests that wait, one of which may spawn it.
-        robot_of_name(simulation.at_shown_moment().cursor.world.space, name)
+        robot_of_name(simulation.requests.settle().cursor.arrive().space, name)
         simulation.reports_contacts = True
 
     @property
@@ -80,8 +80,8 @@ class Robot:
         """
         Drive from the next step on, until the next call.
 
-        A reset, a seek and another world end the command. The drive cuts off a velocity beyond its
-        limits.
+        A reset, a seek, a rewind, another course and another world end the command. The drive cuts
+        off a velocity beyond its limits.
 
         :param speed: forward speed [m/s]
         :param turn: turn rate, counter-clockwise [rad/s]

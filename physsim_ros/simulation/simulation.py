@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+import math
 from numbers import Integral
 
 import numpy as np
@@ -22,12 +23,16 @@ from physsim_ros.model.errors import BadProperty, InPast
 from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
-from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.model.timeline import stamp_of, TimelineStatus
 from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.sensing import SensedFrame
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.world import Beginning, forces_now, load_message
+from physsim_ros.simulation.playback import Playback
+from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.ticks import NO_LIMITS, TickLimits, Ticks
+from physsim_ros.simulation.world import Beginning, forces_now, load_message, World
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -58,7 +63,7 @@ class SavedMoment:
     physics_rate: float
 
 
-class Simulation(FrameMaker):
+class Simulation:
     """
     A world and its time.
 
@@ -83,6 +88,14 @@ class Simulation(FrameMaker):
     :param boundary: catches unexpected errors of requests; None lets them pass
     :raises BadProperty: a number is out of range, or publish_rate does not divide physics_rate
     :raises Malformed: a number is not finite, or a value has another type
+
+    :ivar physics_rate: steps a second of simulation time [Hz]
+    :ivar frame_steps: number of steps in a frame at speed 1
+    :ivar past: the lines of events, cached frames, and their budget of memory
+    :ivar playback: the moment that is shown
+    :ivar requests: queue of the requests that wait for the next frame, and what applies them
+    :ivar frames: makes the frames of that moment
+    :ivar ticks: have its time go on
     """
 
     def __init__(
@@ -117,9 +130,61 @@ class Simulation(FrameMaker):
             memory=history_memory,
             boundary=boundary or ErrorBoundary(),
         )
-        super().__init__(past, speed)
+        self.physics_rate = past.physics_rate
+        self.frame_steps = past.frame_steps
+        self.past = past
+        self.playback = Playback(past, speed=speed)
+        self.requests = RequestQueue(past, self.playback)
+        self.frames = FrameMaker(past, self.playback, self.requests)
+        self.ticks = Ticks(past, self.playback, self.requests, self.frames)
 
     # Reading
+
+    @property
+    def world(self) -> World:
+        """Return the world at the moment that is shown; a replay that leads there is finished."""
+        return self.playback.arrive()
+
+    @property
+    def step(self) -> int:
+        """Return the step that is shown."""
+        return self.playback.step
+
+    @property
+    def stamp(self) -> int:
+        """Return the simulation time that is shown [ns]."""
+        return stamp_of(self.step, self.physics_rate)
+
+    @property
+    def is_past(self) -> bool:
+        """Whether something lies ahead of the moment that is shown, on its course."""
+        return not self.playback.is_newest
+
+    @property
+    def speed(self) -> float:
+        """Return simulation seconds a second; 0 is paused, negative goes back."""
+        return self.playback.speed
+
+    @speed.setter
+    def speed(self, speed: float) -> None:
+        self.playback.speed = speed
+        if self.playback.speed < 0.0:
+            self.requests.let_go()
+
+    @property
+    def sensed(self) -> SensedFrame:
+        """
+        Return the frame of now as sensors see it.
+
+        A frame is made when it is first read after steps or requests, so that steps whose frame
+        nobody reads make none.
+        """
+        return self.frames.sensed
+
+    @property
+    def frame(self) -> Frame:
+        """Return the frame of now, which is made when it is first read."""
+        return self.frames.sensed.frame
 
     @property
     def settings(self) -> WorldSettings:
@@ -143,7 +208,7 @@ class Simulation(FrameMaker):
         :raises Refusal: it is out of range
         """
         length = self.past.steps_of('history', seconds)
-        past = self.at_shown_moment()
+        past = self.requests.settle()
         # The times of a paused world are told anew.
         self.playback.note_change()
         if not past.cursor.keep_within(length):
@@ -170,7 +235,49 @@ class Simulation(FrameMaker):
             self.past.reports_contacts = reports_contacts
             self.playback.note_reporting(reports_contacts)
 
+    # Time
+
+    def apply_requests(self) -> Frame | None:
+        """Apply the requests that wait, without a step; return a frame if anything changed."""
+        self.requests.apply_waiting()
+        return self.frames.make() if self.frames.is_changed else None
+
+    def advance_frame(self) -> Frame:
+        """Apply the requests that wait, and advance by one publish period, at any speed."""
+        self.ticks.run(1)
+        return self.frames.make()
+
+    def run(self, seconds: float) -> None:
+        """
+        Advance by simulated seconds, to the nearest publish period, at any speed.
+
+        No frame is made but the last one, when it is read; its contacts are those of all steps
+        since the one that was read before.
+
+        :raises BadProperty: they are no number, below 0, or more than can be counted
+        :raises Malformed: they are not finite
+        """
+        seconds = number(seconds, 'seconds')
+        periods = seconds * self.physics_rate / self.frame_steps
+        if not 0.0 <= periods < math.inf:
+            raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')
+        self.ticks.run(round(periods))
+
+    def advance(self, now_ns: int, limits: TickLimits = NO_LIMITS) -> tuple[Frame, ...]:
+        """
+        Apply the requests that wait, and advance, or rewind, by the steps that are due.
+
+        :param now_ns: steady time, never going back [ns]
+        :return: the frames, in the order in which they are shown; empty where nothing is due and
+            nothing has changed
+        """
+        return self.ticks.advance(now_ns, limits)
+
     # Requests
+
+    def keep_driving(self, command: DriveRobot) -> None:
+        """Have a robot drive on by a command, until it gets another one or is gone."""
+        self.requests.driving[command.name] = command
 
     def perform(self, request: Request, gesture: int | None = None) -> str:
         """
@@ -180,7 +287,7 @@ class Simulation(FrameMaker):
         :raises Refusal: the request is refused, and has changed nothing
         """
         OfClass(Request)(request, 'request')
-        self.at_shown_moment()
+        self.requests.settle()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
         message = self.requests.apply_now(request, gesture).message
         self.playback.note_change()
@@ -196,7 +303,7 @@ class Simulation(FrameMaker):
         :raises UnknownBody: no body has that name
         :raises Malformed: a number is not finite
         """
-        rigid = self.at_shown_moment().cursor.world.space.bodies.by_name.get(name)
+        rigid = self.requests.settle().cursor.arrive().space.bodies.by_name.get(name)
         # An anchored body takes a pose only.
         twists = np.zeros((0 if rigid is not None and rigid.body.anchored else 1, 3))
         self.perform(Command(names=(name,), poses=np.array(((x, y, yaw),)), twists=twists))
@@ -216,9 +323,8 @@ class Simulation(FrameMaker):
 
     def _note_beginning(self) -> None:
         """Note that the world is another one, which nobody drags, drives or has seen."""
-        self.requests.hands.clear()
-        self.stop_driving()
-        self._forget_frames()
+        self.requests.let_go()
+        self.frames.forget()
 
     def load(self, world: WorldState | Beginning) -> str:
         """
@@ -230,9 +336,9 @@ class Simulation(FrameMaker):
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
         state, ahead = self._to_begin_with(world)
-        self.at_shown_moment().cursor.world.put_ahead(ahead)
+        self.requests.settle().cursor.arrive().put_ahead(ahead)
         message = self.perform(Restore(state=state))
-        self.stop_driving()
+        self.requests.let_go()
         return message
 
     def _to_begin_with(self, world: WorldState | Beginning) -> tuple[WorldState, Beginning | None]:
@@ -254,7 +360,7 @@ class Simulation(FrameMaker):
 
     def saver(self) -> Callable[[], WorldState]:
         """Return a function that returns, on any thread, the state of the world as it is now."""
-        return self.at_shown_moment().cursor.world.saver()
+        return self.requests.settle().cursor.arrive().saver()
 
     def saver_of_run(self) -> Callable[[], WorldState]:
         """
@@ -262,7 +368,7 @@ class Simulation(FrameMaker):
 
         A world that begins with this state, and gets no request, repeats the run.
         """
-        return self.at_shown_moment().saver_of_run()
+        return self.requests.settle().saver_of_run()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """
@@ -289,7 +395,7 @@ class Simulation(FrameMaker):
 
         :raises InPast: the past is shown
         """
-        past = self.at_shown_moment()
+        past = self.requests.settle()
         if self.frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
         self.requests.hands.clear()
@@ -301,7 +407,7 @@ class Simulation(FrameMaker):
             loaded=self.loaded,
             frame=frame,
             before=self.sensed.before,
-            driving=tuple(self.driving.values()),
+            driving=tuple(self.requests.driving.values()),
             physics_rate=self.physics_rate,
         )
 
@@ -328,7 +434,7 @@ class Simulation(FrameMaker):
             self.keep_driving(command)
         # Its answers are those of the other simulation.
         frame = replace(saved.frame, answers=(), speed=self.speed, course=self.past.tree.course)
-        self._show_again(frame, saved.before)
+        self.frames.show_again(frame, saved.before)
 
     def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> str:
         """
@@ -385,7 +491,7 @@ class Simulation(FrameMaker):
         """
         with self._jump() as past:
             if past.return_to_course(number):
-                self.requests.hands.clear()
+                self.requests.let_go()
         return Text('on course {course}, at {time}', course=number, time=self.playback.time)
 
     def seek(self, stamp: int) -> str:
@@ -401,12 +507,10 @@ class Simulation(FrameMaker):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
         number(stamp, 'clock')
         self.requests.apply_waiting()
-        message = self.requests.seek(stamp)
-        self.stop_driving()
-        return message
+        return self.requests.seek(stamp)
 
     @contextmanager
     def _jump(self) -> Iterator[Past]:
         """Have the block move the cursor, from the moment that is shown after all requests."""
-        yield self.at_shown_moment()
+        yield self.requests.settle()
         self.requests.note_jump()

@@ -122,7 +122,7 @@ def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> 
     wanted = [each for each in wanted if not isinstance(each, requests.LetGo)]
     if not wanted or not world.locked_bodies or role is Role.TEACH:
         return
-    snapshot = world.current_snapshot()
+    snapshot = world.bring_up_to_date()
     _check_newest(world)
     _check_names((name for each in wanted for name in _bodies_of(each, snapshot)), world)
 
@@ -157,7 +157,7 @@ def check_taken_back(role: Role, gestures: Collection[int], world: WorldControl)
     """
     if not gestures or not world.locked_bodies or role is Role.TEACH:
         return
-    snapshot = world.current_snapshot()
+    snapshot = world.bring_up_to_date()
     _check_newest(world)
     nodes = world.simulation.past.line.nodes_of(gestures)
     _check_names((name for each in nodes for name in _bodies_then(each, snapshot)), world)

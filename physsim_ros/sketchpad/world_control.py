@@ -81,7 +81,7 @@ class WorldControl(Protocol):
     def locked_bodies(self) -> tuple[str, ...]:
         """Return patterns of the names of bodies that pupils do not change."""
 
-    def current_snapshot(self) -> Snapshot:
+    def bring_up_to_date(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
 
     def make_call(

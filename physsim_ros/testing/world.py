@@ -191,7 +191,6 @@ class PhysSim(ObservedWorld):
                 looked = ', '.join(dict.fromkeys(map(str, paths)))
                 refused.add_note(f'A test also looks for {looked}.')
             raise
-        self.node.simulation.stop_driving()
         self.node.loop.apply_requests()
         self.settle()
 
@@ -313,7 +312,6 @@ class PhysSim(ObservedWorld):
         :raises Refused: the time is no longer in the history, or in the future
         """
         self.settle()
-        self.node.simulation.stop_driving()
         with refusals_as_refused():
             self.node.simulation.seek(round(seconds * 1e9))
         self.node.loop.apply_requests()

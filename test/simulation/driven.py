@@ -17,6 +17,7 @@ from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.entries import Origin, TakeBack
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.ticks import TickLimits
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -25,6 +26,8 @@ from ..building import BOX, spawning
 # Steps in a frame.
 FRAME = 4
 SECOND = 10**9
+# Each call is overdue at once.
+OVERDUE = TickLimits(is_overdue=lambda: True)
 FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
 SLAB = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 

@@ -46,6 +46,7 @@ from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.simulation import SavedMoment, Simulation
 from physsim_ros.simulation.world import beginning_of
 
+from .driven import OVERDUE
 from .random_history import history_of, Operation, SETTINGS, shipped_world
 
 # The request of a saved moment from which another line has run on without it.
@@ -229,7 +230,7 @@ class Player:
     def _frames_overdue(self, calls: int) -> Iterator[Frame]:
         for _ in range(calls):
             self.now += round(1e9 * self.frame_steps / self.rate)
-            yield from self.sim.advance(self.now, is_overdue=lambda: True)
+            yield from self.sim.advance(self.now, OVERDUE)
 
     def undo(self) -> None:
         before, words = self._position(), self.sim.status.undo
@@ -635,22 +636,22 @@ class Player:
         else:
             past.begin(state)
         cursor = past.cursor
-        yield state, [], cursor.world.snapshot()
+        yield state, [], cursor.arrive().snapshot()
         for count in range(len(made) + 1):
             goal = after = end
             if count < len(made):
                 goal, after = made[count].step, made[count].after
             moves = self.moves.get(key_of(state, made[:count]), ())
             while True:
-                if cursor.world.step_count in moves and cursor.world.step_count <= after:
+                if cursor.arrive().step_count in moves and cursor.arrive().step_count <= after:
                     cursor.add_keyframe()
-                if cursor.world.step_count >= goal:
+                if cursor.arrive().step_count >= goal:
                     break
-                cursor.advance(1)
-                yield state, made[:count], cursor.world.snapshot()
+                cursor.begin_advance(1)
+                yield state, made[:count], cursor.arrive().snapshot()
             if count < len(made):
                 past.apply(made[count].request, count)
-                yield state, made[: count + 1], cursor.world.snapshot()
+                yield state, made[: count + 1], cursor.arrive().snapshot()
 
     def digest(self) -> str:
         """Return a hash of all that was shown."""

@@ -12,7 +12,7 @@ from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .driven import take_back, world_after
+from .driven import OVERDUE, take_back, world_after
 from ..building import BOX, DISC, joining, spawning
 
 LEFT, RIGHT = (-3.0, 5.0, 0.0), (3.0, 5.0, 0.0)
@@ -214,7 +214,7 @@ def test_what_broke_is_not_told_again_where_the_way_takes_several_ticks():
     told, ticks = [], 0
     while not told:
         ticks += 1
-        frames = simulation.advance(ticks, is_overdue=lambda: True)
+        frames = simulation.advance(ticks, OVERDUE)
         told = [answer for frame in frames for answer in frame.answers]
         told += simulation.requests.take_answers()
 
@@ -236,7 +236,7 @@ def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_we
         raise ZeroDivisionError
 
     with monkeypatch.context() as patch:
-        patch.setattr(Cursor, 'advance', fail)
+        patch.setattr(Cursor, 'slices_of_advance', fail)
         simulation.requests.submit(change, Origin('t', author='Anna'))
         frame = simulation.apply_requests()
 

@@ -5,19 +5,21 @@
 
 import random
 
-from physsim_ros.simulation.clock import Clock, MOST_BEHIND
+from physsim_ros.simulation.clock import Clock, LATEST
 import pytest
 
 SECOND = 1_000_000_000
 # Steps a frame at 240 Hz of physics and 60 Hz of frames.
 FRAME = 4
+# Frames by which simulation time may be late.
+MOST_BEHIND = round(60 * LATEST)
 
 
 class Run:
     """A clock that was asked once, and a world that makes the steps that are due from then on."""
 
-    def __init__(self, speed: float, *, step: int = 0) -> None:
-        self.clock = Clock(physics_rate=240.0, frame_steps=FRAME, speed=speed)
+    def __init__(self, speed: float, *, step: int = 0, frame: int = FRAME) -> None:
+        self.clock = Clock(physics_rate=240.0, frame_steps=frame, speed=speed)
         self.step = step
         self.now = 7 * SECOND
         self.frames: list[int] = []
@@ -150,14 +152,15 @@ def test_what_is_too_late_is_counted_and_time_slows_down(speed, gap):
     assert run.step == pytest.approx(made, abs=0 if speed.is_integer() else 2)
 
 
-def test_up_to_the_limit_nothing_is_late():
-    run = Run(1.0)
+@pytest.mark.parametrize('frame', [1, 2, FRAME, 8])
+def test_up_to_the_limit_nothing_is_late_at_any_publish_rate(frame):
+    run = Run(1.0, frame=frame)
 
-    for _ in range(MOST_BEHIND):
-        run.at(MOST_BEHIND / 60.0)
+    for _ in range(240):
+        run.at(LATEST)
 
     assert run.clock.late_frames == 0
-    assert run.step == MOST_BEHIND * FRAME
+    assert run.step == 240 * LATEST
 
 
 def test_a_machine_that_is_too_slow_for_good_gives_all_steps_later():

@@ -114,7 +114,7 @@ def test_an_error_in_what_steps_need_refuses_the_request(change, monkeypatch):
     }[change]
     world = Simulation(boundary=ErrorBoundary(log=lambda _: None))
     world.perform(Spawn(name='b/0', shape=DISC, pose=(0.0, 5.0, 0.0)))
-    before = world.past.cursor.world.digest()
+    before = world.past.cursor.arrive().digest()
     records = {'actor': '_actor_records', 'robot': '_robot_records', 'forces': '_force_records'}
 
     monkeypatch.setattr(body_table, records[change], fail)
@@ -125,7 +125,7 @@ def test_an_error_in_what_steps_need_refuses_the_request(change, monkeypatch):
         with pytest.raises(Failed):
             world.perform(request)
     monkeypatch.undo()
-    assert world.past.cursor.world.digest() == before
+    assert world.past.cursor.arrive().digest() == before
     world.advance_frame()
 
 
@@ -143,20 +143,20 @@ def test_an_error_in_what_steps_need_of_joints_refuses_their_requests(monkeypatc
 
     monkeypatch.setattr(joint_table, '_rows_of', fail_once)
     for request in (replace(rod, name='rod/1'), ChangeBody(name='b/0', shape=Disc(radius=0.2))):
-        before, calls = world.past.cursor.world.digest(), iter((True,))
+        before, calls = world.past.cursor.arrive().digest(), iter((True,))
         with pytest.raises(Failed):
             world.perform(request)
-        assert world.past.cursor.world.digest() == before
+        assert world.past.cursor.arrive().digest() == before
         world.advance_frame()
 
 
 def test_an_error_in_what_steps_need_on_a_floor_refuses_that_floor(monkeypatch):
     world = Simulation(boundary=ErrorBoundary(log=lambda _: None))
     world.perform(Spawn(name='b/0', shape=DISC, pose=(0.0, 5.0, 0.0)))
-    before = world.past.cursor.world.digest()
+    before = world.past.cursor.arrive().digest()
     monkeypatch.setattr(body_table, 'lever_of', fail)
     with pytest.raises(Failed):
         world.perform(Configure(changes={'floor_friction': 0.3}))
     monkeypatch.undo()
-    assert world.past.cursor.world.digest() == before
+    assert world.past.cursor.arrive().digest() == before
     world.advance_frame()

@@ -12,7 +12,7 @@ from physsim_ros.simulation.entries import Amend, Origin, TakeBack, Unread, Wait
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .driven import FLOOR, SECOND, take_back, world_after
+from .driven import FLOOR, OVERDUE, SECOND, take_back, world_after
 from ..building import DISC, spawning
 
 NAMES = ('Anna', 'Ben')
@@ -42,7 +42,7 @@ def digests(simulation: Simulation) -> dict[int, str]:
 def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
     """Tick until there is a frame, when each tick is overdue at once; return how many it took."""
     for tick in range(1, 2000):
-        frames = simulation.advance(now + tick * SECOND // 60, is_overdue=lambda: True)
+        frames = simulation.advance(now + tick * SECOND // 60, OVERDUE)
         if frames:
             return tick, frames[0]
     pytest.fail('no frame')
@@ -150,7 +150,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, d
     assert times == [round(step * SECOND / 240) for step in (484, 488)]
     steps = []
     for tick in range(1, 1000):
-        for frame in simulation.advance(tick * SECOND // 60, is_overdue=lambda: True):
+        for frame in simulation.advance(tick * SECOND // 60, OVERDUE):
             assert frame.stepped
             steps.append(frame.snapshot.step)
             assert simulation.world.digest() == digests[frame.snapshot.step]
@@ -169,7 +169,7 @@ def test_another_seek_takes_the_place_of_one_under_way(simulation, digests):
     simulation.past.frames.drop_from(0)
     simulation.seek(2 * SECOND)
     for tick in range(50):
-        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert not simulation.advance(tick * SECOND // 60, OVERDUE)
     simulation.seek(SECOND)
     simulation.seek(2 * SECOND)
     ticks, _ = ticks_to_a_frame(simulation, SECOND)
@@ -191,7 +191,7 @@ def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_plac
     simulation.past.frames.drop_from(0)
     simulation.requests.submit_seek(2 * SECOND, Origin('~/seek', asker='1'))
     for tick in range(50):
-        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert not simulation.advance(tick * SECOND // 60, OVERDUE)
         assert not told_of_seeks(simulation)
     match other:
         case 'seek':
@@ -229,7 +229,7 @@ def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewher
 
     undo('first')
     for tick in range(50):
-        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert not simulation.advance(tick * SECOND // 60, OVERDUE)
         assert not told
         assert not simulation.requests.take_answers()
     match ends_by:
@@ -254,14 +254,14 @@ def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, di
         ticks, frame = ticks_to_a_frame(simulation, now)
         assert (ticks, frame.snapshot.step) == (1, step)
         # On the way to the moment before, another one is sought.
-        assert not simulation.advance(now + SECOND // 2, is_overdue=lambda: True)
+        assert not simulation.advance(now + SECOND // 2, OVERDUE)
         assert cursor.continue_work()
     ticks = 0
     while cursor.continue_work():
-        assert not simulation.advance(4 * SECOND + ticks, is_overdue=lambda: True)
+        assert not simulation.advance(4 * SECOND + ticks, OVERDUE)
         ticks += 1
     assert 10 < ticks < 200
-    assert cursor.world.digest() == digests[360]
+    assert cursor.arrive().digest() == digests[360]
     simulation.advance_frame()
     assert simulation.world.digest() == digests[364]
 
@@ -305,7 +305,7 @@ def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits(monkeypatch)
             cursor.seek(goal)
             assert all(cursor.continue_work() for _ in range(parts))
             cursor.seek(24)
-            assert cursor.world.step_count == 24
+            assert cursor.arrive().step_count == 24
         simulation.run(0.1)
         digests.add(simulation.world.digest())
         assert not simulation.past.reports
@@ -341,7 +341,7 @@ def test_an_undo_among_requests_that_are_replayed_at_one_step_takes_the_last_one
     simulation.seek(0)
     told = set()
     for tick in range(30):
-        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        simulation.advance(tick * SECOND // 60, OVERDUE)
         told.add((simulation.step, simulation.past.cursor.is_working, simulation.status.undo))
         if simulation.step == together and simulation.past.cursor.is_working:
             break
@@ -372,7 +372,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
     queue.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     for tick in range(400):
         steps.clear()
-        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert not simulation.advance(tick * SECOND // 60, OVERDUE)
         assert sum(steps) <= simulation.frame_steps
         status = simulation.status
         assert (status.now, status.newest, status.state) == (step / 240, step / 240, 'paused')
@@ -395,7 +395,7 @@ def test_a_refused_amendment_goes_back_bit_by_bit(steps):
     simulation.requests.submit(TakeBack(), Origin('~/undo', author='Anna'))
     for tick in range(1000):
         steps.clear()
-        frames = simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        frames = simulation.advance(tick * SECOND // 60, OVERDUE)
         assert sum(steps) <= simulation.frame_steps
         if frames:
             break
@@ -408,7 +408,7 @@ def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
     simulation = of_anna_and_ben(seconds=2)
     simulation.requests.submit(TakeBack(), Origin('~/undo', author='Anna'))
     for tick in range(20):
-        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert not simulation.advance(tick * SECOND // 60, OVERDUE)
     assert simulation.past.cursor.is_amending
     match way:
         case 'seek':

@@ -13,12 +13,13 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.entries import Amend
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of, World
 import pytest
 from tools.bench.scenes import FREE, MACHINES, Scene
 
-from .driven import SECOND
+from .driven import OVERDUE, SECOND
 from ..building import DISC, spawn, spawning
 
 
@@ -53,7 +54,7 @@ def ticks_to_frames(simulation: Simulation, count: int, ticks: int) -> list[tupl
     """Return frames with the tick of each, where each tick is overdue at once."""
     made = []
     for tick in range(ticks):
-        frames = simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        frames = simulation.advance(tick * SECOND // 60, OVERDUE)
         made += [(tick, frame) for frame in frames]
         if len(made) == count:
             return made
@@ -124,8 +125,8 @@ def test_a_call_of_the_core_begins_no_sub_step_that_would_end_too_late(monkeypat
 def test_what_reads_the_world_meanwhile_finds_whole_steps(in_sub_steps):
     one, other = whole(FREE['stack of ten']), in_sub_steps(FREE['stack of ten'])
     one.run(1 / 60)
-    other.advance(0, is_overdue=lambda: True)
-    other.advance(SECOND // 60, is_overdue=lambda: True)
+    other.advance(0, OVERDUE)
+    other.advance(SECOND // 60, OVERDUE)
     assert other.past.cursor.is_working
     assert other.world.digest() == one.world.digest()
     assert not other.past.cursor.is_working
@@ -133,8 +134,8 @@ def test_what_reads_the_world_meanwhile_finds_whole_steps(in_sub_steps):
 
 def test_requests_wait_for_the_end_of_the_frame(in_sub_steps):
     simulation = in_sub_steps(FREE['stack of ten'])
-    simulation.advance(0, is_overdue=lambda: True)
-    simulation.advance(SECOND // 60, is_overdue=lambda: True)
+    simulation.advance(0, OVERDUE)
+    simulation.advance(SECOND // 60, OVERDUE)
     assert simulation.past.cursor.is_working
     simulation.requests.submit(spawning('late/0', DISC, (9.0, 1.0, 0.0)), topic='~/spawn')
     simulation.requests.apply_up_to_seek()
@@ -146,7 +147,7 @@ def test_requests_wait_for_the_end_of_the_frame(in_sub_steps):
 def test_the_log_of_a_world_that_was_cut_replays_to_the_same_bits(in_sub_steps):
     simulation = in_sub_steps(FREE['ten fall and roll'])
     for tick in range(400):
-        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        simulation.advance(tick * SECOND // 60, OVERDUE)
         if tick % 37 == 0:
             change = Configure(changes={'gravity': (0.1 * (tick % 5), -9.81)})
             simulation.requests.submit(change, topic='~/gravity')
@@ -165,7 +166,7 @@ def test_a_seek_in_the_middle_of_a_step_goes_to_its_goal(in_sub_steps):
     simulation.run(0.5)
     at_half, step = simulation.world.digest(), simulation.step
     for tick in range(3):
-        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        simulation.advance(tick * SECOND // 60, OVERDUE)
     assert simulation.past.cursor.is_working
     simulation.past.frames.drop_from(0)
     simulation.speed = 0.0
@@ -173,6 +174,19 @@ def test_a_seek_in_the_middle_of_a_step_goes_to_its_goal(in_sub_steps):
     assert simulation.world.digest() == at_half
     other.run(0.5)
     assert other.world.digest() == at_half
+
+
+def test_an_amendment_is_cut_within_the_steps_that_it_makes_again(monkeypatch):
+    monkeypatch.setattr(CoreWorld, 'longest_call', 0.0)
+    simulation = Simulation(speed=0.0)
+    gesture = simulation.requests.begin_gesture()
+    simulation.perform(spawning('a/0', DISC, (0.0, 9.0, 0.0)), gesture)
+    simulation.run(0.5)
+    simulation.requests.submit(Amend((gesture,), (spawning('b/0', DISC, (0.0, 9.0, 0.0)),)))
+    ((tick, frame),) = ticks_to_frames(simulation, 1, 2000)
+    assert frame.snapshot.step == simulation.step == 120
+    assert frame.snapshot.scene.names == ('b/0',)
+    assert tick >= 120 * lib.SUB_STEPS
 
 
 def reset(simulation: Simulation) -> None:
@@ -191,7 +205,7 @@ def test_undo_returns_to_the_last_step_before_a_world_that_began_within_a_frame(
     simulation = in_sub_steps(FREE['stack of ten'])
     simulation.run(0.5)
     for tick in range(3):
-        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        simulation.advance(tick * SECOND // 60, OVERDUE)
     shown = simulation.step
     assert simulation.past.cursor.is_working
 

@@ -19,10 +19,12 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import Command, DriveRobot, Grab
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.sensing import SensedFrame
-from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.ticks import Ticks
 from physsim_ros.simulation.world import World
 import pytest
+
+from .driven import OVERDUE
 
 SECOND = 10**9
 # Length of the past, the time that is looked at, and one between them [ns].
@@ -60,13 +62,9 @@ OF_SIMULATION: dict[str, Call] = {
     'advance': of_simulation(lambda it: it.advance(SECOND)),
     'advance_frame': of_simulation(Simulation.advance_frame),
     'apply_requests': of_simulation(Simulation.apply_requests),
-    'at_shown_moment': of_simulation(Simulation.at_shown_moment),
     'begin': of_simulation(lambda it: it.begin(it.save())),
     'checkpoint': of_simulation(Simulation.checkpoint),
-    'finish_work': of_simulation(lambda it: it.finish_work(lambda: False)),
-    'is_changed': of_simulation(lambda it: it.is_changed),
     'is_past': of_simulation(lambda it: it.is_past),
-    'pass_frames': of_simulation(lambda it: it.pass_frames(3)),
     'stamp': of_simulation(lambda it: it.stamp),
     'forces_now': of_simulation(lambda it: it.forces_now(it.frame.snapshot)[1]),
     'frame': of_simulation(lambda it: it.frame),
@@ -94,10 +92,15 @@ OF_SIMULATION: dict[str, Call] = {
     'speed': of_simulation(set_speed),
     'status': of_simulation(lambda it: it.status),
     'step': of_simulation(lambda it: it.step),
-    'stop_driving': of_simulation(Simulation.stop_driving),
     'undo': of_simulation(Simulation.undo),
     'sensed': of_simulation(lambda it: it.sensed),
     'world': of_simulation(lambda it: it.world),
+}
+OF_TICKS: dict[str, Call] = {
+    'advance': of_simulation(lambda it: it.ticks.advance(SECOND, OVERDUE)),
+    'finish_work': of_simulation(lambda it: it.ticks.finish_work(lambda: False)),
+    'pass_frames': of_simulation(lambda it: it.ticks.pass_frames(3)),
+    'run': of_simulation(lambda it: it.ticks.run(3)),
 }
 OF_ROBOT: dict[str, Call] = {
     'battery': Robot.battery,
@@ -185,13 +188,16 @@ def public_names(kind: type) -> set[str]:
 
 
 def test_all_public_names_are_called():
-    assert OF_SIMULATION.keys() == public_names(Simulation) >= public_names(FrameMaker)
+    assert OF_SIMULATION.keys() == public_names(Simulation)
+    assert OF_TICKS.keys() == public_names(Ticks)
     assert OF_ROBOT.keys() == public_names(Robot)
 
 
-@pytest.mark.parametrize('name', sorted(OF_SIMULATION | OF_ROBOT))
-def test_a_look_back_changes_no_public_call(name):
-    call = (OF_SIMULATION | OF_ROBOT)[name]
+CALLS = [*OF_SIMULATION.items(), *OF_ROBOT.items(), *OF_TICKS.items()]
+
+
+@pytest.mark.parametrize('call', [pytest.param(call, id=name) for name, call in CALLS])
+def test_a_look_back_changes_no_public_call(call):
     assert outcome(call, LOOKS['world']) == outcome(call, None)
 
 

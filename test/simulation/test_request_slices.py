@@ -5,6 +5,7 @@
 
 from collections.abc import Callable
 from concurrent.futures import Future
+from dataclasses import replace
 from functools import partial
 from threading import Thread
 
@@ -14,8 +15,10 @@ from physsim_ros.model.requests import CommandMotors, DriveRobot
 from physsim_ros.runtime.slices import end_slice, wrap_future
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.ticks import FrameEnd, TickLimits
 import pytest
 
+from .driven import OVERDUE
 from ..building import BOX, NOWHERE, spawning
 
 FRAME = 10**9 // 60
@@ -26,6 +29,11 @@ def submit(simulation: Simulation, *, joined: bool) -> None:
     for number in range(COUNT):
         body = spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0))
         simulation.requests.submit(body, topic='~/spawn_array', joined=joined and number > 0)
+
+
+def spending(count: int) -> TickLimits:
+    """Return the limits of a call that has time for a number of requests."""
+    return TickLimits(is_spent=spent_after(count))
 
 
 def spent_after(count: int) -> Callable[[], bool]:
@@ -42,7 +50,7 @@ def spent_after(count: int) -> Callable[[], bool]:
 
 def tick(simulation: Simulation, number: int) -> int:
     """Tick with time for a slice; return the number of frames."""
-    return len(simulation.advance(number * FRAME, is_spent=spent_after(SLICE)))
+    return len(simulation.advance(number * FRAME, spending(SLICE)))
 
 
 def test_time_goes_on_between_requests():
@@ -76,7 +84,7 @@ def test_each_request_of_a_slice_is_answered_once_and_in_order():
     submit(simulation, joined=True)
     answers: list[Answer] = []
     for number in range(COUNT // SLICE + 1):
-        for frame in simulation.advance(number * FRAME, is_spent=spent_after(SLICE)):
+        for frame in simulation.advance(number * FRAME, spending(SLICE)):
             answers += frame.answers
         answers += simulation.requests.take_answers()
     assert [answer.subject for answer in answers] == [f'a/{each}' for each in range(COUNT)]
@@ -199,7 +207,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_all_requests():
     simulation.playback.queue_frame()
     for number in range(1, COUNT // SLICE):
         assert tick(simulation, number) == 0
-    (frame,) = simulation.advance(10**9, is_spent=spent_after(SLICE + 1))
+    (frame,) = simulation.advance(10**9, spending(SLICE + 1))
     assert frame.stepped
     assert len(frame.snapshot.scene.bodies) == COUNT
 
@@ -218,7 +226,7 @@ def test_a_frame_of_slow_steps_ends_after_any_step_and_later_calls_make_the_othe
     for simulation in (slow, fast):
         simulation.perform(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     for call in range(1, 9):
-        frames = slow.advance(call * FRAME, is_overdue=lambda: True, by_steps=True)
+        frames = slow.advance(call * FRAME, replace(OVERDUE, frame_end=FrameEnd.STEP))
         # The first call only shows the box.
         assert [frame.snapshot.step for frame in frames] == [call - 1]
     while fast.step < 4:
@@ -227,8 +235,8 @@ def test_a_frame_of_slow_steps_ends_after_any_step_and_later_calls_make_the_othe
     assert (slow.step, slow.world.digest()) == (4, fast.world.digest())
     # Where there is time, a frame is whole.
     slow.requests.seek(round(7e9 / 240))
-    (frame,) = slow.advance(20 * FRAME, by_steps=True)
-    (frame,) = slow.advance(21 * FRAME, by_steps=True)
+    (frame,) = slow.advance(20 * FRAME, TickLimits(frame_end=FrameEnd.STEP))
+    (frame,) = slow.advance(21 * FRAME, TickLimits(frame_end=FrameEnd.STEP))
     assert frame.snapshot.step == 8
 
 

@@ -24,7 +24,7 @@ from physsim_ros import (
     WorldSettings,
 )
 from physsim_ros.model.errors import BadProperty, InPast, OutOfHistory, UnknownBody
-from physsim_ros.model.requests import Grab
+from physsim_ros.model.requests import Configure, Grab
 from physsim_ros.simulation.entries import Origin
 import pytest
 
@@ -165,7 +165,7 @@ def test_a_saved_moment_is_continued_to_the_bit(copied):
     digest = simulation.world.digest()
     for another in (simulation, Simulation(history=0.0)):
         another.restore(saved)
-        assert another.driving['robot/0'] == saved.driving[0]
+        assert another.requests.driving['robot/0'] == saved.driving[0]
         again = Robot(another, 'robot/0')
         assert (another.step, again.bumped, again.read('imu')) == (step, bumped, imu)
         assert wander(again, 60) == first
@@ -218,8 +218,8 @@ def test_readings_after_a_beginning_depend_on_no_world_before_it(name):
     used.simulation.run(1.0)
     used.read('imu')
     used.simulation.run(0.5)
-    used.simulation.is_read = False
-    used.simulation.pass_frames(3)
+    used.simulation.frames.is_read = False
+    used.simulation.ticks.pass_frames(3)
 
     BEGINNINGS[name](used, fresh)
 
@@ -325,18 +325,45 @@ def test_a_robot_without_a_drive_cannot_be_driven():
     robot.simulation.perform(Delete(name='robot/0'))
     with pytest.raises(UnknownBody):
         robot.drive(1.0)
-    assert not robot.simulation.driving
+    assert not robot.simulation.requests.driving
 
 
-def test_another_world_and_a_seek_end_what_a_robot_is_held_to():
+def queued_seek(simulation: Simulation, stamp: int) -> None:
+    simulation.requests.submit_seek(stamp, Origin('~/seek'))
+    simulation.apply_requests()
+
+
+def another_course(simulation: Simulation) -> None:
+    simulation.seek(BACK)
+    simulation.perform(Configure(changes={'damping': 0.5}))
+    Robot(simulation, 'robot/0').drive(0.2)
+    simulation.return_to_course(1)
+
+
+BACK = 500_000_000
+ELSEWHERE: dict[str, Callable[[Simulation], object]] = {
+    'another course': another_course,
+    'another world': lambda it: it.load(load_world(find_world('boxes'))),
+    'queued seek': lambda it: queued_seek(it, BACK),
+    'rewind': lambda it: setattr(it, 'speed', -1.0),
+    'seek': lambda it: it.seek(BACK),
+}
+
+
+@pytest.mark.parametrize('name', ELSEWHERE)
+def test_another_moment_and_another_world_end_what_a_robot_is_held_to(name):
     robot = corridor()
     robot.drive(0.2)
     robot.simulation.run(1.0)
-    robot.simulation.seek(500_000_000)
-    assert not robot.simulation.driving
+    ELSEWHERE[name](robot.simulation)
+    assert not robot.simulation.requests.driving
+
+
+def test_a_queued_seek_that_is_refused_ends_no_drive():
+    robot = corridor()
     robot.drive(0.2)
-    robot.simulation.load(load_world(find_world('boxes')))
-    assert not robot.simulation.driving
+    queued_seek(robot.simulation, 99 * BACK)
+    assert robot.simulation.requests.driving
 
 
 def test_what_is_no_robot_or_has_no_such_sensor_is_refused():

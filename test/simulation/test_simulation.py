@@ -47,6 +47,7 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
+from .driven import OVERDUE
 from ..building import BOX, DISC, joining, NOWHERE, spawn, spawning
 
 SECOND = 1_000_000_000
@@ -88,12 +89,12 @@ def test_times_and_speeds_out_of_range_are_refused_and_change_nothing(value):
         assert refused.value.field == name
     sim = Simulation()
     drive = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
-    sim.driving['robot/0'] = drive
+    sim.requests.driving['robot/0'] = drive
     with pytest.raises((BadProperty, Malformed), match='speed'):
         sim.speed = value
     with pytest.raises((BadProperty, Malformed), match='history'):
         sim.limit_history(value)
-    assert (sim.speed, sim.driving) == (1.0, {'robot/0': drive})
+    assert (sim.speed, sim.requests.driving) == (1.0, {'robot/0': drive})
 
 
 def test_a_time_beyond_all_numbers_is_refused():
@@ -439,7 +440,7 @@ def test_what_is_refused_ends_no_drive_no_drag_and_no_frame_that_is_due(name):
     sim.perform(Grab(hand='mouse', point=(0.0, 0.0)))
     # Now there is nothing to undo.
     sim.past.begin(sim.save())
-    sim.driving['robot/0'] = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
+    sim.requests.driving['robot/0'] = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
     sim.playback.queue_frame()
     before = sim.step, sim.world.digest(), sim.status
 
@@ -447,7 +448,7 @@ def test_what_is_refused_ends_no_drive_no_drag_and_no_frame_that_is_due(name):
         REFUSED[name](sim)
 
     assert (sim.step, sim.world.digest(), sim.status) == before
-    assert sim.driving
+    assert sim.requests.driving
     assert 'mouse' in sim.requests.hands
     assert sim.playback.frames_due == 1
 
@@ -605,7 +606,7 @@ def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_
 
     while slow.step < 256:
         now += round(1e9 / 60)
-        frames = slow.advance(now, is_overdue=lambda: True)
+        frames = slow.advance(now, OVERDUE)
         assert [frame.snapshot.step % slow.frame_steps for frame in frames] == [0] * len(frames)
         assert len(frames) <= 1
     while fast.step < slow.step:

@@ -6,7 +6,6 @@
 import numpy as np
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.frame_maker import UNREAD_PERIODS
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -18,9 +17,9 @@ from ..laws.scenes import join
 AWAY = 40
 
 
-def bouncing() -> Simulation:
+def bouncing(**options: float) -> Simulation:
     """Return discs that fall and bounce, with contacts, a checkpoint every half a second."""
-    simulation = Simulation(settings=FLOOR, checkpoints=0.5)
+    simulation = Simulation(settings=FLOOR, checkpoints=0.5, **options)
     simulation.reports_contacts = True
     for number in range(4):
         disc = spawning(f'disc/{number}', DISC, (0.3 * number, 0.5 * number + 0.6, 0.0))
@@ -57,7 +56,7 @@ def read() -> Simulation:
 @pytest.fixture
 def unread() -> Simulation:
     simulation = bouncing()
-    simulation.is_read = False
+    simulation.frames.is_read = False
     return simulation
 
 
@@ -66,8 +65,11 @@ def test_steps_are_made_and_frames_are_not(unread):
     assert unread.step == AWAY * unread.frame_steps
 
 
-def test_one_frame_a_second_is_made_for_those_who_come_late(unread):
-    frames = ticked(unread, 1, 3 * UNREAD_PERIODS)
+@pytest.mark.parametrize('rate', [30.0, 60.0, 120.0])
+def test_one_frame_a_second_is_made_for_those_who_come_late(rate):
+    simulation = bouncing(publish_rate=rate)
+    simulation.frames.is_read = False
+    frames = ticked(simulation, 1, 3 * 60)
     assert [frame.snapshot.step for frame in frames] == [240, 480, 720]
 
 
@@ -97,7 +99,7 @@ def test_a_body_whose_time_is_over_makes_a_frame(unread):
 def test_a_reader_who_comes_late_has_the_frames_of_one_who_was_always_there(read, unread):
     ticked(read, 1, AWAY)
     ticked(unread, 1, AWAY)
-    unread.is_read = True
+    unread.frames.is_read = True
     for tick in range(AWAY + 1, AWAY + 30):
         (one,), (other,) = ticked(read, tick, tick), ticked(unread, tick, tick)
         assert same(one, other)
@@ -109,7 +111,7 @@ def test_a_reader_who_comes_late_has_the_frames_of_one_who_was_always_there(read
 def test_a_rewind_through_unread_frames_shows_what_was_there(read, unread):
     shown = {frame.snapshot.step: frame for frame in ticked(read, 1, AWAY)}
     ticked(unread, 1, AWAY)
-    unread.is_read = True
+    unread.frames.is_read = True
     unread.speed = -1.0
     frames = ticked(unread, AWAY + 1, 2 * AWAY)
     assert len(frames) > AWAY / 2
@@ -134,5 +136,5 @@ def test_a_setting_that_changes_makes_a_frame(unread):
 def test_frames_that_pass_unread_leave_contacts_of_the_last_one_only(read, unread):
     for _ in range(AWAY):
         last = read.advance_frame()
-    assert unread.pass_frames(AWAY - 1) is None
+    assert unread.ticks.pass_frames(AWAY - 1) is None
     assert same(unread.advance_frame(), last)

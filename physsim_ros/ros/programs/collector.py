@@ -1,14 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""
-The garbage collection of a program that runs worlds, which stops all threads of the process.
-
-Theory: CPython visits all objects whenever their number has grown by a quarter, as after a load:
-0.3 to 1.2 s for a world of 15,000 bodies. The objects of a world make no cycles of references, so
-that they are freed without a collection, and little garbage comes from elsewhere: some 100 objects
-in ten seconds with a page.
-"""
+"""The garbage collection of a program that runs worlds; theory: `runtime.garbage_collection`."""
 
 from __future__ import annotations
 

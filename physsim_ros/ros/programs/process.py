@@ -67,8 +67,7 @@ def begin_process() -> TerminationWatch:
     """
     Prepare the process of a world, before ROS is imported; return the watch of its signals.
 
-    Nearly all that is made until the world runs stays until the end, so that a collection of
-    garbage finds nothing: the `Collector` of `run_worlds` enables it.
+    A collection of garbage would find nothing before the `Collector` of `run_worlds` enables it.
     """
     open_closed_streams()
     watch = TerminationWatch()

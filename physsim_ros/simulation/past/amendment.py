@@ -12,6 +12,7 @@ moment, though not all of it is simulated yet.
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator, Sequence
+from dataclasses import replace
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
@@ -63,8 +64,9 @@ def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Re
         message = Text('there is nothing by {person} to undo', person=author.strip())
         raise OutOfHistory(message, field='history')
     before = yield from _Amendment(past, (first.gesture,), stands_alone=True).carry_out()
-    past.tree.keep_undone(before, first.phrase(1))
-    return [Answer(message=Text('undid {gesture}', gesture=before.words))]
+    words = first.phrase(1)
+    past.tree.undone.append(replace(before, words=words))
+    return [Answer(message=Text('undid {gesture}', gesture=words))]
 
 
 class _Amendment:
@@ -113,7 +115,7 @@ class _Amendment:
 
     def carry_out(self) -> Generator[None, None, Line]:
         """
-        Carry it out; yield after each frame and each request.
+        Carry it out; yield after each frame and each request, and where a frame takes long.
 
         While others act, the line ends where it will end, as the time line and seeks have it.
         Where it fails, the line before is in force again.
@@ -147,20 +149,23 @@ class _Amendment:
         yield from cursor.slices_of_work()
         for request in self._requests:
             self.done.append(self._apply(request, self._gesture, self._author))
+            # The world may have to be rebuilt.
+            yield from cursor.slices_of_work()
             yield
         for node in self._later:
             yield from self._advance(node.step)
             answer = self._apply(node.request, node.gesture, node.author)
             if self._stands_alone and isinstance(answer, Refusal):
                 raise NotAlone('somebody has used it since; delete it instead')
+            yield from cursor.slices_of_work()
             yield
         yield from self._advance(self._end)
-        cursor.world.clear_contacts()
+        cursor.arrive().clear_contacts()
 
     def _advance(self, step: int) -> Iterator[None]:
-        world = self._cursor.world
-        while (left := step - world.step_count) > 0:
-            self._cursor.advance(min(left, world.frame_steps))
+        cursor, frame_steps = self._cursor, self._past.frame_steps
+        while (at := cursor.moment.step) < step:
+            yield from cursor.slices_of_advance(min(step, at + frame_steps))
             yield
 
     def _apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
@@ -168,8 +173,6 @@ class _Amendment:
         try:
             change = self._past.carry_out(request)
         except Refusal as refusal:
-            # The world may have to be rebuilt.
-            cursor.finish_work()
             return refusal
         if change.has_changed:
             cursor.log(request, change, gesture, author)

@@ -10,14 +10,14 @@ reported as `divergence`. At each checkpoint on its way, the world moves into a 
 from it, as it did the first time.
 
 Long work, a seek, an amendment of the past or steps, is made in slices. Meanwhile `moment` and the
-settings are those of the goal; of steps, those of the last step that is made, with all requests
-with which it was shown. Reading `world` finishes the work. A seek replaces another one, and steps;
-an amendment is finished first.
+settings are those of the goal of the seek, of the end of the amendment, of the last step that is
+made; `arrive` finishes the work. A seek replaces another one, and steps; an amendment is finished
+first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from enum import Enum
 from typing import Any, NamedTuple
 
@@ -143,13 +143,12 @@ class _Work(NamedTuple):
 
     :ivar kind: of it
     :ivar slices: of the work
-    :ivar goal: the moment to which a seek leads; an amendment leads to the end of the line in
-        force
+    :ivar moment: returns the moment that the cursor is at for others meanwhile
     """
 
     kind: _Kind
     slices: Iterator[None]
-    goal: Moment | None = None
+    moment: Callable[[], Moment]
 
 
 class Cursor(Replay):
@@ -172,11 +171,10 @@ class Cursor(Replay):
 
     # The moment
 
-    @property
-    def world(self) -> World:
-        """Return the world, at this moment."""
-        if self._work is not None:
-            self.finish_work()
+    def arrive(self) -> World:
+        """Carry out the rest of the work that is under way, and return the world."""
+        while self.continue_work():
+            pass
         return self._world
 
     @property
@@ -186,14 +184,8 @@ class Cursor(Replay):
 
     @property
     def moment(self) -> Moment:
-        """Return step and serial: the goal of a seek or amendment, of steps the last one made."""
-        if self._work is None:
-            return self._here
-        step = self._world.step_count
-        if self._work.kind is _Kind.STEPS and step < self._line.head:
-            # The world may be among the requests of this step.
-            return Moment(step, self._line.serial_shown_at(step))
-        return self._work.goal or self._line.end
+        """Return step and serial."""
+        return self._here if self._work is None else self._work.moment()
 
     @property
     def is_newest(self) -> bool:
@@ -217,8 +209,8 @@ class Cursor(Replay):
 
     def begin_amendment(self, slices: Iterator[None]) -> None:
         """Have an amendment be carried out slice by slice, from now on."""
-        self.finish_work()
-        self._work = _Work(_Kind.AMENDMENT, slices)
+        self.arrive()
+        self._work = _Work(_Kind.AMENDMENT, slices, lambda: self._line.end)
 
     def continue_work(self) -> bool:
         """
@@ -238,11 +230,6 @@ class Cursor(Replay):
         work, self._work = self._work, None
         if work is not None:
             yield from work.slices
-
-    def finish_work(self) -> None:
-        """Carry out the rest of the work that is under way."""
-        while self.continue_work():
-            pass
 
     def finish_amendment(self) -> None:
         """Carry out the rest of an amendment."""
@@ -314,7 +301,7 @@ class Cursor(Replay):
         slices = self._slices_of_seek(
             keyframe if self._is_elsewhere else None, start, goal, with_contacts=with_contacts
         )
-        self._work = _Work(_Kind.SEEK, slices, goal)
+        self._work = _Work(_Kind.SEEK, slices, lambda: goal)
 
     def _slices_of_seek(
         self, keyframe: Keyframe | None, start: Moment, goal: Moment, *, with_contacts: bool
@@ -352,7 +339,7 @@ class Cursor(Replay):
         :return: whether the world is at the same moment as before
         """
         # Before the steps that it replays are dropped.
-        self.finish_work()
+        self.arrive()
         line = self._line
         self._tree.limit_length(length)
         if self._world.step_count >= line.oldest and self.moment >= line.keyframes[0].moment:
@@ -393,17 +380,24 @@ class Cursor(Replay):
         self._tree.add_request(node)
         self.serial += 1
 
-    def advance(self, steps: int) -> None:
-        """Advance by a number of steps: by replay up to the head, then by new steps."""
-        finish(self._slices_of_advance(self.world.step_count + steps))
-
     def begin_advance(self, steps: int) -> None:
         """Have the world advance by a number of steps, slice by slice from now on."""
-        end = self.world.step_count + steps
-        self._work = _Work(_Kind.STEPS, self._slices_of_advance(end))
+        end = self.arrive().step_count + steps
+        self._work = _Work(_Kind.STEPS, self.slices_of_advance(end), self._last_made)
 
-    def _slices_of_advance(self, end: int) -> Generator[None]:
-        """Advance to a step; yield where steps take long."""
+    def _last_made(self) -> Moment:
+        """Return the last step that is made, with the requests with which it was shown."""
+        step = self._world.step_count
+        at_end = step >= self._line.head
+        # Before the end, the world may be among the requests of this step.
+        return self._line.end if at_end else Moment(step, self._line.serial_shown_at(step))
+
+    def slices_of_advance(self, end: int) -> Generator[None]:
+        """
+        Advance to a step: by replay up to the head, then by new steps.
+
+        Yield where steps take long.
+        """
         world, line = self._world, self._line
         while (step := world.step_count) < end:
             if step < line.head:
@@ -451,7 +445,7 @@ class Cursor(Replay):
         Where another line has run on from here, which does not pass it, it has a node of its own,
         whose request changes nothing: an undo takes it back with the gesture before.
         """
-        self.finish_work()
+        self.arrive()
         tip = self._line.tip
         if self._world.step_count < tip.end:
             self._add_node(Configure(changes={}), gesture=tip.gesture)

@@ -195,7 +195,7 @@ class LineInForce:
     """
     The nodes and checkpoints of the line in force, from the oldest that is kept.
 
-    :param length: number of steps that are kept
+    :param length: number of steps that are kept, which the tree may change
     :param spacing: greatest number of steps from one checkpoint to the next
 
     :ivar nodes: of the line, the root first
@@ -254,10 +254,6 @@ class LineInForce:
         """Add a keyframe of the tip, the last one."""
         self.tip.keyframes.append(keyframe)
         self.keyframes.append(keyframe)
-
-    def limit(self, length: int) -> None:
-        """Set the number of steps that are kept."""
-        self.length = length
 
     def reach(self, step: int) -> None:
         """Note that the world has reached a step."""

@@ -242,7 +242,7 @@ class Past:
         :raises Refusal: the request is refused; where half of it is done, the world is rebuilt
         :raises Failed: in place of an unexpected error; the world is rebuilt
         """
-        cursor, world = self.cursor, self.cursor.world
+        cursor, world = self.cursor, self.cursor.arrive()
         cursor.enter_checkpoint()
         try:
             with self.boundary.message(type(request).__name__):
@@ -266,7 +266,7 @@ class Past:
 
     def added_by(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the bodies and the joints in the world that a person has added, by name."""
-        return self.line.added_by(author, self.cursor.world.scene)
+        return self.line.added_by(author, self.cursor.arrive().scene)
 
     # Moves of the cursor
 
@@ -371,7 +371,7 @@ class Past:
             # The requests since a reset are undone before it, though they are no longer kept.
             goal = tree.resets[-1]
         left, _ = self.go_to(goal)
-        tree.keep_undone(left, words)
+        tree.undone.append(replace(left, words=words))
         return words
 
     def redo(self) -> str:
@@ -389,7 +389,7 @@ class Past:
         if tree.reset_count == resets:
             tree.drop(left)
         else:
-            tree.keep_reset(left, words)
+            tree.resets.append(replace(left, words=words))
         return words
 
     def return_to_course(self, number: int) -> bool:

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import Within
@@ -234,7 +235,7 @@ class Tree:
         :param words: phrase for the reset
         """
         self.drop_undone()
-        self.keep_reset(before, words)
+        self.resets.append(replace(before, words=words))
         self._courses += 1
         self.course, self.reset_count = self._courses, self.reset_count + 1
 
@@ -282,24 +283,6 @@ class Tree:
         since_reset = [each for each in self.left.values() if each.reset_count == line.reset_count]
         if len(since_reset) > MOST_COURSES:
             self.drop(since_reset[0])
-
-    def keep_undone(self, line: Line, words: str) -> None:
-        """
-        Keep a line for redo.
-
-        :param words: phrase for the gesture or the reset that was undone
-        """
-        line.words = words
-        self.undone.append(line)
-
-    def keep_reset(self, line: Line, words: str) -> None:
-        """
-        Keep the line before a reset, for undo.
-
-        :param words: phrase for the reset
-        """
-        line.words = words
-        self.resets.append(line)
 
     def course_snapshot(self, course: int, step: int) -> Snapshot | None:
         """Return the last snapshot that a course has shown up to a step, if it is kept."""
@@ -375,7 +358,7 @@ class Tree:
 
     def limit_length(self, length: int) -> None:
         """Set the number of steps that are kept."""
-        self.line.limit(length)
+        self.line.length = length
         self._drop_old()
 
     def _drop_old(self) -> None:

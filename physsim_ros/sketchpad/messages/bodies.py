@@ -109,7 +109,7 @@ def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
 def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Add bodies like others, of a part the whole robot, with their joints, at a distance [m]."""
-    requests = page.person.drawing.copy_machine(names, by, page.world.current_snapshot())
+    requests = page.person.drawing.copy_machine(names, by, page.world.bring_up_to_date())
     if len(requests) == 1:
         page.submit(origin, requests)
         return
@@ -161,7 +161,7 @@ def drive(page: PageSession, origin: Origin, name: str, velocity: Twist) -> None
 @message('change_joint', '~/join', name=fields.text, properties=_joint_changes)
 def change_joint(page: PageSession, origin: Origin, name: str, properties: dict[str, Any]) -> None:
     """Change the properties of a joint that are given, where the joint is."""
-    snapshot = page.world.current_snapshot()
+    snapshot = page.world.bring_up_to_date()
     scene = snapshot.scene
     joint = next((each for each in scene.joints if each.name == name), None)
     if joint is None:

@@ -116,7 +116,7 @@ def say(page: PageSession, origin: Origin, text: str) -> None:
 def take_back(page: PageSession, origin: Origin) -> None:
     """Undo the last gesture of the person at this page, where it stands alone; time stays."""
     # The last one may wait.
-    page.world.current_snapshot()
+    page.world.bring_up_to_date()
     simulation = page.world.simulation
     last = simulation.past.line.last_gesture_of(origin.author)
     check_taken_back(page.role, () if last is None else (last.gesture,), page.world)

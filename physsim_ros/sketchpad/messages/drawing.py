@@ -75,7 +75,7 @@ def read_stroke(page: PageSession, origin: Origin, points: Floats) -> None:
     times = points[:, 2]
     # A stroke that has waited for a connection comes late: its arrival counts only without a time.
     began = float(times.min()) or time.monotonic() - float(np.ptp(times))
-    snapshot = page.world.current_snapshot()
+    snapshot = page.world.bring_up_to_date()
 
     def read(check: Check) -> Reading:
         return page.person.drawing.stroke(points, '', snapshot, began=began, check=check)
@@ -87,7 +87,7 @@ def read_stroke(page: PageSession, origin: Origin, points: Floats) -> None:
 def read_instead(page: PageSession, origin: Origin, meaning: str = '') -> None:
     """Replace the last reading by another guess; '' is the next one."""
     # The requests of the last reading may wait.
-    page.world.current_snapshot()
+    page.world.bring_up_to_date()
     _submit(page, origin, lambda check: page.person.drawing.instead(meaning, check=check))
 
 
@@ -135,7 +135,7 @@ def _reading_content(
 def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
     page.person.drawing.tool = tool
-    result = page.person.drawing.click(point, '', page.world.current_snapshot())
+    result = page.person.drawing.click(point, '', page.world.bring_up_to_date())
     requests = page.person.with_material(result.requests)
     page.submit(origin, requests, message=result.message, values=result.values)
 
