@@ -88,7 +88,7 @@ class Replay:
         """Replay up to the next step with a request or a checkpoint, or to the end."""
         line, world = self._line, self._world
         yield from self._apply_logged(line.serial_at(world.step_count))
-        yield from self._enter_checkpoint()
+        yield from self.slices_of_entering()
         stop = line.next_stop(world.step_count, end)
         yield from world.slices_of_steps(stop - world.step_count)
         # Their events were reported the first time.
@@ -99,7 +99,7 @@ class Replay:
     def _apply_logged(self, serial: int) -> Generator[None]:
         """Apply the logged requests of this step up to a serial; yield after each."""
         for node in self._line.nodes_between(self.serial, serial):
-            yield from self._enter_checkpoint()
+            yield from self.slices_of_entering()
             try:
                 yield from self._world.slices_of_reapplying(node.request)
             except Refusal as refusal:
@@ -107,11 +107,8 @@ class Replay:
             self.serial += 1
             yield
 
-    def enter_checkpoint(self) -> None:
+    def slices_of_entering(self) -> Generator[None]:
         """Move into a space that is built from the checkpoint of this moment, if there is one."""
-        finish(self._enter_checkpoint())
-
-    def _enter_checkpoint(self) -> Generator[None]:
         keyframe = self._line.keyframe_at(*self._here)
         if keyframe is not None and self._resumed != keyframe.moment:
             yield from self.slices_of_resumption(keyframe, going_over=self.check_digest())
@@ -427,7 +424,7 @@ class Cursor(Replay):
 
     def _make_checkpoint(self) -> Generator[None]:
         """Make a checkpoint if one is due, or if a request followed the last one at its step."""
-        yield from self._enter_checkpoint()
+        yield from self.slices_of_entering()
         step = self._world.step_count
         # Another line has run from this node before: its checkpoints are used.
         if step < self._line.tip.end:

@@ -28,6 +28,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.line import CachedFrame, Line, LineInForce, Moment
@@ -161,7 +162,7 @@ class Past:
                 run.step(step - run.step_count)
                 # A replay reports a refusal as a divergence.
                 with suppress(Refusal):
-                    run.reapply(request)
+                    finish(run.slices_of_reapplying(request))
             run.step(moment.step - run.step_count)
             return run.save()
 
@@ -243,7 +244,7 @@ class Past:
         :raises Failed: in place of an unexpected error; the world is rebuilt
         """
         cursor, world = self.cursor, self.cursor.arrive()
-        cursor.enter_checkpoint()
+        finish(cursor.slices_of_entering())
         try:
             with self.boundary.message(type(request).__name__):
                 return world.apply(request)

@@ -275,10 +275,6 @@ class World(LiveSpace):
         """
         if isinstance(request, Restore):
             yield from self.slices_of_beginning(request.state)
-        self.reapply(request)
-
-    def reapply(self, request: Request) -> None:
-        """Do as `slices_of_reapplying` at once."""
         with self.capacity.unchecked():
             self.apply(request)
 
