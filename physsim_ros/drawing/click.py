@@ -105,7 +105,7 @@ class Click:
         if not self.body:
             raise nothing_at(self.point, 'point')
         if self.body not in scene.names:
-            raise UnknownBody(f'{self.body} no longer exists', field='point')
+            raise UnknownBody(Text('{body} no longer exists', body=self.body), field='point')
         return self.body
 
     def current_point(self, scene: SceneQuery) -> Point:

@@ -62,11 +62,8 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     if not pieces and not severed:
         for name in near:
             if _pieces(name, start, end, scene):
-                raise NothingThere(
-                    f'{name} is a robot, a part of one or an actor, which no knife cuts',
-                    field='point',
-                    body=name,
-                )
+                template = '{body} is a robot, a part of one or an actor, which no knife cuts'
+                raise NothingThere(Text(template, body=name), field='point', body=name)
         message = Text('the stroke passes right through no body, rope, rod or spring')
         raise NothingThere(message, field='point')
     new = scene.new_bodies()

@@ -125,7 +125,8 @@ def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettin
     """Set the velocity of a body: the body, then the tip of an arrow from there, 1 m for 1 m/s."""
     name = clicks[0].hit_body(scene)
     if scene.body(name).anchored:
-        raise Anchored(f'{name} is anchored; it has no velocity', field='point', body=name)
+        message = Text('{body} is anchored; it has no velocity', body=name)
+        raise Anchored(message, field='point', body=name)
     if len(clicks) < 2:
         return _next_click(f'the arrow begins on {name}', Text('its tip, 1 m for 1 m/s'))
     tail, tip = _points(clicks)
@@ -195,7 +196,7 @@ def join(
         ends.reverse()
     (start, a), (end, b) = ends
     if a == WORLD:
-        raise NothingThere(f'there is no body at either end of the {kind}', field='point')
+        raise _no_end(kind)
     checked_distance(start, end, settings, f'the {kind}')
     return _finished(Join(name=scene.next_joint(), kind=kind, points=(start, end), a=a, b=b))
 
@@ -210,7 +211,7 @@ def pulley(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
             names.reverse()
             points.reverse()
         if len(names) < 2 or names[0] == WORLD:
-            raise NothingThere('there is no body at either end of the rope', field='point')
+            raise _no_end(JointKind.ROPE)
         join = Join(
             name=scene.next_joint(),
             kind=JointKind.ROPE,
@@ -322,6 +323,11 @@ def _points(clicks: Sequence[Click]) -> list[Point]:
 
 def _middle(start: Point, end: Point) -> Point:
     return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+
+
+def _no_end(kind: JointKind) -> NothingThere:
+    message = Text('there is no body at either end of the {kind}', kind=Text(kind))
+    return NothingThere(message, field='point')
 
 
 def _next_click(done: str, wanted: Text) -> ClickResult:

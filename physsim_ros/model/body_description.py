@@ -138,7 +138,8 @@ def changed_twist(body: Body, twist: Twist, request: Spawn | ChangeBody) -> Twis
     properties = request.properties
     moves = (properties.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(properties.spin)
     if body.anchored and moves:
-        raise Anchored(f'{body.name} is anchored; it has no velocity', field='velocity')
+        message = Text('{body} is anchored; it has no velocity', body=body.name)
+        raise Anchored(message, field='velocity')
     if body.anchored:
         return REST
     vx, vy = REST[:2] if 'velocity' in request.unset else twist[:2]

@@ -280,7 +280,8 @@ def no_body(name: str, known: Iterable[str], field: str) -> UnknownBody:
 
 def no_joint(name: str, known: Iterable[str], field: str) -> UnknownJoint:
     """Return the refusal of the name of no joint; parameters as for `no_body`."""
-    return UnknownJoint(f'there is no joint {name!r}{nearest_name(name, known)}', field=field)
+    message = Text('there is no joint {joint!r}{near}', joint=name, near=nearest_name(name, known))
+    return UnknownJoint(message, field=field)
 
 
 def no_frame(frame: str, known: Iterable[str]) -> UnknownFrame:

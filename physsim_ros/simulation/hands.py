@@ -21,6 +21,7 @@ from physsim_ros.model.requests import (
     LetGo,
     MoveHand,
 )
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.world.hand_requests import holds_nothing
@@ -101,7 +102,8 @@ class Hands:
         for grip in grips:
             if grip.hand not in self:
                 self._past.apply_unasked(LetGo(hand=grip.hand))
-                message = f'released {grip.body}: no message from {grip.hand}'
+                template = 'released {body}: no message from {hand}'
+                message = Text(template, body=grip.body, hand=grip.hand)
                 events.append(Answer(topic='~/drag/feedback', subject=grip.body, message=message))
         return events
 

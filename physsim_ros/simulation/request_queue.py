@@ -427,5 +427,7 @@ class RequestQueue:
 
     def report_oldest(self, more: str = '') -> None:
         """Add the event that the moment that is shown is the oldest."""
-        message = f'{self._playback.time} is the oldest that is kept{more}'
+        message = Text(
+            '{time} is the oldest that is kept{more}', time=self._playback.time, more=more
+        )
         self._answers.append(Answer(topic='history', message=message))

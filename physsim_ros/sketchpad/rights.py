@@ -23,6 +23,7 @@ from physsim_ros.model.errors import BadProperty, Frozen, TeacherOnly, ViewOnly
 from physsim_ros.model.names import shown_name, WORLD
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.past import Node
 from physsim_ros.sketchpad.world_control import WorldControl
 
@@ -183,7 +184,8 @@ def _check_names(names: Iterable[str], world: WorldControl) -> None:
     for name in names:
         # Patterns are those of bodies.
         if name != WORLD and locks.has(name):
-            raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
+            message = Text('{body} is locked by a teacher', body=shown_name(name))
+            raise Frozen(message, field='name')
 
 
 def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:

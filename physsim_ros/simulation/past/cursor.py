@@ -26,6 +26,7 @@ from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Configure, Request
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.past.line import Keyframe, LineInForce, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
@@ -416,9 +417,13 @@ class Cursor(Replay):
             yield
         tree.note_step(end)
         for name in world.take_lost():
-            self._report('body_lost', f'{name} left the range of numbers and was removed', name)
+            message = Text('{body} left the range of numbers and was removed', body=name)
+            self._report('body_lost', message, name)
         for name, force in world.take_broken():
-            self._report('joint_broken', f'{name} broke at {force:.3g} N and was removed', name)
+            message = Text(
+                '{joint} broke at {force:.3g} N and was removed', joint=name, force=force
+            )
+            self._report('joint_broken', message, name)
 
     # Checkpoints
 

@@ -192,9 +192,11 @@ class Past:
                 is_lost = True
         if is_lost and budget.note_loss():
             oldest = self.line.oldest / self.physics_rate
-            message = (
-                f'the past would take more than {budget.megabytes:g} MB (history_memory): the '
-                f'oldest goes, {oldest:.3f} s is the oldest that is kept'
+            message = Text(
+                'the past would take more than {most:g} MB (history_memory): the oldest goes, '
+                '{time:.3f} s is the oldest that is kept',
+                most=budget.megabytes,
+                time=oldest,
             )
             self.reports.append(Answer(topic='history', message=message, code='history'))
 

@@ -212,9 +212,10 @@ def anchor(live: LiveSpace, request: Anchor) -> Answer:
     """
     space = live.space
     rigid, _ = _topmost(space, request)
-    for role, noun in ((rigid.body.robot, 'a robot'), (rigid.body.actor, 'an actor')):
+    for role, noun in ((rigid.body.robot, Text('a robot')), (rigid.body.actor, Text('an actor'))):
         if role is not None:
-            raise BadProperty(f'{rigid.body.name} is {noun}; it cannot be anchored', field='point')
+            template = '{body} is {noun}; it cannot be anchored'
+            raise BadProperty(Text(template, body=rigid.body.name, noun=noun), field='point')
     if not rigid.body.anchored:
         space.change(rigid, replace(rigid.body, anchored=True), rigid.pose, REST)
     return _done('anchored {bodies}', (rigid.body.name,))
@@ -233,9 +234,8 @@ def release(live: LiveSpace, request: Release) -> Answer:
     if rigid.body.anchored:
         body = replace(rigid.body, anchored=False)
         if body.medium is not None and body.dynamic:
-            raise BadProperty(
-                f'{name} is filled with a medium; it cannot be released', field='point'
-            )
+            message = Text('{body} is filled with a medium; it cannot be released', body=name)
+            raise BadProperty(message, field='point')
         live.capacity.check_body(body, rigid.pose, old=rigid)
         space.change(rigid, body, rigid.pose, REST)
     loosened = joint_requests.loosen(space, name, point)

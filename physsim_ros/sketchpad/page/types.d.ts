@@ -339,7 +339,6 @@ export interface Answer {
   request: string;
   ok: boolean;
   code: string;
-  message: string;
   text: Text;
   subject: string;
   topic: string;
