@@ -192,7 +192,7 @@ class BadWorldFile(Refusal):
         cause: str = '',
     ) -> None:
         super().__init__(message, field=field)
-        self.brief = brief or str(self)
+        self.brief = brief or self.text
         self.line = line
         self.cause = cause
 

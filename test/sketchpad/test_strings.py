@@ -439,14 +439,14 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(open_sheet: OpenShe
 
 # The body of a wrong world file, and what a German page says of it.
 WRONG_BODIES = [
-    ('circle: {radius: 1}, att: 1', "den Schlüssel 'att' gibt es nicht, aber 'at'"),
-    ('circle: {radius: 1}, zebra: 1', "den Schlüssel 'zebra' gibt es nicht"),
+    ('circle: {radius: 1}, att: 1', "att: den Schlüssel 'att' gibt es nicht, aber 'at'"),
+    ('circle: {radius: 1}, zebra: 1', "zebra: den Schlüssel 'zebra' gibt es nicht"),
     ('circle: {radius: -1}', 'radius: -1 liegt nicht zwischen 0.001 und 100000'),
-    ('box: {width: 1}', 'height fehlt'),
-    ('friction: 1', 'ihm fehlt eines von circle, box, polygon, chain, triangles, compound'),
-    ('circle: {radius: 1}, mass: heavy', "mass ist keine Zahl: 'heavy'"),
-    ('circle: {radius: 1}, anchored: 2', 'anchored ist weder true noch false: 2'),
-    ('circle: {radius: 1}}, {name: a/0, circle: {radius: 1}', 'der Name kommt zweimal vor'),
+    ('box: {width: 1}', 'height: height fehlt'),
+    ('friction: 1', 'shape: ihm fehlt eines von circle, box, polygon, chain, triangles, compound'),
+    ('circle: {radius: 1}, mass: heavy', "mass: mass ist keine Zahl: 'heavy'"),
+    ('circle: {radius: 1}, anchored: 2', 'anchored: anchored ist weder true noch false: 2'),
+    ('circle: {radius: 1}}, {name: a/0, circle: {radius: 1}', 'name: der Name kommt zweimal vor'),
 ]
 # Other wrong files.
 AXLE = 'joints: [{name: j/0, kind: axle, a: b/0, points: [[0, 0]]}]'
@@ -454,15 +454,15 @@ WRONG_FILES = [
     ('format: 1\nbodies: [', 'Zeile 2 ist kein YAML'),
     ('hello', 'sie hat keine Schlüssel mit Werten'),
     ('format: 9', '„format: 1“ fehlt'),
-    (f'format: 1\n{AXLE}', "Verbindung 'j/0': den Körper 'b/0' gibt es nicht"),
+    (f'format: 1\n{AXLE}', "Verbindung 'j/0', a: den Körper 'b/0' gibt es nicht"),
     (
         f'format: 1\n{AXLE}'.replace('axle', 'glue'),
-        "Verbindung 'j/0': die Art 'glue' gibt es nicht; es gibt "
+        "Verbindung 'j/0', kind: die Art 'glue' gibt es nicht; es gibt "
         + ', '.join(kind for kind in JointKind),
     ),
     ('format: 1\ngravity: 5', 'gravity ist keine Liste von 2 Zahlen'),
     *(
-        (f'format: 1\nbodies: [{{name: a/0, {body}}}]', f"Körper 'a/0': {wrong}")
+        (f'format: 1\nbodies: [{{name: a/0, {body}}}]', f"Körper 'a/0', {wrong}")
         for body, wrong in WRONG_BODIES
     ),
 ]
@@ -488,7 +488,7 @@ def test_what_is_wrong_with_a_world_file_is_told_in_german(
     path.write_text('format: 1\nbodies: [{name: a/0, circle: {radius: -1}}]')
     sheet.press('Welten')
     sheet.page.get_by_label('Datei öffnen').set_input_files(path)
-    told = "Diese Weltdatei ist fehlerhaft: Körper 'a/0': radius: -1 liegt nicht zwischen 0,001"
+    told = "Diese Weltdatei ist fehlerhaft: Körper 'a/0', radius: -1 liegt nicht zwischen 0,001"
     sheet.told(told)
     # A browser notes each refused request.
     sheet.errors.clear()
