@@ -31,6 +31,8 @@ bodies:
 ARGUMENTS = ['--no-sandbox', '--disable-gpu', '--disable-background-networking']
 PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
     x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
+# Called by a promise that settles when what was told has been drawn.
+DRAWN = '(done) => requestAnimationFrame(() => setTimeout(done))'
 MILLISECONDS = 1000.0 * PATIENCE
 # Notes what a page is told: people, with the last message of its welcome; topics of its requests
 # that are answered, and of those after whose answer a frame has come; speeds of time; texts of
@@ -62,6 +64,22 @@ new MutationObserver((changes) => {
         if (node.classList?.contains('note')) heard.notes.push(node.textContent);
     }
 }).observe(document, {childList: true, subtree: true});"""
+# Adds to what a program sees of a page: forces as they are drawn, lengths of arrows [px] to a
+# newton and to a metre a second, numbers of the samples that are recorded and of the course that
+# was left, places of handles [px], the wind [m/s].
+PARTS = """
+document.addEventListener('DOMContentLoaded', async () => {
+    if (!document.querySelector('#world')) return;
+    const {arrows, handles, records, world} = await import('/page/app.js'), {scales} = arrows;
+    const counts = ([name, {samples, left}]) => [name, [samples.length, left.length]];
+    for (const [name, get] of Object.entries({
+        forces: () => arrows.drawn,
+        scales: () => ({newton: scales.N.length(1), speed: scales['m/s'].length(1)}),
+        records: () => Object.fromEntries([...records.bodies].map(counts)),
+        handles: () => handles.places(),
+        wind: () => world.scene.wind,
+    })) Object.defineProperty(window.physsim, name, {get});
+});"""
 # The state of a page, for the report of a test that failed.
 STATE = """() => ({...window.heard, ...window.physsim && {
     time: physsim.time, speed: physsim.speed, bodies: Object.keys(physsim.bodies),
@@ -84,13 +102,21 @@ SPACE = """() => {
     }
 }"""
 UNFOLDED = "if (location.protocol !== 'about:') localStorage['physsim-panel'] ??= '1';"
-# Notes what is written on canvases.
+# Notes what is written on canvases, and the boxes of texts in the last picture of the world [px].
 NOTE_TEXTS = """() => {
+    const {prototype} = CanvasRenderingContext2D, {fillRect, fillText} = prototype;
     window.texts = [];
-    const write = CanvasRenderingContext2D.prototype.fillText;
-    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
-        window.texts.push(text);
-        write.call(this, text, ...at);
+    window.boxes = [];
+    prototype.fillRect = function (x, y, ...size) {
+        if (this.canvas.id === 'world' && x === 0 && y === 0) window.boxes = [];
+        fillRect.call(this, x, y, ...size);
+    };
+    prototype.fillText = function (text, x, y) {
+        const {actualBoundingBoxLeft: left, actualBoundingBoxRight: right,
+            actualBoundingBoxAscent: up, actualBoundingBoxDescent: down} = this.measureText(text);
+        texts.push(text);
+        if (this.canvas.id === 'world') boxes.push([text, x - left, y - up, x + right, y + down]);
+        fillText.call(this, text, x, y);
     };
 }"""
 # Press Pause at the first frame after a time [s].
@@ -161,7 +187,7 @@ class Sheet:
         viewport = dict(zip(('width', 'height'), size, strict=True))
         self.context = browser.new_context(viewport=viewport, **options)
         self.context.set_default_timeout(MILLISECONDS)
-        self.context.add_init_script(DELAYS + LISTENER + (UNFOLDED if unfolded else ''))
+        self.context.add_init_script(DELAYS + LISTENER + PARTS + (UNFOLDED if unfolded else ''))
         self.page = self.context.new_page()
         self.errors: list[str] = []
         self.page.on('pageerror', lambda error: self.errors.append(str(error)))
@@ -198,7 +224,7 @@ class Sheet:
         forbids.
         """
         value = predicate if argument is None else f'({predicate})(argument)'
-        drawn = f'argument => new Promise(requestAnimationFrame).then(() => {value})'
+        drawn = f'argument => new Promise({DRAWN}).then(() => {value})'
         self.until(lambda: self.page.evaluate(drawn, argument), predicate)
 
     def until(self, predicate: Callable[[], object], what: str) -> None:

@@ -9,7 +9,7 @@ import math
 
 import pytest
 
-from .chromium import circle, OpenSheet, started_world, WORLD
+from .chromium import circle, NOTE_TEXTS, OpenSheet, started_world, WORLD
 from ..outside import Outside
 
 BACKGROUND = """name => getComputedStyle(
@@ -69,7 +69,7 @@ LABELS = """async () => {
     const ctx = {measureText: (text) => (measured += 1, {width: 50 * text.length})};
     const view = {ctx, camera, palette: {}, write: (text) => drawn.push(text),
         bodies: {appearance: () => ({inner: 0.1}), isOnPage: () => true},
-        world: {count: 3, scene: {bodies, joints: []}, place: (row) => bodies[row].at,
+        world: {count: 3, scene: {bodies, joints: []}, centerOf: (row) => bodies[row].at,
             boundsOfAll: () => [0, 0, 0, 0]}};
     drawLabels(view);
     drawLabels(view);
@@ -90,18 +90,6 @@ HUNG = """async () => {
     Object.assign(world.scene, {bounds: [-1, 0, 1, 5.1],
         joints: [{kind: 'rod', a: 0, b: -1, points: [[0, 0], [0, 5]]}]});
     return world.extent();
-}"""
-
-# Note the lowest place of each text that is drawn, and where the last one ends at its right [px].
-PLACES = """() => {
-    const {prototype} = CanvasRenderingContext2D, original = prototype.fillText;
-    window.lowest = {};
-    window.ends = {};
-    prototype.fillText = function (text, x, y) {
-        lowest[text] = Math.max(lowest[text] ?? 0, y);
-        ends[text] = x + this.measureText(text).width;
-        original.call(this, text, x, y);
-    };
 }"""
 
 
@@ -305,17 +293,17 @@ def test_the_words_of_a_panel_are_whole(open_sheet: OpenSheet, outside: Outside)
 
 def test_numbers_beside_bodies_are_on_the_page(open_sheet: OpenSheet) -> None:
     sheet = open_sheet().begin()
-    sheet.page.evaluate(PLACES)
+    sheet.page.evaluate(NOTE_TEXTS)
     sheet.press('Show forces')
-    sheet.wait('"9.81 N" in lowest')
+    sheet.wait('boxes.some(([text]) => text === "9.81 N")')
     bar = sheet.page.get_by_role('contentinfo').bounding_box()
-    assert bar['y'] - 40 < sheet.page.evaluate('lowest["9.81 N"]') < bar['y']
+    ends = sheet.page.evaluate('boxes.filter(([text]) => text === "9.81 N").map((box) => box[4])')
+    assert bar['y'] - 40 < max(ends) < bar['y']
     # And so is that of a place at the right edge.
     sheet.press('Hand')
     with sheet.dragging((4.0, 0.5), (7.9, 4.0)):
-        sheet.wait('Object.keys(ends).some(text => text.startsWith("at 7.9"))')
-        (end,) = sheet.page.evaluate(
-            'Object.keys(ends).filter(text => text.startsWith("at 7.9")).map(text => ends[text])'
+        sheet.wait('boxes.some(([text]) => text.startsWith("at 7.9"))')
+        assert (
+            1100 < sheet.page.evaluate('boxes.find(([text]) => text.startsWith("at"))[3]') < 1200
         )
-        assert 1100 < end < 1200
     sheet.press('Undo')

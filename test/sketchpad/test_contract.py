@@ -163,6 +163,22 @@ def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(open_sheet: Open
     assert 'corner to corner' in button.get_attribute('title')
 
 
+def test_a_tip_lies_on_the_page_and_not_on_its_button(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet().begin()
+    for name in ('Rectangle', 'Play', 'Reset', 'Help', 'Save'):
+        button = sheet.page.get_by_role('button', name=name, exact=True)
+        button.hover()
+        tip = sheet.page.get_by_role('tooltip').filter(has_text=name).bounding_box()
+        box, size = button.bounding_box(), sheet.page.viewport_size
+        assert 0 <= tip['x'] <= size['width'] - tip['width'], name
+        assert 0 <= tip['y'] <= size['height'] - tip['height'], name
+        apart = (
+            abs(tip[at] + tip[by] / 2 - box[at] - box[by] / 2) >= (tip[by] + box[by]) / 2
+            for at, by in (('x', 'width'), ('y', 'height'))
+        )
+        assert any(apart), name
+
+
 def test_hints_lead_from_a_first_body_to_a_changed_past(open_sheet: OpenSheet) -> None:
     sheet = open_sheet()
     hint = sheet.page.locator('#hint')

@@ -99,6 +99,9 @@ def test_the_stick_drives_it_and_lets_it_stop(sheet: Sheet) -> None:
     x, y = box['x'] + box['width'] / 2, box['y'] + box['height'] / 2
     sheet.page.mouse.move(x, y)
     sheet.page.mouse.down()
+    # By half of its way, at half of the greatest speed.
+    sheet.page.mouse.move(x, y + 24)
+    sheet.page.locator('.numbers').get_by_text('0.15 m/s').wait_for()
     sheet.page.mouse.move(x, y + 60)
     sheet.wait('physsim.bodies["tb3/0"][0] < -0.1')
     sheet.page.mouse.up()

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from .chromium import OpenSheet, Sheet, started_world
+from .chromium import NOTE_TEXTS, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 OWN = """
@@ -23,16 +23,6 @@ bounds: []
 bodies:
   - {name: mine/0, circle: {radius: 0.5}, at: [0, 0.5]}
 """
-
-# Notes what is written on canvases.
-WRITTEN = """() => {
-    window.written = new Set();
-    const original = CanvasRenderingContext2D.prototype.fillText;
-    CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {
-        written.add(text);
-        return original.call(this, text, ...place);
-    };
-}"""
 
 
 @pytest.fixture
@@ -53,6 +43,13 @@ def open_lesson(sheet: Sheet, name: str) -> None:
     """Open a lesson from the list."""
     sheet.press('Worlds')
     sheet.page.locator('.lessons').get_by_role('button', name=name).click()
+
+
+def test_a_lesson_has_its_own_hints_alone(sheet: Sheet) -> None:
+    hint = sheet.page.locator('#hint:not(.faded)')
+    hint.get_by_text('Draw a circle').wait_for()
+    open_lesson(sheet, '1. Free fall')
+    sheet.until(lambda: hint.count() == 0, 'no hint')
 
 
 def check(sheet: Sheet, figure: str, says: str) -> None:
@@ -179,55 +176,55 @@ def test_a_link_leads_to_a_moment_of_a_lesson(sheet: Sheet) -> None:
 
 
 # How much of the prediction the body has gone, in each comparison that was written [%].
-SHARES = r"""[...window.written].map((text) => /for (\d+) % of the line/.exec(text)?.[1])
+SHARES = r"""[...new Set(texts)].map((text) => /for (\d+) % of the line/.exec(text)?.[1])
     .filter(Boolean).map(Number)"""
 
 
 def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) -> None:
     open_lesson(sheet, '2. Horizontal throw')
     sheet.wait('"thrown/0" in physsim.bodies && physsim.time === 0')
-    sheet.page.evaluate(WRITTEN)
+    sheet.page.evaluate(NOTE_TEXTS)
     sheet.press('Predict')
     (x, y, _), floor = sheet.pose('thrown/0'), 0.2
     fall = [(x + 4.0 * share, y + (floor - y) * share**2) for share in np.linspace(0.0, 1.0, 12)]
     sheet.drag(*fall)
-    sheet.wait('window.written.has("predicted")')
+    sheet.wait('texts.includes("predicted")')
     sheet.play_until(0.9)
-    sheet.wait('[...window.written].some((text) => /^off by 0\\.0/.test(text))')
+    sheet.wait('texts.some((text) => /^off by 0\\.0/.test(text))')
     assert max(sheet.page.evaluate(SHARES)) < 100
     # A way as long as the prediction is compared, however fast the body is, and no longer one.
     end = sheet.play_until(1.9)
     assert sheet.pose('thrown/0')[0] > x + 5.5
-    sheet.page.evaluate('window.written.clear()')
+    sheet.page.evaluate('window.texts = []')
     sheet.seek(end - 0.1)
-    sheet.wait('[...window.written].some((text) => /^off by 0\\.0/.test(text))')
+    sheet.wait('texts.some((text) => /^off by 0\\.0/.test(text))')
     assert sheet.page.evaluate(SHARES) == [100]
     # A way that it does not go, in the same world again.
     sheet.press('Reset')
     sheet.wait('physsim.time === 0')
     sheet.drag((x, y), (x + 4.0, y))
     sheet.play_until(0.9)
-    sheet.wait('[...window.written].some((text) => /^off by [1-9]/.test(text))')
+    sheet.wait('texts.some((text) => /^off by [1-9]/.test(text))')
     sheet.press('Reset')
     sheet.wait('physsim.time === 0')
     sheet.tap(x, y)
-    sheet.page.evaluate('window.written.clear()')
-    sheet.wait('![...window.written].some((text) => /off by|predicted/.test(text))')
+    sheet.page.evaluate('window.texts = []')
+    sheet.wait('!texts.some((text) => /off by|predicted/.test(text))')
 
 
 def test_the_prediction_of_a_body_goes_with_it_and_comes_back(sheet: Sheet) -> None:
-    sheet.page.evaluate(WRITTEN)
+    sheet.page.evaluate(NOTE_TEXTS)
     sheet.press('Predict')
     sheet.drag((0.0, 0.5), (2.0, 3.0))
-    sheet.wait('written.has("predicted")')
+    sheet.wait('texts.includes("predicted")')
     sheet.press('Delete')
     sheet.tap(0.0, 0.5)
     sheet.wait('!("ball/0" in physsim.bodies)')
-    sheet.page.evaluate('written.clear()')
+    sheet.page.evaluate('window.texts = []')
     sheet.page.mouse.move(*sheet.place(1.0, 5.0))
-    sheet.wait('written.size && !written.has("predicted")')
+    sheet.wait('texts.length && !texts.includes("predicted")')
     sheet.press('Undo')
-    sheet.wait('written.has("predicted")')
+    sheet.wait('texts.includes("predicted")')
 
 
 # Rows of the histogram and cells of the table of some answers, as a page shows them.

@@ -327,21 +327,6 @@ def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
     assert not sheet.page.evaluate('window.texts.includes("5.12 m, 38.7°")')
 
 
-# Notes the box of each text of the picture of the world [px].
-NOTE_BOXES = """() => {
-    const {prototype} = CanvasRenderingContext2D, {fillRect, fillText} = prototype;
-    window.boxes = [];
-    prototype.fillRect = function (x, y, ...size) {
-        if (this.canvas.id === 'world' && x === 0 && y === 0) window.boxes = [];
-        fillRect.call(this, x, y, ...size);
-    };
-    prototype.fillText = function (text, x, y) {
-        const {actualBoundingBoxLeft: left, actualBoundingBoxRight: right,
-            actualBoundingBoxAscent: up, actualBoundingBoxDescent: down} = this.measureText(text);
-        if (this.canvas.id === 'world') boxes.push([text, x - left, y - up, x + right, y + down]);
-        fillText.call(this, text, x, y);
-    };
-}"""
 # The texts on which another one lies.
 COVERED = """text => {
     const [, left, top, right, bottom] = boxes.find((each) => each[0] === text);
@@ -354,7 +339,7 @@ def test_the_number_of_an_arrow_lies_on_no_other_text(sheet: Sheet) -> None:
     sheet.press('Hand')
     sheet.tap(-3.0, 2.4)
     sheet.page.get_by_label('Meter in the world').select_option('Momentum [N s]')
-    sheet.page.evaluate(NOTE_BOXES)
+    sheet.page.evaluate(NOTE_TEXTS)
     sheet.press('Show velocities')
     sheet.press('Ruler')
     sheet.wait('boxes.some(([text]) => text === "1.5 m/s")')

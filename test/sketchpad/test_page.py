@@ -704,7 +704,7 @@ def test_a_picture_and_a_table_of_what_was_plotted_are_downloaded(sheet: Sheet) 
     sheet.wait('physsim.time > 0.3')
     with sheet.page.expect_download() as table:
         sheet.press('Table (CSV)')
-    head, *rows = Path(table.value.path()).read_text().splitlines()
+    head, *rows = Path(table.value.path()).read_text('utf-8-sig').splitlines()
     assert head.split(',')[:3] == ['Time [s]', 'x [m]', 'Height [m]']
     assert [float(each) for each in rows[-1].split(',')[1:3]] == pytest.approx([0, 0.5], abs=0.01)
 

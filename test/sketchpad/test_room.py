@@ -10,7 +10,7 @@ from typing import Any
 from physsim_ros.files import shipped_lessons
 import pytest
 
-from .chromium import circle, OpenSheet, Sheet, started_world
+from .chromium import circle, NOTE_TEXTS, OpenSheet, Sheet, started_world
 from ..outside import Outside
 
 # A desk, a telephone both ways, a tablet, the desk at 200 % zoom, and a school laptop [px].
@@ -25,6 +25,9 @@ PANELS = """() => [...document.querySelectorAll(
     .filter((each) => each.checkVisibility())
     .map((each) => [each.id, each.getBoundingClientRect()])
     .map(([id, {left, top, right, bottom}]) => [id, left, top, right, bottom])"""
+
+# Boxes of the numbers of the rulers [px].
+NUMBERS = r'boxes.filter(([text]) => /^[−\d.]+ m$/.test(text))'
 
 
 @pytest.fixture(scope='module')
@@ -86,6 +89,16 @@ def test_no_panel_lies_on_the_world(sheet: Sheet) -> None:
     check(sheet)
     sheet.press('Close')
     check(sheet)
+
+
+def test_the_numbers_of_the_rulers_lie_beside_the_bars(sheet: Sheet) -> None:
+    sheet.page.evaluate(NOTE_TEXTS)
+    sheet.page.keyboard.press('f')
+    sheet.wait(f'{NUMBERS}.length > 4')
+    room = sheet.page.locator('#room').bounding_box()
+    for _, left, top, right, bottom in sheet.page.evaluate(NUMBERS):
+        assert room['x'] <= left < right <= room['x'] + room['width']
+        assert room['y'] <= top < bottom <= room['y'] + room['height']
 
 
 def test_the_answer_to_a_lesson_is_in_sight(sheet: Sheet) -> None:

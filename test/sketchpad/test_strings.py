@@ -31,7 +31,7 @@ from physsim_ros.sketchpad.messages.fields import person
 from physsim_ros.sketchpad.server.page_handlers import PAGE, PageFiles
 import pytest
 
-from .chromium import OpenSheet, Sheet, WORLD
+from .chromium import NOTE_TEXTS, OpenSheet, Sheet, WORLD
 from .scripts import texts_of
 from .templates import NAMES, server_texts
 from .test_locks import ATTEMPTS
@@ -145,7 +145,7 @@ def test_no_text_for_people_is_left_in_a_script(path: Path) -> None:
 
 # Texts and attributes that people read, of what is on the page now, and texts on its canvases.
 SEEN = """() => {
-    const texts = [...window.written];
+    const texts = [...new Set(window.texts)];
     for (const element of document.querySelectorAll('body *')) {
         for (const name of ['aria-label', 'title', 'placeholder', 'alt', 'aria-valuetext']) {
             texts.push(element.getAttribute(name) ?? '');
@@ -155,15 +155,6 @@ SEEN = """() => {
         }
     }
     return texts;
-}"""
-CANVAS = """
-window.written = new Set();
-for (const name of ['fillText', 'strokeText']) {
-    const write = CanvasRenderingContext2D.prototype[name];
-    CanvasRenderingContext2D.prototype[name] = function (text, ...rest) {
-        window.written.add(text);
-        return write.call(this, text, ...rest);
-    };
 }"""
 # Words that no language translates: names of bodies and worlds, units, keys, names of languages.
 NAMED = re.compile(
@@ -182,7 +173,7 @@ def marked(open_sheet: OpenSheet, address: str) -> Sheet:
     said |= json.loads(ENGLISH.read_text(encoding='utf-8'))['server']
     said = {each: text and MARKED.format(text) for each, text in said.items()}
     table = json.dumps({'texts': texts, 'server': said, 'refusals': {}})
-    sheet.context.add_init_script(CANVAS)
+    sheet.context.add_init_script(f'({NOTE_TEXTS})()')
     sheet.page.route('**/languages/de.json', lambda route: route.fulfill(body=table))
     sheet.page.goto(address)
     sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
@@ -529,7 +520,10 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(open_sheet: 
     sheet.press('Pause')
     with sheet.page.expect_download() as download:
         sheet.press('Tabelle (CSV)')
-    head, first, *_ = download.value.path().read_text().splitlines()
+    # Spreadsheets read umlauts by the mark at the beginning.
+    text = download.value.path().read_text()
+    assert text.startswith('\ufeff')
+    head, first, *_ = text[1:].splitlines()
     assert head.startswith('Zeit [s];x [m];Höhe [m];')
     assert re.fullmatch(r'[^;.]*(;[^;.]*)+;block/0', first)
     assert ',' in first

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -289,3 +290,19 @@ def test_a_stylus_draws_and_from_then_on_a_finger_moves_the_view(open_sheet: Ope
     fingers.move((540, 330))
     fingers.lift()
     assert sheet.place(0.0, 0.0) == pytest.approx((x + 40, y + 30), abs=1.0)
+
+
+def test_no_hint_lies_on_the_legend_of_a_telephone(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet(has_touch=True, size=(390, 844)).begin()
+    sheet.press('Show forces')
+    sheet.press('Polygon')
+    hint, legend = sheet.page.locator('#hint'), sheet.page.locator('#legend')
+    hint.get_by_text('click each corner').wait_for()
+    legend.wait_for()
+
+    def is_above(one: Any, other: Any) -> bool:
+        box, below = one.bounding_box(), other.bounding_box()
+        return bool(box['y'] + box['height'] <= below['y'])
+
+    sheet.until(lambda: is_above(legend, hint), 'a hint below the legend')
+    assert is_above(hint, sheet.page.locator('#tools'))

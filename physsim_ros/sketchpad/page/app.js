@@ -17,16 +17,16 @@ import {Handles} from './input/handles.js';
 import {Keyboard} from './input/keyboard.js';
 import {Selection} from './input/selection.js';
 import {Meters} from './measures/meters.js';
-import {Numbers} from './measures/numbers.js';
-import {Plots} from './measures/plots.js';
 import {Plotting} from './measures/plotting.js';
 import {Records} from './measures/records.js';
 import {Stopwatch} from './measures/stopwatch.js';
 import {Trail} from './measures/trail.js';
+import {BodyPanel} from './panels/body_panel.js';
 import {Driving} from './panels/driving.js';
-import {Gravity} from './panels/gravity.js';
-import {Material} from './panels/material.js';
+import {jointContent} from './panels/joint_panel.js';
 import {Panel} from './panels/panel.js';
+import {severalContent} from './panels/several_panel.js';
+import {WorldPanel} from './panels/world_panel.js';
 import {People} from './people.js';
 import {t} from './strings.js';
 import {Eraser} from './tools/eraser.js';
@@ -41,7 +41,6 @@ import {Notes} from './ui/notes.js';
 import {Readings} from './ui/readings.js';
 import {Refusals} from './ui/refusals.js';
 import {Settings} from './ui/settings.js';
-import {Sound} from './ui/sound.js';
 import {EmptyCard} from './ui/strokes.js';
 import {TimeBar} from './ui/time_bar.js';
 import {Tips} from './ui/tips.js';
@@ -72,19 +71,21 @@ const records = new Records({connection, frames, world});
 const arrows = new Arrows({camera, connection, frames, people, records, selection, view, world});
 const trail = new Trail({arrows, camera, connection, records, view, world});
 const meters = new Meters({connection, records, view, world});
-const numbers = new Numbers({connection, selection, words, world});
 const stopwatch = new Stopwatch({connection, notes, words});
-const sound = new Sound({connection, frames, world});
 const time = new TimeBar({connection, gestures, notes, people, view, words, world});
 const files = new Files({connection, dialog, notes, people, room, words});
 const lessons = new Lessons({connection, files, people, room, selection, time, words, world});
 const plotting = new Plotting({connection, lessons, notes, records, room, selection, view, words, world});
-const plots = new Plots({connection, plotting, records, selection, view, world});
 const driving = new Driving({connection, people, selection, world});
-const gravity = new Gravity({connection, world});
-const material = new Material({connection, people});
-const panel = new Panel({connection, driving, gravity, material, meters, notes, numbers, plots, plotting, records, room, selection, sound,
-  stopwatch, trail, view, words, world});
+const bodyPanel = new BodyPanel({connection, driving, meters, notes, plotting, records, selection, trail, view, words, world});
+const worldPanel = new WorldPanel({connection, frames, people, world});
+const panel = new Panel({connection, room, selection, view}, {
+  body: (names, render) => bodyPanel.content(names, render),
+  several: (names) => severalContent({connection, plotting, selection, world}, names),
+  joint: (names) => jointContent({connection, meters, selection, words, world}, names),
+  world: (_, render) => worldPanel.content(render),
+  measure: () => stopwatch.content(),
+});
 new EmptyCard({connection, gestures, people, selection, view, world});
 const handles = new Handles({arrows, camera, connection, gestures, people, selection, view, world});
 const readings = new Readings({connection, notes, view, world});
@@ -106,10 +107,9 @@ new Narrator({connection, selection, settings, words, world});
 new Tips();
 for (const id of ['tools', 'files', 'looks', 'edit', 'marks', 'legend']) makeToolbar(elementOf(id));
 makeToolbar(elementOf('time'), '[data-icon=play]');
-// What somebody does may change the picture. The view itself follows what the server tells.
-for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerout', 'wheel', 'keydown', 'keyup', 'click', 'input', 'change']) {
-  document.addEventListener(type, () => { view.dirty = true; }, true);
-}
+// What somebody does may change the picture: a pointer only on the canvas. The view itself follows what the server tells.
+for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel', 'pointerout', 'wheel']) view.canvas.addEventListener(type, () => view.redraw());
+for (const type of ['keydown', 'keyup', 'click', 'input', 'change']) document.addEventListener(type, () => view.redraw(), true);
 listen();
 // A link with which the page is opened; in an open page, one loads it again.
 addEventListener('hashchange', () => location.reload());
@@ -164,25 +164,14 @@ function listen() {
   });
 }
 
+/** Parts that tests of the page look into. */
+export {arrows, handles, records, world};
+/** What a program sees that drives this page. */
 Object.assign(window, {physsim: {
   toPage: (/** @type {number} */ x, /** @type {number} */ y) => camera.toPage(x, y),
   toWorld: (/** @type {number} */ px, /** @type {number} */ py) => camera.toWorld(px, py),
   get time() { return world.frame.time; },
   get speed() { return world.frame.speed; },
-  /** Forces as they are drawn. */
-  get forces() { return arrows.drawn; },
-  /** Of the air [m/s]. */
-  get wind() { return world.scene.wind; },
-  /** Impacts that were heard. */
-  get heard() { return sound.heard; },
-  /** Lengths of arrows [px] to a newton and to a metre a second. */
-  get scales() { return {newton: arrows.scales.N.length(1), speed: arrows.scales['m/s'].length(1)}; },
-  /** Numbers of samples of the bodies that are recorded, and of the course that was left. */
-  get records() {
-    return Object.fromEntries([...records.bodies].map(([name, {samples, left}]) => [name, [samples.length, left.length]]));
-  },
-  /** Places of the handles of the selected body [px]. */
-  get handles() { return handles.places(); },
   get bodies() {
     const {frame, scene, count} = world;
     return Object.fromEntries(scene.bodies.slice(0, count).map(({name}, row) =>

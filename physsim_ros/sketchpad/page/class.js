@@ -29,7 +29,6 @@ const GAP = 4; // px around the world in its picture
 class Card {
   /** @param {number} number of the seat */
   constructor(number) {
-    this.framed = ''; // epoch of the scene that was framed, size of the picture then [px], and whether its whole room
     this.left = false; // whether a body has left what its lesson shows first, since the lesson began
     this.seated = ''; // name of the pupil who has the seat
     this.frozen = false;
@@ -80,15 +79,10 @@ class Card {
 
   /** Frame what the lesson shows first; once a body has left that, the whole world. */
   #frame() {
-    const {world: {scene: {bounds, epoch}, count}, view} = this, {camera} = view;
+    const {world, view} = this, {bounds, epoch} = world.scene;
     this.#noteLeft();
     // A world without bounds keeps its frame until it changes.
-    const shown = `${epoch} ${camera.width} ${camera.height} ${this.left}`;
-    if (shown === this.framed || !count) return;
-    this.framed = shown;
-    const extent = this.world.extent();
-    camera.fit(this.left && bounds.length ? unionOf([extent, bounds]) : extent, {left: GAP, top: GAP, right: GAP, bottom: GAP});
-    view.dirty = true;
+    view.frame(this.left && bounds.length ? unionOf([world.extent(), bounds]) : world.extent(), GAP, `${epoch} ${this.left}`);
   }
 
   /** Note whether a body has left what its lesson shows first. */

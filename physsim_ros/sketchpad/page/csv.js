@@ -6,6 +6,7 @@
  * Law: no cell is a formula, whatever name or answer somebody has typed (OWASP, CSV injection).
  */
 
+import {download} from './dom.js';
 import {numberOf} from './rounding.js';
 import {localized} from './strings.js';
 
@@ -13,9 +14,15 @@ const FORMULAS = ['=', '+', '-', '−', '@', '＝', '＋', '－', '＠', '\t', '
 const SEPARATOR = localized('.') === '.' ? ',' : ';';
 
 /**
+ * Save a table as a file, in which spreadsheets read the letters of all languages by its mark of UTF-8.
+ * @param {string} name of the file
  * @param {string[][]} rows
- * @returns {string}
  */
+export function downloadTable(name, rows) {
+  download(`${name}.csv`, new Blob(['\ufeff', csvOf(rows)], {type: 'text/csv'}));
+}
+
+/** @param {string[][]} rows */
 export function csvOf(rows) {
   return rows.map((row) => `${row.map(cell).join(SEPARATOR)}\n`).join('');
 }

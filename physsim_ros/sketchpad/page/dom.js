@@ -50,13 +50,28 @@ export function iconButton(name, id, onclick, title = name) {
 }
 
 /**
- * A button whose `aria-expanded` tells whether the rest of a panel is shown.
+ * A button that folds a part of the page to its first lines, and unfolds it.
+ * @param {HTMLElement} part
  * @param {string} label
- * @param {() => void} change called when it is pressed
+ * @param {(folded: boolean) => void} change called when it is pressed
  * @param {string} textContent beside its arrow
  */
-export function foldButton(label, change, textContent = label) {
-  return createElement('button', {type: 'button', className: 'fold', 'aria-label': label, title: textContent ? '' : label, textContent, onclick: change});
+export function foldButton(part, label, change, textContent = '') {
+  const button = createElement('button', {type: 'button', className: 'fold', 'aria-label': label, title: textContent ? '' : label, textContent, onclick: () => {
+    fold(part, button, !part.classList.contains('folded'));
+    change(part.classList.contains('folded'));
+  }});
+  return button;
+}
+
+/**
+ * @param {HTMLElement} part
+ * @param {HTMLElement} button of `foldButton`
+ * @param {boolean} folded
+ */
+export function fold(part, button, folded) {
+  part.classList.toggle('folded', folded);
+  button.setAttribute('aria-expanded', String(!folded));
 }
 
 /**
@@ -250,6 +265,17 @@ export function replaceContent(element, ...children) {
 /** @param {Node[]} children beside each other */
 export function inRow(...children) {
   return createElement('div', {className: 'row'}, ...children);
+}
+
+/**
+ * @template T
+ * @param {Record<string, T>} presets by name
+ * @param {(preset: T) => void} change
+ */
+export function presetButtons(presets, change) {
+  const row = inRow(...Object.entries(presets).map(([name, preset]) => textButton(name, () => change(preset))));
+  row.classList.add('presets');
+  return row;
 }
 
 /**

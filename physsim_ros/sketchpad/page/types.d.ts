@@ -17,15 +17,11 @@ import type {Cursor} from './input/cursor.js';
 import type {Gestures} from './input/gestures.js';
 import type {Selection} from './input/selection.js';
 import type {Meters} from './measures/meters.js';
-import type {Numbers} from './measures/numbers.js';
-import type {Plots} from './measures/plots.js';
 import type {Plotting} from './measures/plotting.js';
 import type {Records} from './measures/records.js';
 import type {Stopwatch} from './measures/stopwatch.js';
 import type {Trail} from './measures/trail.js';
 import type {Driving} from './panels/driving.js';
-import type {Gravity} from './panels/gravity.js';
-import type {Material} from './panels/material.js';
 import type {Panel} from './panels/panel.js';
 import type {People} from './people.js';
 import type {Dialog} from './ui/dialog.js';
@@ -35,7 +31,6 @@ import type {Lessons} from './ui/lessons.js';
 import type {Notes} from './ui/notes.js';
 import type {Readings} from './ui/readings.js';
 import type {Settings} from './ui/settings.js';
-import type {Sound} from './ui/sound.js';
 import type {TimeBar} from './ui/time_bar.js';
 import type {Toolbar} from './ui/toolbar.js';
 import type {Arrows} from './view/arrows.js';
@@ -56,23 +51,18 @@ interface Page {
   files: Files;
   frames: FrameParts;
   gestures: Gestures;
-  gravity: Gravity;
   hints: Hints;
   lessons: Lessons;
-  material: Material;
   meters: Meters;
   notes: Notes;
-  numbers: Numbers;
   panel: Panel;
   people: People;
-  plots: Plots;
   plotting: Plotting;
   readings: Readings;
   records: Records;
   room: Room;
   selection: Selection;
   settings: Settings;
-  sound: Sound;
   stopwatch: Stopwatch;
   time: TimeBar;
   toolbar: Toolbar;
@@ -87,9 +77,6 @@ export type Parts<Names extends keyof Page> = Pick<Page, Names>;
 
 /** What tools work with. */
 export type ToolParts = Parts<'camera' | 'connection' | 'frames' | 'hints' | 'notes' | 'people' | 'readings' | 'records' | 'selection' | 'view' | 'world'>;
-
-/** What the panel works with, and what it shows. */
-export type PanelParts = Parts<'connection' | 'driving' | 'gravity' | 'material' | 'meters' | 'notes' | 'numbers' | 'plots' | 'plotting' | 'records' | 'room' | 'selection' | 'sound' | 'stopwatch' | 'trail' | 'view' | 'words' | 'world'>;
 
 /** x, y [m]; on the page [px]. */
 export type Point = [number, number];
@@ -444,8 +431,6 @@ export interface Tool {
   finish?(): boolean;
   /** Whether the server knows of its unfinished gesture. */
   atServer?: boolean;
-  /** Whether it tells how fast a body is. */
-  measures?: boolean;
   /** Colour of the body that it is pointed at. */
   aims?: 'accent' | 'warn';
 }

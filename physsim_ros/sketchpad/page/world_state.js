@@ -3,6 +3,7 @@
 
 import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './view/body_path.js';
 import {ALONG_LINE, AT_POINT} from './joint_kinds.js';
+import {ropeStops} from './rope_path.js';
 import {distance, rotated} from './vectors.js';
 
 /** @import {Body, Bounds, Connection, Frame, Point, Scene, Timeline} from './types.js' */
@@ -12,6 +13,7 @@ const HINGE = 0.35; // m: how far the symbol of a hinge on the background reache
 export class WorldState {
   /** @param {Connection} connection */
   constructor(connection) {
+    this.connection = connection;
     /** @type {Scene} */
     this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0,
       density: 1, friction: 0.5, elasticity: 0.5,
@@ -28,7 +30,6 @@ export class WorldState {
     this.ghostScene = {epoch: 0, bodies: []};
     this.rate = 60; // frames a second of simulation
     this.physicsRate = 240; // steps a second of simulation
-    this.version = 0; // of what the server has told
     connection.on('welcome', (welcome) => {
       this.rate = welcome.rate;
       this.physicsRate = welcome.physics_rate;
@@ -38,7 +39,6 @@ export class WorldState {
       this.ghostScene = {epoch: 0, bodies: []};
       this.ghost = null;
     });
-    connection.on('any', () => { this.version++; });
     connection.on('scene', (scene) => { this.scene = scene; });
     connection.on('timeline', (timeline) => { this.timeline = timeline; });
     connection.on('ghost', (ghost) => {
@@ -95,6 +95,11 @@ export class WorldState {
     return [this.frame.x[row] + dx, this.frame.y[row] + dy];
   }
 
+  /** @type {(row: number) => Point} the centre of mass of a body [m] */
+  centerOf(row) {
+    return this.place(row, this.scene.bodies[row].centroid);
+  }
+
   /**
    * @param {string} name of a body
    * @returns {?Point} its highest point [m]; null where there is none of that name
@@ -102,7 +107,7 @@ export class WorldState {
   topOf(name) {
     const row = this.row(name);
     if (row < 0) return null;
-    const [x] = this.place(row, this.scene.bodies[row].centroid);
+    const [x] = this.centerOf(row);
     return [x, this.#boundsOf(row)[3]];
   }
 
@@ -178,6 +183,14 @@ export class WorldState {
   }
 
   /**
+   * @param {{at: Point, slop: number}} touch
+   * @returns {string} the name of the body there; '' where there is none
+   */
+  nameAt({at, slop}) {
+    return this.scene.bodies[this.bodyAt(at, slop)]?.name ?? '';
+  }
+
+  /**
    * @param {string} name of a body
    * @returns {Body | undefined} the robot of which it is a part
    */
@@ -192,12 +205,10 @@ export class WorldState {
    * @returns {string} the name of the joint there; '' where there is none
    */
   jointAt(point, reach, onBody) {
-    const near = this.scene.joints.filter(({kind, a, b, points, guides}) => {
-      const p = this.place(a, points[0]);
-      if (AT_POINT.includes(kind)) return distance(p, point) <= reach;
-      if (onBody || kind === 'gear') return false;
-      const passed = (guides ?? []).map(([row, x, y]) => this.place(row, [x, y]));
-      return distanceTo([p, ...passed, this.place(b, points[1])], ...point) <= reach;
+    const near = this.scene.joints.filter((joint) => {
+      const stops = ropeStops(this, joint).map(({at}) => at);
+      if (AT_POINT.includes(joint.kind)) return distance(stops[0], point) <= reach;
+      return !onBody && joint.kind !== 'gear' && distanceTo(stops, point) <= reach;
     });
     return near.at(-1)?.name ?? '';
   }

@@ -20,7 +20,7 @@ const TIP_GAP = 22; // px from the tip of the velocity to its ring
 const GRIP = 13, SIZE = 6, RING = 7; // px: within which a handle is grabbed; half of its size; radius of the ring
 const FARTHEST = 0.35; // share of the page: handles of larger bodies lie nearer
 const STEP = Math.PI / 12, SHARE = 0.25; // rad and steps of the size, with the key of the grid
-const LEAST = 0.1, MOST = 10; // of its size
+const LEAST = 0.1; // share of the size to which a body is scaled down at once
 const SLOWEST = 5e-4; // m/s: a lower speed is that of a body at rest
 const NEAR = 20; // px beyond the handles within which a pointer shows them
 const TOUCHED = 4000, READ = 2500; // ms for which they are shown after a finger, and beside arrows that are read
@@ -57,7 +57,7 @@ export class Handles extends Gesture {
     const isNear = places && (near(places.center, places.reach + TURN_GAP + NEAR) || near(places.velocity, 2 * NEAR));
     const lasting = parts.arrows.forces || parts.arrows.velocities ? READ : isFinger ? TOUCHED : Infinity;
     this.until = isNear ? performance.now() + lasting : 0;
-    if (isNear && lasting < Infinity) setTimeout(() => { parts.view.dirty = true; }, lasting);
+    if (isNear && lasting < Infinity) setTimeout(() => parts.view.redraw(), lasting);
   }
 
   /**
@@ -100,7 +100,7 @@ export class Handles extends Gesture {
   places() {
     const {world, camera, selection, view, arrows} = this.parts, row = world.row(selection.name), {velocities} = world.frame;
     if (row < 0 || this.parts.people.viewOnly) return null;
-    const body = world.scene.bodies[row], center = camera.toPage(...world.place(row, body.centroid));
+    const body = world.scene.bodies[row], center = camera.toPage(...world.centerOf(row));
     const reach = Math.min(view.bodies.appearance(body).radius * camera.scale,
       FARTHEST * Math.min(camera.width, camera.height));
     const at = (/** @type {number} */ angle, /** @type {number} */ far) => {
@@ -151,7 +151,7 @@ export class Handles extends Gesture {
       [change.turn] = onGrid([wrapped(turn), 0], grid && STEP);
     } else if (this.dragged === 'scale') {
       const [share] = onGrid([distance([px, py], [x, y]) / (distance([fx, fy], [x, y]) || 1), 0], grid && SHARE);
-      change.scale = Math.min(Math.max(share, LEAST), MOST);
+      change.scale = Math.max(share, LEAST);
     }
     return change;
   }
@@ -170,7 +170,7 @@ export class Handles extends Gesture {
     });
     if (!this.last || this.dragged !== 'turn' && this.dragged !== 'scale') return;
     const {turn, scale} = this.#change(), {world, selection} = this.parts, row = world.row(selection.name);
-    view.outline(row, palette.accent, [0, 0], {turn, scale});
+    view.outline(selection.name, palette.accent, [0, 0], {turn, scale});
     view.tell(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeText(world.scene.bodies[row], scale), this.last);
   }
 
@@ -187,7 +187,7 @@ export class Handles extends Gesture {
     // While forces are read, velocities are shown only where somebody has switched them on.
     if (this.shown || arrows.velocities || !arrows.forces) {
       if (length > TIP_GAP + 1) view.arrow(center, tip, accent);
-      if (speed >= SLOWEST) view.number({text: `${threeDigits(speed)} m/s`, color: accent, from: center, tip, along, named: true});
+      if (speed >= SLOWEST) view.numbers.push({text: `${threeDigits(speed)} m/s`, color: accent, from: center, tip, along, named: true});
     }
     if (this.shown) view.ring(camera.toWorld(...ring), RING, accent);
   }
@@ -202,7 +202,7 @@ export class Handles extends Gesture {
  */
 function poseAbout({world}, row, turn, scale = 1) {
   const {centroid} = world.scene.bodies[row], yaw = world.frame.yaw[row] + turn;
-  return [...originOf([scale * centroid[0], scale * centroid[1]], world.place(row, centroid), yaw), yaw];
+  return [...originOf([scale * centroid[0], scale * centroid[1]], world.centerOf(row), yaw), yaw];
 }
 
 /**

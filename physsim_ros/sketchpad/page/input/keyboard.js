@@ -116,7 +116,7 @@ export class Keyboard {
     const next = (row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length;
     parts.selection.select([bodies[next].name]);
     // There Enter works the tool.
-    parts.cursor.put(parts.camera.toPage(...parts.world.place(next, bodies[next].centroid)));
+    parts.cursor.put(parts.camera.toPage(...parts.world.centerOf(next)));
   }
 
   #drop() {

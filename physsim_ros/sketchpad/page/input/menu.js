@@ -24,9 +24,8 @@ export class Menu {
 
   /** @param {Point} page where it is opened [px] */
   open([x, y]) {
-    const {parts, element} = this, {selection, world, camera} = parts, at = camera.toWorld(x, y), row = world.bodyAt(at);
+    const {parts, element} = this, {selection, world, camera} = parts, at = camera.toWorld(x, y), name = world.nameAt({at, slop: 0});
     if (parts.people.viewOnly) return;
-    const name = row < 0 ? '' : world.scene.bodies[row].name;
     if (name && !selection.names.has(name)) selection.select([name]);
     const item = (/** @type {string} */ label, /** @type {() => void} */ done) => {
       const button = textButton(label, () => {

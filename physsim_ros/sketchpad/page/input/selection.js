@@ -70,12 +70,12 @@ export class Selection extends Emitter {
   }
 
   /** @param {Touch} touch */
-  selectAt({at, slop}) {
-    const {world, camera} = this.parts, row = world.bodyAt(at, slop);
-    const name = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
+  selectAt(touch) {
+    const {world, camera} = this.parts, body = world.nameAt(touch);
+    const joint = world.jointAt(touch.at, touch.slop + NEAR / camera.scale, body !== '');
     // A second tap selects the body below the joint.
-    if (name && name !== this.joint) this.show('joint', [name]);
-    else this.select(row < 0 ? [] : [world.scene.bodies[row].name]);
+    if (joint && joint !== this.joint) this.show('joint', [joint]);
+    else this.select(body ? [body] : []);
   }
 
   selectAll() {
@@ -119,16 +119,13 @@ export class Selection extends Emitter {
   /** @param {SceneView} view */
   #draw(view) {
     const {palette} = view, {world, camera, words, gestures: {tool}} = this.parts;
-    for (const name of this.names) {
-      const row = world.row(name);
-      if (row >= 0) view.outline(row, palette.accent);
-    }
+    for (const name of this.names) view.outline(name, palette.accent);
     // Bodies come and go under a pointer that rests.
-    const row = this.pointed ? world.bodyAt(camera.toWorld(...this.pointed.page), this.pointed.slop) : -1;
-    view.canvas.classList.toggle('over', row >= 0);
-    if (row < 0 || !this.pointed) return;
-    if (tool.aims) view.outline(row, palette[tool.aims]);
+    const name = this.pointed ? world.nameAt({at: camera.toWorld(...this.pointed.page), slop: this.pointed.slop}) : '';
+    view.canvas.classList.toggle('over', name !== '');
+    if (!name || !this.pointed) return;
+    if (tool.aims) view.outline(name, palette[tool.aims]);
     const [x, y] = this.pointed.page;
-    view.write(words.item(world.scene.bodies[row].name), [x + 16, y - 10], palette.ink);
+    view.write(words.item(name), [x + 16, y - 10], palette.ink);
   }
 }

@@ -53,9 +53,9 @@ export class Meters {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {world, records} = this.parts, {bodies, joints, gravity} = world.scene, now = world.frame.time + 1e-9;
+    const {world, records} = this.parts, {bodies, joints, gravity} = world.scene;
     for (const [name, key] of this.bodies) {
-      const top = world.topOf(name), sample = records.samples(name).findLast(({time}) => time <= now);
+      const top = world.topOf(name), sample = records.past(name).at(-1);
       if (top && sample) drawMeter(view, top, toldOf(key, QUANTITIES[key].of(sample, bodies[world.row(name)], gravity)));
     }
     for (const joint of joints) {

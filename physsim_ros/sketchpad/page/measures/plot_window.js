@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, a predicted curve. */
 
-import {choice, createElement, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
+import {choice, createElement, elementOf, fold, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
 import {differenceOf, meanDistance, rangeOf, roomFor, sumOf, valueAt} from './curves.js';
 import {QUANTITIES, toldOf} from './quantities.js';
@@ -54,9 +54,7 @@ export class PlotWindow {
       this.pointed = null;
       this.#draw();
     };
-    const drawSoon = soon(() => this.#draw(), EVERY);
-    parts.connection.on('frame', drawSoon);
-    parts.connection.on('body', drawSoon);
+    parts.view.overlays.push(soon(() => this.#draw(), EVERY));
     parts.connection.on('world', () => this.isOpen && this.close());
     watchTheme(() => this.#draw());
     new ResizeObserver(() => this.#draw()).observe(this.element);
@@ -75,11 +73,8 @@ export class PlotWindow {
       this.#switch('differs', t('Difference'), t('This run less the last one, at the same times')),
       this.#switch('predicts', t('Predict the curve'), t('Draw the curve that you expect, then play')), textButton(t('Copy table'), () => copyTable(parts, this.names)));
     rest.classList.add('rest');
-    const more = foldButton(t('Bodies, sum, table'), () => {
-      more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
-    }, '');
-    more.setAttribute('aria-expanded', 'false');
-    this.element.classList.add('folded');
+    const more = foldButton(this.element, t('Bodies, sum, table'), () => {});
+    fold(this.element, more, true);
     this.element.replaceChildren(createElement('header', {},
       inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')), this.legend),
       more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.reading, this.canvas);

@@ -17,7 +17,7 @@ const SHOWN = ['y', 'speed', 'energy'];
 const CHART = {width: 272, height: 92, size: 11}; // px
 
 export class Plots {
-  /** @param {Parts<'connection' | 'plotting' | 'records' | 'selection' | 'view' | 'world'>} parts */
+  /** @param {Parts<'plotting' | 'records' | 'selection' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.canvases = SHOWN.map((key) => createElement('canvas', {role: 'img', 'aria-label': QUANTITIES[key].label}));
@@ -25,9 +25,8 @@ export class Plots {
       createElement('p', {}, t('Broad: free flight by its formula. Dashed: the earlier course.')),
       inRow(textButton(t('Large plot'), () => parts.plotting.open([parts.selection.name])),
         textButton(t('Table (CSV)'), () => parts.plotting.saveTable([parts.selection.name]))));
-    const drawSoon = soon(() => this.#draw(), EVERY);
-    parts.connection.on('frame', drawSoon);
-    parts.connection.on('body', drawSoon);
+    parts.selection.on('change', () => parts.records.want(this, parts.selection.name ? [parts.selection.name] : []));
+    parts.view.overlays.push(soon(() => this.#draw(), EVERY));
     watchTheme(() => this.#draw());
   }
 

@@ -21,7 +21,7 @@ import {DEGREE, rotated, wrapped} from '../vectors.js';
  * @returns {Motion} of a body; its velocity is 0 where it is not known
  */
 export function motionOf(world, row) {
-  const {frame: {yaw, velocities}, scene} = world, {mass, centroid} = scene.bodies[row], [x, y] = world.place(row, centroid);
+  const {frame: {yaw, velocities}, scene} = world, {mass} = scene.bodies[row], [x, y] = world.centerOf(row);
   return {mass, x, y, angle: wrapped(yaw[row]) / DEGREE,
     vx: velocities?.x[row] ?? 0, vy: velocities?.y[row] ?? 0, spin: velocities?.spin[row] ?? 0};
 }
@@ -73,8 +73,8 @@ export function originOf(centroid, [x, y], yaw) {
  * @returns {string} the place and angle of a body, and how fast it is where that is known
  */
 export function placed(world, row, by = [0, 0]) {
-  const {frame: {yaw, velocities}, scene} = world, {centroid, anchored} = scene.bodies[row];
-  const [x, y] = world.place(row, centroid);
+  const {frame: {yaw, velocities}, scene} = world, {anchored} = scene.bodies[row];
+  const [x, y] = world.centerOf(row);
   const texts = [t('at {x}, {y} m', {x: twoPlaces(x + by[0]), y: twoPlaces(y + by[1])}), degrees(yaw[row])];
   if (velocities && !anchored) {
     texts.push(`${twoPlaces(Math.hypot(velocities.x[row], velocities.y[row]))} m/s`, `${twoPlaces(velocities.spin[row])} rad/s`);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The motion of bodies in the line of events in force, as far as the server keeps it, and in the course that was left. */
 
-import {forcesOf, pastForcesOf, sumsOf} from '../view/forces.js';
+import {forcesOf, pastForcesOf, sumsOf, totalOf} from '../view/forces.js';
 
 /** @import {Force, Parts, Point, Sample} from '../types.js' */
 
@@ -52,6 +52,14 @@ export class Records {
   /** @param {string} name */
   samples(name) {
     return this.bodies.get(name)?.samples ?? [];
+  }
+
+  /**
+   * @param {string} name
+   * @returns {Sample[]} up to the moment that is shown
+   */
+  past(name) {
+    return this.samples(name).filter(({time}) => time <= this.parts.world.frame.time + 1e-9);
   }
 
   /** @param {string[]} names of bodies whose past is not known */
@@ -106,7 +114,7 @@ export class Records {
       // A replay of the same course gives the same samples: those that were recorded stay, and get the forces of what is shown.
       if (all && known?.time === time) known.forces = sizesOf(all.filter((force) => force.row === row), held);
       if (row < 0 || time <= (samples.at(-1)?.time ?? -Infinity)) continue;
-      const [x, y] = world.place(row, world.scene.bodies[row].centroid);
+      const [x, y] = world.centerOf(row);
       /** @type {Sample} */
       const sample = {time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]};
       accelerate(sample, samples.at(-1));
@@ -145,7 +153,7 @@ function accelerate(sample, before) {
  * @returns {Record<string, number>} the size of the sum of each kind [N]
  */
 function sizesOf(forces, held = false) {
-  const size = (/** @type {typeof forces} */ some) => Math.hypot(some.reduce((sum, {x}) => sum + x, 0), some.reduce((sum, {y}) => sum + y, 0));
+  const size = (/** @type {typeof forces} */ some) => Math.hypot(...totalOf(some));
   const kinds = [...new Set(forces.map(({kind}) => kind))];
   const sizes = Object.fromEntries(kinds.map((kind) => [kind, size(forces.filter((force) => force.kind === kind))]));
   // Of fewer than two forces no sum is told beside them.

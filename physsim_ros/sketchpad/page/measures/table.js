@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tables of what was recorded of bodies (CSV): all quantities, the bodies one below the other. */
 
-import {csvOf} from '../csv.js';
-import {download} from '../dom.js';
+import {csvOf, downloadTable} from '../csv.js';
 import {QUANTITIES} from './quantities.js';
 import {digits} from '../rounding.js';
 import {t} from '../strings.js';
@@ -16,7 +15,7 @@ const NOTHING = 1e-9; // in its unit: rounding of what is 0
 /**
  * @param {TableParts} parts
  * @param {string[]} names of bodies
- * @returns {string}
+ * @returns {string[][]} rows, with the head first
  */
 function tableOf({world, records}, names) {
   const columns = Object.values(QUANTITIES);
@@ -24,7 +23,7 @@ function tableOf({world, records}, names) {
     const body = world.body(name);
     return body ? records.samples(name).map((sample) => [...columns.map(({of}) => cellOf(of(sample, body, world.scene.gravity))), name]) : [];
   });
-  return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
+  return [[...columns.map(({label}) => label), t('Body')], ...rows];
 }
 
 /**
@@ -32,7 +31,7 @@ function tableOf({world, records}, names) {
  * @param {string[]} names of bodies
  */
 export function saveTable(parts, names) {
-  download(`${names[0].replaceAll('/', '-')}.csv`, new Blob([tableOf(parts, names)], {type: 'text/csv'}));
+  downloadTable(names[0].replaceAll('/', '-'), tableOf(parts, names));
 }
 
 /**
@@ -41,7 +40,7 @@ export function saveTable(parts, names) {
  */
 export async function copyTable(parts, names) {
   try {
-    await navigator.clipboard.writeText(tableOf(parts, names));
+    await navigator.clipboard.writeText(csvOf(tableOf(parts, names)));
     parts.notes.showMessage(t('Table copied'));
   } catch {
     // Browsers give the clipboard to pages of this machine or with TLS only.

@@ -54,8 +54,7 @@ export class Trail {
    * @param {boolean} flashes
    */
   #draw(view, name, flashes) {
-    const {world, records} = this.parts, row = world.row(name), now = world.frame.time + 1e-9;
-    const samples = records.samples(name).filter(({time}) => time <= now);
+    const {world, records} = this.parts, row = world.row(name), samples = records.past(name);
     if (row < 0 || samples.length < 2) return;
     const {palette} = view;
     view.line(samples.map(({x, y}) => [x, y]), palette.faint, [2, 5]);
@@ -65,24 +64,24 @@ export class Trail {
       const {x, y, vx, vy} = sample, at = view.camera.toPage(x, y);
       // Images are at equal times, however near; numbers and arrows, where there is room for them.
       const isApart = distance(at, last) >= APART;
-      this.#flash(view, row, sample, isApart);
+      this.#flash(view, name, sample, isApart);
       if (!isApart) return;
       last = at;
       const speed = Math.hypot(vx, vy) || 1, aside = /** @type {Point} */ ([vy / speed, vx / speed]);
-      view.number({text: String(i), color: palette.ink, tip: [at[0] - ASIDE * aside[0], at[1] - ASIDE * aside[1]], along: [-aside[0], -aside[1]]});
+      view.numbers.push({text: String(i), color: palette.ink, tip: [at[0] - ASIDE * aside[0], at[1] - ASIDE * aside[1]], along: [-aside[0], -aside[1]]});
     });
   }
 
   /**
    * @param {SceneView} view
-   * @param {number} row
+   * @param {string} name
    * @param {Sample} sample
    * @param {boolean} hasArrows
    */
-  #flash(view, row, sample, hasArrows) {
-    const {world, camera, arrows} = this.parts, {palette} = view;
-    const {x, y, yaw, vx, vy, ax = 0, ay = 0} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
-    view.outline(row, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
+  #flash(view, name, sample, hasArrows) {
+    const {world, camera, arrows} = this.parts, {palette} = view, row = world.row(name);
+    const {x, y, yaw, vx, vy, ax = 0, ay = 0} = sample, [nowX, nowY] = world.centerOf(row);
+    view.outline(name, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
     if (!hasArrows) return;
     const from = camera.toPage(x, y), pixels = arrows.scales['m/s'].length(1);
     drawArrow(view, from, vx * pixels, vy * pixels, palette.accent);

@@ -10,60 +10,68 @@ import {capital, server, t} from '../strings.js';
 import {inclineFields} from '../tools/incline.js';
 import {sendNote} from '../tools/note.js';
 import {isDrawn} from '../words.js';
-import {materialFields} from './world_panel.js';
+import {materialFields} from './material.js';
+import {Numbers} from '../measures/numbers.js';
+import {Plots} from '../measures/plots.js';
 
 /** @import {Body, Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 const MOST_JOINTS = 12; // that are listed
 
-/**
- * @param {Parts<'connection' | 'driving' | 'meters' | 'notes' | 'numbers' | 'plots' | 'selection' | 'trail' | 'view' | 'words' | 'world'>} parts
- * @param {string[]} names of the body alone
- * @param {() => void} render the panel again
- * @returns {?Content} null where it is gone
- */
-export function bodyContent(parts, [name], render) {
-  const body = parts.world.body(name);
-  if (!body) return null;
-  const change = (/** @type {object} */ properties) => parts.connection.send('change', {name, properties});
-  const label = textField({value: body.label, onchange: () => {
-    const value = textOf(label), {height = 0} = body.shape, row = parts.world.row(name);
-    if (body.name.startsWith('note/') && height) {
-      sendNote(parts, name, value, [...parts.world.place(row, [0, 0]), parts.world.frame.yaw[row]], height / labelSize(parts.view.ctx, body.label)[1]);
-    } else change({label: value});
-  }});
-  const material = materialFields(body, change);
-  material.find((each) => each.textContent === t('Friction'))?.append(parts.numbers.pairs);
-  return {
-    title: parts.words.title(name), name: isDrawn(name) || parts.world.robotOf(name) ? name : '',
-    first: [parts.numbers.element, ...inclineFields(parts, body, render),
-      ...body.actor ? actorLines(body.actor) : [], ...body.robot ? parts.driving.show(body.robot) : []],
-    rest: [
-      parts.numbers.turning, parts.numbers.typed,
-      ...material,
-      labelled(t('Label'), label),
-      // A robot is neither.
-      ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})),
-        checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
-      labelled(t('Belt [m/s]'), numberField(body.belt ?? 0, (belt) => change({belt: belt ?? 0}))),
-      labelled(t('Rolling resistance'), numberField(body.rolling_resistance ?? 0, (share) => change({rolling_resistance: share ?? 0}))),
-      ...body.robot ? [] : oneWayFields(body, change),
-      jointRow(parts, name),
-      ...forceFields(parts, body, change),
-      ...body.robot ? [] : mediumFields(parts, body, change),
-      inRow(
-        textButton(t('Copy beside'), () => parts.selection.duplicate()),
-        textButton(t('Delete body'), () => parts.selection.deleteSelected(), 'danger')),
-      createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
-      ...parts.trail.switches(name), parts.meters.field(name),
-      parts.plots.element,
-    ],
-    live: (view) => {
-      parts.numbers.show(name);
-      drawWay(view, parts.world, name);
-    },
-  };
+export class BodyPanel {
+  /** @param {Parts<'connection' | 'driving' | 'meters' | 'notes' | 'plotting' | 'records' | 'selection' | 'trail' | 'view' | 'words' | 'world'>} parts */
+  constructor(parts) {
+    this.parts = parts;
+    this.numbers = new Numbers(parts);
+    this.plots = new Plots(parts);
+  }
+
+  /**
+   * @param {string[]} names of the body alone
+   * @param {() => void} render the panel again
+   * @returns {?Content} null where it is gone
+   */
+  content([name], render) {
+    const {parts, numbers, plots} = this, body = parts.world.body(name);
+    if (!body) return null;
+    const change = (/** @type {object} */ properties) => parts.connection.send('change', {name, properties});
+    const label = textField({value: body.label, onchange: () => {
+      const value = textOf(label), {height = 0} = body.shape, row = parts.world.row(name);
+      if (body.name.startsWith('note/') && height) {
+        sendNote(parts, name, value, [...parts.world.place(row, [0, 0]), parts.world.frame.yaw[row]], height / labelSize(parts.view.ctx, body.label)[1]);
+      } else change({label: value});
+    }});
+    return {
+      title: parts.words.title(name), name: isDrawn(name) || parts.world.robotOf(name) ? name : '',
+      first: [numbers.element, ...inclineFields(parts, body, render),
+        ...body.actor ? actorLines(body.actor) : [], ...body.robot ? parts.driving.show(body.robot) : []],
+      rest: [
+        numbers.turning, numbers.typed,
+        ...materialFields(body, change, {friction: [numbers.pairs]}),
+        labelled(t('Label'), label),
+        // A robot is neither.
+        ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})),
+          checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
+        labelled(t('Belt [m/s]'), numberField(body.belt ?? 0, (belt) => change({belt: belt ?? 0}))),
+        labelled(t('Rolling resistance'), numberField(body.rolling_resistance ?? 0, (share) => change({rolling_resistance: share ?? 0}))),
+        ...body.robot ? [] : oneWayFields(body, change),
+        jointRow(parts, name),
+        ...forceFields(parts, body, change),
+        ...body.robot ? [] : mediumFields(parts, body, change),
+        inRow(
+          textButton(t('Copy beside'), () => parts.selection.duplicate()),
+          textButton(t('Delete body'), () => parts.selection.deleteSelected(), 'danger')),
+        createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
+        ...parts.trail.switches(name), parts.meters.field(name),
+        plots.element,
+      ],
+      live: (view) => {
+        numbers.show(name);
+        drawWay(view, parts.world, name);
+      },
+    };
+  }
 }
 
 /**

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The fields of gravity: its strength, and its direction, which a world keeps while there is none. */
 
-import {createElement, range} from '../dom.js';
+import {createElement, presetButtons, range} from '../dom.js';
 import {t} from '../strings.js';
 import {DEGREE} from '../vectors.js';
-import {presetButtons} from './world_panel.js';
 
 /** @import {Parts} from '../types.js' */
 

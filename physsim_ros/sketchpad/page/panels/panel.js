@@ -6,16 +6,12 @@
  * numbers; what can be changed is behind one line, until somebody unfolds it.
  */
 
-import {bodyContent} from './body_panel.js';
-import {createElement, elementOf, foldButton, iconButton, replaceContent} from '../dom.js';
-import {jointContent} from './joint_panel.js';
-import {severalContent} from './several_panel.js';
-import {worldContent} from './world_panel.js';
+import {createElement, elementOf, fold, foldButton, iconButton, replaceContent} from '../dom.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 
 /** @import {Kind} from '../input/selection.js' */
-/** @import {PanelParts, SceneView} from '../types.js' */
+/** @import {Parts, SceneView} from '../types.js' */
 
 /**
  * @typedef {{title: string, name?: string, first?: Node[], rest: Node[], live?: (view: SceneView) => void}} Content
@@ -23,14 +19,21 @@ import {t} from '../strings.js';
  *   frame to frame, and draws it
  */
 
-/** By the names of the subject; null where that is gone. @type {Record<Exclude<Kind, ''>, (parts: PanelParts, names: string[], render: () => void) => ?Content>} */
-const CONTENTS = {body: bodyContent, several: severalContent, joint: jointContent, world: worldContent, measure: ({stopwatch}) => stopwatch.content()};
+/**
+ * What the panel shows of a subject of each kind, by its names; null where that is gone. `render` shows the panel again.
+ * @typedef {Record<Exclude<Kind, ''>, (names: string[], render: () => void) => ?Content>} Contents
+ */
+
 const UNFOLDED = 'physsim-panel'; // key
 
 export class Panel {
-  /** @param {PanelParts} parts */
-  constructor(parts) {
+  /**
+   * @param {Parts<'connection' | 'room' | 'selection' | 'view'>} parts
+   * @param {Contents} contents
+   */
+  constructor(parts, contents) {
     this.parts = parts;
+    this.contents = contents;
     this.element = elementOf('panel');
     this.shown = ''; // kind and names of the subject
     /** As somebody has chosen in this browser; a small page has no room for all of it at once. */
@@ -38,12 +41,11 @@ export class Panel {
     /** @type {(view: SceneView) => void} */
     this.live = () => {};
     this.isStale = false; // the scene has changed while somebody worked in it
-    this.more = foldButton(t('More'), () => {
-      this.unfolded = !this.unfolded;
-      localStorage.setItem(UNFOLDED, this.unfolded ? '1' : '0');
-      this.#fold();
+    this.more = foldButton(this.element, t('More'), (folded) => {
+      this.unfolded = !folded;
+      localStorage.setItem(UNFOLDED, folded ? '0' : '1');
       parts.room.fit();
-    });
+    }, t('More'));
     const followSoon = () => queueMicrotask(() => this.#follow());
     parts.connection.on('scene', followSoon);
     parts.selection.on('change', () => this.#show());
@@ -56,10 +58,9 @@ export class Panel {
   }
 
   #show() {
-    const {records, selection: {kind, name, subject}} = this.parts, shown = `${kind} ${subject}`;
+    const {kind, subject} = this.parts.selection, shown = `${kind} ${subject}`;
     if (shown !== this.shown) this.element.scrollTop = 0;
     this.shown = shown;
-    records.want(this, name ? [name] : []);
     this.render();
   }
 
@@ -75,7 +76,7 @@ export class Panel {
     this.isStale = false;
     element.hidden = !kind;
     if (!kind) return;
-    const content = CONTENTS[kind](parts, subject, () => this.render());
+    const content = this.contents[kind](subject, () => this.render());
     if (!content) {
       parts.selection.select([]);
       return;
@@ -87,7 +88,7 @@ export class Panel {
       createElement('h2', {}, `${title} `, createElement('small', {}, name)),
       iconButton(t('Close'), 'close', () => this.close())), ...first, this.more, createElement('div', {className: 'rest'}, ...rest));
     live(parts.view);
-    this.#fold();
+    fold(element, this.more, first.length > 0 && !this.unfolded);
   }
 
   /** Show the subject as it is, but not while its field is typed in, or its button pressed. */
@@ -95,10 +96,5 @@ export class Panel {
     const {element} = this;
     this.isStale = this.parts.selection.kind !== '' && (element.contains(document.activeElement) || element.matches(':active'));
     if (!this.isStale) this.render();
-  }
-
-  #fold() {
-    this.element.classList.toggle('folded', !this.more.hidden && !this.unfolded);
-    this.more.setAttribute('aria-expanded', String(this.unfolded));
   }
 }

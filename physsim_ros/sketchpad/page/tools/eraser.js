@@ -39,17 +39,17 @@ export class Eraser extends Gesture {
   }
 
   /** @param {Touch} touch where it is */
-  #meet({at, slop}) {
-    const {world, camera} = this.parts, row = world.bodyAt(at, slop), joint = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
+  #meet(touch) {
+    const {world, camera} = this.parts, body = world.nameAt(touch), joint = world.jointAt(touch.at, touch.slop + NEAR / camera.scale, body !== '');
     if (joint) this.joints.add(joint);
-    else if (row >= 0) this.bodies.add(world.scene.bodies[row].name);
+    else if (body) this.bodies.add(body);
   }
 
   /** @param {SceneView} view */
   draw(view) {
-    const {world} = this.parts, {palette} = view;
+    const {warn} = view.palette;
     if (!this.path.length) return;
-    view.line(this.path.map(({at}) => at), palette.warn, [2, 6]);
-    for (const name of this.bodies) if (world.row(name) >= 0) view.outline(world.row(name), palette.warn);
+    view.line(this.path.map(({at}) => at), warn, [2, 6]);
+    for (const name of this.bodies) view.outline(name, warn);
   }
 }

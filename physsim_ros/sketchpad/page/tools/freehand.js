@@ -54,8 +54,7 @@ export class Lasso extends Gesture {
 
   /** @param {Touch} touch */
   begin(touch) {
-    const {world, selection} = this.parts, row = world.bodyAt(touch.at, touch.slop);
-    this.carrying = row >= 0 && selection.names.has(world.scene.bodies[row].name);
+    this.carrying = this.parts.selection.names.has(this.parts.world.nameAt(touch));
   }
 
   /** @param {Touch} touch */
@@ -65,8 +64,8 @@ export class Lasso extends Gesture {
     else if (this.carrying) parts.connection.send(path[0].copies ? 'copy_machine' : 'move_bodies', {names: [...parts.selection.names], by: offset(path)});
     else {
       const {world} = parts, loop = path.map(({at}) => at);
-      parts.selection.select(world.scene.bodies.filter((body, row) => row < world.count &&
-        inside(loop, ...world.place(row, body.centroid))).map(({name}) => name));
+      parts.selection.select(world.scene.bodies.filter((_, row) => row < world.count &&
+        inside(loop, world.centerOf(row))).map(({name}) => name));
     }
   }
 
@@ -74,10 +73,7 @@ export class Lasso extends Gesture {
   draw(view) {
     if (!this.path.length) return;
     if (!this.carrying) view.line(this.path.map(({at}) => at), view.palette.accent, [6, 6]);
-    else for (const name of this.parts.selection.names) {
-      const row = this.parts.world.row(name);
-      if (row >= 0) view.outline(row, view.palette.accent, offset(this.path));
-    }
+    else for (const name of this.parts.selection.names) view.outline(name, view.palette.accent, offset(this.path));
   }
 }
 

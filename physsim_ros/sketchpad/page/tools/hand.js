@@ -144,7 +144,7 @@ export class Hand extends Gesture {
     let by = [0, 0];
     if (this.state !== 'holding') {
       by = this.#carried(this.start, this.last);
-      view.outline(row, view.palette.accent, by);
+      view.outline(this.name, view.palette.accent, by);
     }
     view.tell(placed(world, row, by), this.last);
   }

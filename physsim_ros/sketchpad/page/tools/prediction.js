@@ -30,8 +30,8 @@ export class Prediction extends Gesture {
 
   /** @param {Touch} touch */
   begin(touch) {
-    const {world, notes} = this.parts, row = world.bodyAt(touch.at, touch.slop);
-    this.name = row < 0 ? '' : world.scene.bodies[row].name;
+    const {world, notes} = this.parts;
+    this.name = world.nameAt(touch);
     if (!this.name) notes.showMessage(t('Begin at the body whose way you draw'), {ok: false});
   }
 
@@ -39,7 +39,7 @@ export class Prediction extends Gesture {
     const {name, path, parts: {world}} = this, row = world.row(name);
     if (row < 0) return;
     // Its way begins at its centre of mass, as the one that it goes.
-    const centre = world.place(row, world.scene.bodies[row].centroid);
+    const centre = world.centerOf(row);
     if (this.isTap) this.ways.delete(name);
     else this.ways.set(name, {since: world.frame.time, way: [centre, ...path.slice(1).map(({at}) => at)]});
     this.#record();
@@ -56,15 +56,15 @@ export class Prediction extends Gesture {
 
   /** @param {SceneView} view */
   #drawAll(view) {
-    const {world, records, camera} = this.parts, {palette} = view, now = world.frame.time + 1e-9;
+    const {world, records, camera} = this.parts, {palette} = view;
     for (const [name, {since, way}] of this.ways) {
       if (world.row(name) < 0) continue;
       view.line(way, palette.momentum, [8, 6]);
       const [x, y] = camera.toPage(...way[way.length - 1]);
-      const gone = records.samples(name).filter(({time}) => time > since && time <= now);
+      const gone = records.past(name).filter(({time}) => time > since);
       view.line(gone.map((each) => [each.x, each.y]), palette.accent);
       const places = evenly(gone, lengthOf(way) / PARTS);
-      const off = places.reduce((sum, [atX, atY]) => sum + distanceTo(way, atX, atY), 0) / places.length;
+      const off = places.reduce((sum, place) => sum + distanceTo(way, place), 0) / places.length;
       const text = t('off by {length} m on average, for {share} % of the line',
         {length: threeDigits(off), share: places.length - 1});
       view.write(gone.length ? text : t('predicted'), [x + 10, y], palette.momentum);

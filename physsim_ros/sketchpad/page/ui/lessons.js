@@ -6,7 +6,7 @@
  * the table of strings has the texts of shipped lessons.
  */
 
-import {createElement, elementOf, fieldForm, foldButton, icon, inRow, textButton} from '../dom.js';
+import {createElement, elementOf, fieldForm, fold, foldButton, icon, inRow, textButton} from '../dom.js';
 import {numberOf} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
@@ -22,7 +22,7 @@ export class Lessons {
     /** @type {{name: string, number: number, title: string, question: string}[]} in their order */
     this.list = [];
     this.card = elementOf('lesson');
-    this.more = foldButton(t('All of the lesson'), () => this.#fold(!this.isFolded), '');
+    this.more = foldButton(this.card, t('All of the lesson'), (folded) => this.#fold(folded));
     this.settled = false; // the question was read: time has run, or a body was tapped
     /** @type {string | undefined} */
     this.shown = ''; // title of the lesson of the card
@@ -79,8 +79,7 @@ export class Lessons {
   #fold(folded) {
     const {parts, card} = this;
     this.settled = true;
-    card.classList.toggle('folded', folded);
-    this.more.setAttribute('aria-expanded', String(!folded));
+    fold(card, this.more, folded);
     if (!folded && !isRoomy() && parts.selection.kind) parts.selection.select([]);
     parts.room.fit();
   }

@@ -62,7 +62,7 @@ export class Narrator {
    * @param {number} speed [m/s]
    */
   #followBody(row, speed) {
-    const {world, words} = this.parts, {name, centroid} = world.scene.bodies[row], time = fixed(this.time, 1);
+    const {world, words} = this.parts, {name} = world.scene.bodies[row], time = fixed(this.time, 1);
     const motion = this.motions.get(name) ?? {moves: speed > MOVES, since: this.time};
     this.motions.set(name, motion);
     if (speed > RESTS) motion.since = this.time;
@@ -71,7 +71,7 @@ export class Narrator {
       this.#tell(t('{name} moves at {time} s', {name: words.item(name), time}));
     } else if (motion.moves && this.time - motion.since > STILL) {
       motion.moves = false;
-      const [x, y] = world.place(row, centroid);
+      const [x, y] = world.centerOf(row);
       this.#tell(t('{name} rests at {x}, {y} m, at {time} s', {name: words.item(name), x: fixed(x, 1), y: fixed(y, 1), time}));
     }
   }

@@ -15,9 +15,8 @@ const LONGEST = 24; // characters
 
 /** @param {Needed} parts */
 export function showPeople(parts) {
-  const {connection, dialog, people: {page: here, state: {people}, teacher, viewOnly}} = parts;
-  const own = people.find(({page}) => page === here)?.name ?? '';
-  const input = createElement('input', {value: ownName(), placeholder: personWord(own), required: true,
+  const {connection, dialog, people: {state: {people}, teacher, viewOnly}} = parts;
+  const input = createElement('input', {value: ownName(), placeholder: t('Your name'), required: true,
     maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': t('Your name')});
   const form = fieldForm(input, t('Use this name'), (name) => {
     localStorage.setItem(NAME, name);

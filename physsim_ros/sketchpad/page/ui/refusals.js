@@ -59,11 +59,10 @@ export class Refusals {
   #draw(view) {
     const now = performance.now();
     for (const [name, since] of this.bodies) {
-      const row = this.parts.world.row(name);
-      if (now - since > OUTLINED || row < 0) this.bodies.delete(name);
-      else view.outline(row, view.palette.warn);
+      if (now - since > OUTLINED) this.bodies.delete(name);
+      else view.outline(name, view.palette.warn);
       // Until it has none.
-      view.dirty = true;
+      view.redraw();
     }
   }
 }

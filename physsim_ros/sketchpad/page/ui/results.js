@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The results of lessons, as the server keeps them: a table of people by lessons, and the same as a file. */
 
-import {choice, createElement, download, inRow, textButton} from '../dom.js';
-import {csvOf} from '../csv.js';
+import {choice, createElement, inRow, textButton} from '../dom.js';
+import {downloadTable} from '../csv.js';
 import {digits, numberOf, roundUp} from '../rounding.js';
 import {language, localized, t} from '../strings.js';
 import {personWord} from '../people.js';
@@ -32,7 +32,7 @@ export async function showResults(dialog, lessons, forget) {
     dialog.close();
   };
   dialog.show(title, ...results.length ? [createElement('div', {className: 'results'}, table.element()), ...table.histograms(),
-    inRow(textButton(t('Save table (CSV)'), () => download('results.csv', new Blob(['\ufeff', table.csv()], {type: 'text/csv'}))),
+    inRow(textButton(t('Save table (CSV)'), () => downloadTable('results', table.rows())),
       textButton(t('Forget all results'), remove, 'danger'))] :
     [createElement('p', {}, t('Nobody has answered a lesson yet.'))]);
 }
@@ -85,15 +85,15 @@ class ResultTable {
     return [inRow(choice(t('Answers to'), this.titles.map((title) => [title, this.heading(title)]), this.titles[0], show)), bars];
   }
 
-  /** @returns {string} with the columns of each lesson beside each other */
-  csv() {
+  /** @returns {string[][]} of a file, with the columns of each lesson beside each other */
+  rows() {
     const {names, titles, people} = this;
     const head = titles.flatMap((title) => [t('answer'), t('right'), t('tries'), t('time')].map((column) => `${this.heading(title)}: ${column}`));
     const rows = names.map((name) => [personWord(name), ...titles.flatMap((title) => {
       const result = people.get(name)?.get(title);
       return result ? [retold(result.answer), result.right ? '1' : '0', String(result.tries), dateOf(result)] : ['', '', '', ''];
     })]);
-    return csvOf([[t('Name'), ...head], ...rows]);
+    return [[t('Name'), ...head], ...rows];
   }
 }
 

@@ -13,7 +13,6 @@ export class Sound {
   /** @param {Parts<'connection' | 'frames' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
-    this.heard = 0; // impacts since the page began
     /** @type {?AudioContext} while it is on */
     this.context = null;
     /** @type {Set<string>} pairs of rows that touched in the frame before */
@@ -69,6 +68,5 @@ export class Sound {
     tone.connect(gain).connect(context.destination);
     tone.start(begin);
     tone.stop(begin + LASTS);
-    this.heard++;
   }
 }

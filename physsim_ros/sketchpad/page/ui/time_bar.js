@@ -125,8 +125,8 @@ export class TimeBar {
 
   /** @returns {number} seconds of simulation a second, where that is known and less than asked for; else 0 */
   get #slowPace() {
-    const [first] = this.paces, last = this.paces.at(-1);
-    if (!first || !last || !(last[2] > 0) || last[0] - first[0] < WATCHED / 2) return 0;
+    const [first] = this.paces, last = this.paces[this.paces.length - 1];
+    if (!(last?.[2] > 0) || last[0] - first[0] < WATCHED / 2) return 0;
     const pace = (last[1] - first[1]) / (last[0] - first[0]) * 1000;
     return pace < SLOW * last[2] ? pace : 0;
   }

@@ -32,7 +32,6 @@ export class Together {
     this.dialog = dialog;
     this.runs = runs;
     this.name = ''; // of the body
-    this.framed = ''; // box that was framed, and size of the picture then [px]
     /** @type {?Run} that stands out */
     this.chosen = null;
     /** @type {Map<Run, Point[]>} */
@@ -44,7 +43,7 @@ export class Together {
     for (const run of runs) {
       run.connection.on('body', ({name, x, y}) => {
         if (name === this.name) this.ways.set(run, x.map((/** @type {number} */ each, /** @type {number} */ i) => [each, y[i]]));
-        this.view.dirty = true;
+        this.view.redraw();
       });
     }
   }
@@ -58,7 +57,7 @@ export class Together {
       return toggling(button, () => this.chosen === run, () => {
         this.chosen = this.chosen === run ? null : run;
         for (const other of people) if (other !== button) other.setAttribute('aria-pressed', 'false');
-        this.view.dirty = true;
+        this.view.redraw();
       });
     });
     this.dialog.show(TITLE, choice(t('Body'), names.map((name) => [name, this.runs[0].words.title(name)]), this.name, (name) => {
@@ -91,22 +90,18 @@ export class Together {
       ctx.stroke(view.bodies.appearance(world.scene.bodies[row]).path);
       ctx.restore();
       // Where the body is now; beside the page, at its edge.
-      view.number({text: person, color: inkOf(i), tip: camera.toPage(...world.place(row, world.scene.bodies[row].centroid)), along: [0, -1], named: run === this.chosen});
+      view.numbers.push({text: person, color: inkOf(i), tip: camera.toPage(...world.centerOf(row)), along: [0, -1], named: run === this.chosen});
       ctx.globalAlpha = 1;
     }
   }
 
   /** Frame the ways and the bodies, as far as they stay near the world. */
   #frame() {
-    const {view, camera, runs: [{world}]} = this;
+    const {view, runs: [{world}]} = this;
     const points = [...this.ways.values()].flat().map(([x, y]) => /** @type {Bounds} */ ([x, y, x, y]));
     const [left, low, right, high] = unionOf([...points, ...world.boxes]), [l, b, r, t] = world.extent();
     const box = /** @type {Bounds} */ ([Math.max(left, 2 * l - r), Math.max(low, 2 * b - t), Math.min(right, 2 * r - l), Math.min(high, 2 * t - b)]);
-    const framed = box.map((each) => each.toFixed(2)).join(' ') + ` ${camera.width} ${camera.height}`;
-    if (!world.count || framed === this.framed || !box.every(Number.isFinite)) return;
-    this.framed = framed;
-    camera.fit(box, {left: GAP, top: GAP, right: GAP, bottom: GAP});
-    view.dirty = true;
+    view.frame(box, GAP, box.map((each) => each.toFixed(2)).join(' '));
   }
 }
 

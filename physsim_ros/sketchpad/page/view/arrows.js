@@ -101,9 +101,9 @@ export class Arrows {
   #drawVelocities(view, room) {
     const {world, camera, selection} = this.parts, {velocities} = world.frame, {accent, momentum} = view.palette;
     for (let row = 0; velocities && row < world.count; row++) {
-      const {anchored, name, centroid, mass, moment} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
+      const {anchored, name, mass, moment} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
       if (anchored) continue;
-      const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
+      const from = camera.toPage(...world.centerOf(row)), speed = Math.hypot(x, y);
       if (this.legend.momenta) {
         this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.scales['N s'], color: momentum,
           text: `${threeDigits(mass * speed)} N s`, width: WIDE});
@@ -141,7 +141,7 @@ export class Arrows {
       const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
       const to = this.#arrow(view, room, {from, x, y, scale: this.scales.N, color, text, width, unit: named || !some ? 'N' : '', named});
       // A number is told, whether or not its arrow is long enough to be drawn.
-      if (!to && named) view.number({text, color, tip: kind === 'sum' ? [from[0], from[1] - BAR / 2] : from, along: [0, -1], named});
+      if (!to && named) view.numbers.push({text, color, tip: kind === 'sum' ? [from[0], from[1] - BAR / 2] : from, along: [0, -1], named});
       this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
     }
     return some || few ? '' : t('Tap a body: its forces, and those of what touches it.');
@@ -152,14 +152,13 @@ export class Arrows {
    * @param {SceneView} view
    */
   #drawTorque(view) {
-    const {world, camera, selection: {name}, records} = this.parts, row = world.row(name), {time} = world.frame;
-    const sample = records.samples(name).findLast((each) => each.time <= time + 1e-9);
-    if (row < 0 || sample?.spinning === undefined || time - sample.time > 2 / world.rate) return;
-    const {centroid, moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
+    const {world, camera, selection: {name}, records} = this.parts, row = world.row(name), sample = records.past(name).at(-1);
+    if (row < 0 || sample?.spinning === undefined) return;
+    const {moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
     if (anchored || this.legend.off.has('torque') || !(Math.abs(torque) > NO_TURN)) return;
     this.legend.note(['torque']);
     this.scales['N m'].fit(Math.abs(torque), ARC, world.paused);
-    this.#roundArrow(view, camera.toPage(...world.place(row, centroid)), torque,
+    this.#roundArrow(view, camera.toPage(...world.centerOf(row)), torque,
       {unit: 'N m', radius: ROUND, color: view.palette.ink, name: this.legend.nameOf('torque')});
   }
 
@@ -173,7 +172,7 @@ export class Arrows {
     const length = Math.min(this.scales[unit].length(Math.abs(value)), ARC);
     if (!(Math.abs(value) > NO_TURN && length >= LEAST)) return;
     const end = view.roundArrow(center, radius, Math.sign(value) * length / radius, color);
-    view.number({text: `${name} ${threeDigits(Math.abs(value))} ${unit}`.trim(), color, ...end, named: name !== ''});
+    view.numbers.push({text: `${name} ${threeDigits(Math.abs(value))} ${unit}`.trim(), color, ...end, named: name !== ''});
   }
 
   /**
@@ -191,7 +190,7 @@ export class Arrows {
     const tip = [from[0] + ux * length, from[1] + uy * length];
     if (unit && this.legend.components && whole <= most) this.#components(view, room, arrow);
     view.arrow(from, tip, color, {width, cut: whole > most});
-    view.number({text, color, from, tip, along: [ux, uy], named});
+    view.numbers.push({text, color, from, tip, along: [ux, uy], named});
     return tip;
   }
 
@@ -208,7 +207,7 @@ export class Arrows {
     for (const [ux, uy, value, name] of /** @type {[number, number, number, string][]} */ ([[dx, 0, x, 'x'], [0, dy, y, 'y']])) {
       const tip = /** @type {Point} */ ([from[0] + ux, from[1] + uy]);
       view.arrow(from, tip, color, {width: 1});
-      view.number({text: `${name} ${threeDigits(value)} ${unit}`, color, from, tip, along: [Math.sign(ux), Math.sign(uy)]});
+      view.numbers.push({text: `${name} ${threeDigits(value)} ${unit}`, color, from, tip, along: [Math.sign(ux), Math.sign(uy)]});
     }
     ctx.setLineDash([]);
   }
@@ -237,7 +236,7 @@ function drawApplied({world, camera, selection}, view) {
       const along = /** @type {Point} */ ([x / size, -y / size]);
       const tip = /** @type {Point} */ ([px + LENGTH * along[0], py + LENGTH * along[1]]);
       view.arrow([px, py], tip, color);
-      if (selection.names.has(name)) view.number({text: `${threeDigits(size)} N`, color, from: [px, py], tip, along, named: true});
+      if (selection.names.has(name)) view.numbers.push({text: `${threeDigits(size)} N`, color, from: [px, py], tip, along, named: true});
     }
   }
 }

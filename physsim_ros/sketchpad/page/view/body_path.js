@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The geometry of bodies in their own frames: paths to draw, points to hit, extents. */
 
+import {distance} from '../vectors.js';
+
 /** @import {Bounds, Point, Shape} from '../types.js' */
 
 const INNER = 0.98; // share of a radius: a point that counts as one within
@@ -14,8 +16,7 @@ export function pathOf(shape) {
   if (shape.kind === 'disc') {
     const [x, y] = shape.center ?? [0, 0];
     path.arc(x, y, shape.radius, 0, 2 * Math.PI);
-  }
-  else if (shape.kind === 'pieces') {
+  } else if (shape.kind === 'pieces') {
     for (const piece of shape.pieces) path.addPath(pathOf(piece));
   } else {
     const chain = shape.kind === 'chain';
@@ -41,10 +42,10 @@ export function boundsOf(shape, place) {
  * @param {Point} point in the body's frame [m]
  * @returns {number} how far the farthest point of the shape is from it [m]
  */
-export function reachOf(shape, [x, y]) {
-  if (shape.kind === 'pieces') return Math.max(...shape.pieces.map((piece) => reachOf(piece, [x, y])));
+export function reachOf(shape, point) {
+  if (shape.kind === 'pieces') return Math.max(...shape.pieces.map((piece) => reachOf(piece, point)));
   const {points, radius} = skeletonOf(shape);
-  return Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y))) + radius;
+  return Math.max(...points.map((each) => distance(each, point))) + radius;
 }
 
 /**
@@ -94,15 +95,11 @@ export function unionOf(boxes) {
  * @param {number} slop how far beside it counts [m]
  * @returns {boolean}
  */
-export function containsPoint(shape, [x, y], slop) {
-  if (shape.kind === 'pieces') return shape.pieces.some((piece) => containsPoint(piece, [x, y], slop));
-  if (shape.kind === 'disc') {
-    const [cx, cy] = shape.center ?? [0, 0];
-    return Math.hypot(x - cx, y - cy) <= shape.radius + slop;
-  }
-  if (shape.kind === 'chain') return distanceTo(shape.points, x, y) <= shape.thickness / 2 + slop;
-  return inside(shape.outline, x, y) ||
-    (slop > 0 && distanceTo(closed(shape.outline), x, y) <= slop);
+export function containsPoint(shape, point, slop) {
+  if (shape.kind === 'pieces') return shape.pieces.some((piece) => containsPoint(piece, point, slop));
+  if (shape.kind === 'disc') return distance(shape.center ?? [0, 0], point) <= shape.radius + slop;
+  if (shape.kind === 'chain') return distanceTo(shape.points, point) <= shape.thickness / 2 + slop;
+  return inside(shape.outline, point) || slop > 0 && distanceTo(closed(shape.outline), point) <= slop;
 }
 
 /**
@@ -110,21 +107,19 @@ export function containsPoint(shape, [x, y], slop) {
  * @param {Point} point in the body's frame, outside of it [m]
  * @returns {Point} in it, by little, as near as possible
  */
-export function nearestWithin(shape, [x, y]) {
-  if (shape.kind === 'pieces') {
-    const points = shape.pieces.map((piece) => nearestWithin(piece, [x, y]));
-    return points.reduce((best, each) => Math.hypot(each[0] - x, each[1] - y) < Math.hypot(best[0] - x, best[1] - y) ? each : best);
-  }
+export function nearestWithin(shape, point) {
+  const [x, y] = point;
+  if (shape.kind === 'pieces') return nearestOf(shape.pieces.map((piece) => nearestWithin(piece, point)), point);
   if (shape.kind === 'disc') {
-    const [cx, cy] = shape.center ?? [0, 0], share = INNER * shape.radius / Math.hypot(x - cx, y - cy);
+    const [cx, cy] = shape.center ?? [0, 0], share = INNER * shape.radius / distance([cx, cy], point);
     return [cx + (x - cx) * share, cy + (y - cy) * share];
   }
-  if (shape.kind === 'chain') return nearestOn(shape.points, x, y);
-  const [px, py] = nearestOn(closed(shape.outline), x, y);
+  if (shape.kind === 'chain') return nearestOn(shape.points, point);
+  const [px, py] = nearestOn(closed(shape.outline), point);
   // Straight on from the point outside; at a sharp corner, towards a corner of the outline instead.
   const towards = [[2 * px - x, 2 * py - y], ...shape.outline];
   const inner = towards.map(([tx, ty]) => /** @type {Point} */ ([px + (1 - INNER) * (tx - px), py + (1 - INNER) * (ty - py)]));
-  return inner.find((point) => inside(shape.outline, ...point)) ?? [px, py];
+  return inner.find((each) => inside(shape.outline, each)) ?? [px, py];
 }
 
 /** @param {Point[]} outline */
@@ -132,13 +127,8 @@ export function closed(outline) {
   return [...outline, outline[0]];
 }
 
-/**
- * Even-odd rule.
- * @param {Point[]} outline
- * @param {number} x
- * @param {number} y
- */
-export function inside(outline, x, y) {
+/** @type {(outline: Point[], point: Point) => boolean} by the even-odd rule */
+export function inside(outline, [x, y]) {
   let odd = false;
   for (let i = 0, j = outline.length - 1; i < outline.length; j = i++) {
     const [ax, ay] = outline[i], [bx, by] = outline[j];
@@ -147,30 +137,22 @@ export function inside(outline, x, y) {
   return odd;
 }
 
-/**
- * @param {Point[]} points of a polyline
- * @param {number} x
- * @param {number} y
- */
-export function distanceTo(points, x, y) {
-  const [px, py] = nearestOn(points, x, y);
-  return Math.hypot(x - px, y - py);
+/** @type {(polyline: Point[], point: Point) => number} */
+export function distanceTo(polyline, point) {
+  return distance(nearestOn(polyline, point), point);
 }
 
-/**
- * @param {Point[]} points of a polyline
- * @param {number} x
- * @param {number} y
- * @returns {Point} the nearest point of the polyline
- */
-function nearestOn(points, x, y) {
-  let least = Infinity, nearest = points[0];
-  for (let i = 1; i < points.length; i++) {
-    const [ax, ay] = points[i - 1], dx = points[i][0] - ax, dy = points[i][1] - ay;
-    const share = ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1);
-    const at = Math.min(Math.max(share, 0), 1);
-    const distance = Math.hypot(x - ax - at * dx, y - ay - at * dy);
-    if (distance < least) [least, nearest] = [distance, [ax + at * dx, ay + at * dy]];
-  }
-  return nearest;
+/** @type {(polyline: Point[], point: Point) => Point} */
+function nearestOn(polyline, [x, y]) {
+  const places = polyline.slice(1).map(([bx, by], i) => {
+    const [ax, ay] = polyline[i], dx = bx - ax, dy = by - ay;
+    const share = Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy || 1), 0), 1);
+    return /** @type {Point} */ ([ax + share * dx, ay + share * dy]);
+  });
+  return nearestOf(places, [x, y]);
+}
+
+/** @type {(points: Point[], point: Point) => Point} the first of those that are nearest */
+function nearestOf(points, point) {
+  return points.reduce((best, each) => distance(each, point) < distance(best, point) ? each : best);
 }

@@ -305,9 +305,9 @@ function css([red, green, blue, alpha], share = 0) {
  * @param {number} radius of its farthest point [m]
  * @returns {number} radius of a circle round the centroid that is within the body [m]
  */
-function innerRadius({shape, centroid: [x, y]}, radius) {
+function innerRadius({shape, centroid}, radius) {
   if (!shape.outline) return shape.radius ?? radius / 3;
-  return 0.9 * distanceTo(closed(shape.outline), x, y);
+  return 0.9 * distanceTo(closed(shape.outline), centroid);
 }
 
 /**

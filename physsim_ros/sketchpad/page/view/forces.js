@@ -37,7 +37,7 @@ export function forcesOf(world) {
   for (let row = 0; row < world.count; row++) {
     const motion = {yaw: yaw[row], vx: velocities?.x[row] ?? 0, vy: velocities?.y[row] ?? 0};
     for (const {kind, at, x, y} of ownForces(scene, bodies[row], motion)) add(kind, row, world.place(row, at), x, y);
-    if (fields) add('air', row, world.place(row, bodies[row].centroid), fields.x[row], fields.y[row]);
+    if (fields) add('air', row, world.centerOf(row), fields.x[row], fields.y[row]);
   }
   for (let i = 0; contacts && contacts.steps && i < contacts.x.length; i++) {
     const {a, b, nx, ny} = contacts, rate = world.physicsRate / contacts.steps;
@@ -106,8 +106,13 @@ function ownForces({gravity: [gx, gy], damping}, {mass, centroid, forces = []}, 
 export function pastForcesOf({scene}, body, motion, others) {
   const given = others.map(([kind, x, y]) => ({kind: /** @type {Force['kind']} */ (kind), x, y}));
   const all = [...ownForces(scene, body, motion), ...given].filter(({x, y}) => Math.hypot(x, y) > LEAST);
-  const total = (/** @type {'x' | 'y'} */ axis) => all.reduce((sum, force) => sum + force[axis], 0);
-  return [...all, {kind: 'sum', x: total('x'), y: total('y')}];
+  const [x, y] = totalOf(all);
+  return [...all, {kind: 'sum', x, y}];
+}
+
+/** @type {(forces: {x: number, y: number}[]) => Point} [N] */
+export function totalOf(forces) {
+  return [forces.reduce((sum, {x}) => sum + x, 0), forces.reduce((sum, {y}) => sum + y, 0)];
 }
 
 /**
@@ -118,18 +123,13 @@ export function pastForcesOf({scene}, body, motion, others) {
 export function sumsOf(world, forces) {
   /** @type {Map<number, Force[]>} */
   const byRow = new Map();
-  for (const force of forces) {
-    const on = byRow.get(force.row);
-    if (on) on.push(force);
-    else byRow.set(force.row, [force]);
-  }
+  for (const {row} of forces) byRow.set(row, []);
+  for (const force of forces) byRow.get(force.row)?.push(force);
   const {hands} = world.frame, held = new Set();
   for (let i = 0; hands && i < hands.x.length; i++) held.add(world.bodyAt([hands.x[i], hands.y[i]]));
   return [...byRow].filter(([row, on]) => on.length > 1 && !held.has(row)).map(([row, on]) => {
-    const x = on.reduce((sum, force) => sum + force.x, 0), y = on.reduce((sum, force) => sum + force.y, 0);
-    const rest = Math.hypot(x, y) <= LEAST;
-    return {kind: 'sum', row, at: world.place(row, world.scene.bodies[row].centroid), mutual: false,
-      x: rest ? 0 : x, y: rest ? 0 : y};
+    const total = totalOf(on), [x, y] = Math.hypot(...total) <= LEAST ? [0, 0] : total;
+    return {kind: 'sum', row, at: world.centerOf(row), mutual: false, x, y};
   });
 }
 

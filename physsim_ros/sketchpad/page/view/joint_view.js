@@ -261,8 +261,8 @@ export class JointView {
   /** @param {number} row a body with teeth, which turn with it */
   #wheel(row) {
     if (row < 0) return;
-    const {shape, centroid} = this.world.scene.bodies[row], yaw = this.world.frame.yaw[row];
-    const [x, y] = this.#page(this.world.place(row, centroid));
+    const {shape} = this.world.scene.bodies[row], yaw = this.world.frame.yaw[row];
+    const [x, y] = this.#page(this.world.centerOf(row));
     const radius = (shape.radius ?? 2 * SIZE) * 0.7 * this.camera.scale, tooth = Math.PI / TEETH / 2;
     /** @type {Point[]} */
     const points = [];

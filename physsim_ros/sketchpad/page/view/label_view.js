@@ -48,7 +48,7 @@ export function drawLabels(view) {
  * @returns {Box} of the label: at the centre of mass, or where a joint lies there, beside the body
  */
 function labelBox({camera, world}, row, lines, half, below) {
-  const {centroid, name} = world.scene.bodies[row], [x, y] = camera.toPage(...world.place(row, centroid));
+  const {name} = world.scene.bodies[row], [x, y] = camera.toPage(...world.centerOf(row));
   const [xmin, ymin, xmax, ymax] = world.boundsOfAll([name]), [left, top] = camera.toPage(xmin, ymax), [right, low] = camera.toPage(xmax, ymin);
   const places = [[x, y], [x, top - below], [x, low + below], [right + half + CLEAR, y], [left - half - CLEAR, y]];
   const boxes = places.map(([px, py]) => /** @type {Box} */ ([px - half, py - below, px + half, py + below]));

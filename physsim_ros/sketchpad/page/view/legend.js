@@ -4,7 +4,7 @@
  * has occurred in this world, momenta, components.
  */
 
-import {createElement, elementOf, foldButton, replaceContent, showText, textButton, toggling} from '../dom.js';
+import {createElement, elementOf, fold, foldButton, replaceContent, showText, textButton, toggling} from '../dom.js';
 import {digits} from '../rounding.js';
 import {t} from '../strings.js';
 
@@ -31,11 +31,9 @@ export class Legend {
     /** The scales, by their unit. @type {Record<string, HTMLElement>} */
     this.bars = {};
     this.hint = createElement('span');
-    this.unfolded = false; // on a small page, where the scales alone are shown until somebody asks
-    this.more = foldButton(t('Kinds of forces'), () => {
-      this.unfolded = !this.unfolded;
-      this.#render();
-    }, '');
+    // On a small page the scales alone are shown until somebody asks.
+    this.more = foldButton(this.element, t('Kinds of forces'), () => {});
+    fold(this.element, this.more, true);
     parts.connection.on('world', () => {
       this.kinds.clear();
       this.#render();
@@ -74,7 +72,6 @@ export class Legend {
     const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) =>
       toggling(textButton(name, () => {}, kind), isOn, change);
     element.hidden = !velocities && !forces;
-    this.more.setAttribute('aria-expanded', String(element.classList.toggle('unfolded', this.unfolded)));
     replaceContent(element,
       ...velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
         this.momenta = !this.momenta;

@@ -107,7 +107,7 @@ export class Room {
     const {camera, view} = this.parts, [xmin, ymin, xmax, ymax] = this.extent;
     document.body.classList.toggle('wide', xmax - xmin > FLAT * (ymax - ymin));
     view.insets = this.#insets;
-    view.dirty = true;
+    view.redraw();
     this.late = camera.fitted && this.parts.gestures.isBusy;
     if (!camera.fitted || this.late) return;
     const {left, top, right, bottom} = view.insets, gaps = getComputedStyle(this.element);

@@ -9,7 +9,7 @@ import {drawNumbers} from './number_view.js';
 import {drawScan} from './scan_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
-/** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
+/** @import {Body, Bounds, Camera, Frame, Point, WorldState} from '../types.js' */
 /** @import {Box} from './clearance.js' */
 /** @import {Numbered} from './number_view.js' */
 
@@ -33,30 +33,34 @@ export class SceneView {
     this.joints = new JointView(this);
     /** @type {((view: SceneView) => void)[]} */
     this.overlays = [];
-    /** @type {Numbered[]} of the arrows that were drawn */
+    /** @type {Numbered[]} that are written when all arrows are drawn */
     this.numbers = [];
     /** Boxes of what is written, of the legend and the panel; no number is put there. @type {Box[]} */
     this.covered = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
     this.ratio = 1; // pixels of the screen to one of the page
-    this.dirty = true;
-    this.drawn = -1; // version of the world
+    this.framed = ''; // what was framed last, and the size of the picture then [px]
+    this.request = 0; // of the frame of the page in which the world is drawn; 0 where nobody has asked for one
     new ResizeObserver(() => this.#resize()).observe(canvas);
     watchTheme(() => this.#repaint());
     addEventListener('beforeprint', () => this.draw());
+    world.connection.on('any', () => this.redraw());
     this.#resize();
-    const loop = () => {
+  }
+
+  /** Have the world drawn in the next frame of the page, once, however often that is asked for. */
+  redraw() {
+    this.request ||= requestAnimationFrame(() => {
+      this.request = 0;
       // A picture that is not shown has no width.
-      if (camera.width && (this.dirty || this.drawn !== world.version)) this.draw();
-      requestAnimationFrame(loop);
-    };
-    requestAnimationFrame(loop);
+      if (this.camera.width) this.draw();
+    });
   }
 
   #repaint() {
     this.palette = readPalette();
     this.bodies.repaint();
-    this.dirty = true;
+    this.redraw();
   }
 
   #resize() {
@@ -66,14 +70,26 @@ export class SceneView {
     // A canvas of no size, which is not shown, makes no pattern.
     this.canvas.width = Math.max(Math.round(this.camera.width * this.ratio), 1);
     this.canvas.height = Math.max(Math.round(this.camera.height * this.ratio), 1);
-    this.dirty = true;
+    this.redraw();
+  }
+
+  /**
+   * Fit a box into a picture that has no bars: a small one, of a dialog or a card.
+   * @param {Bounds} box
+   * @param {number} gap around it [px]
+   * @param {string} key of what is shown: until it changes, or the size of the picture, the view stays
+   */
+  frame(box, gap, key) {
+    const {camera, world} = this, framed = `${key} ${camera.width} ${camera.height}`;
+    if (framed === this.framed || !world.count || !box.every(Number.isFinite)) return;
+    this.framed = framed;
+    camera.fit(box, {left: gap, top: gap, right: gap, bottom: gap});
+    this.redraw();
   }
 
   /** Draw the world as it is now. */
   draw() {
     const {ctx, camera, palette, world} = this;
-    this.dirty = false;
-    this.drawn = world.version;
     this.numbers = [];
     this.covered = [];
     this.#toPixels();
@@ -91,11 +107,6 @@ export class SceneView {
     this.#drawHands();
     for (const overlay of this.overlays) overlay(this);
     drawNumbers(this);
-  }
-
-  /** @param {Numbered} number that is written when all arrows are drawn */
-  number(number) {
-    this.numbers.push(number);
   }
 
   #toPixels() {
@@ -286,13 +297,15 @@ export class SceneView {
   }
 
   /**
-   * @param {number} row of a body that is selected or pointed at
+   * @param {string} name of a body that is selected or pointed at; nothing is drawn where it is gone
    * @param {string} color
    * @param {Point} by displacement [m]
    * @param {{turn: number, scale: number}} about  its centre of mass [rad], and its size
    */
-  outline(row, color, by = [0, 0], {turn, scale} = {turn: 0, scale: 1}) {
-    const {ctx, camera, world} = this, body = world.scene.bodies[row];
+  outline(name, color, by = [0, 0], {turn, scale} = {turn: 0, scale: 1}) {
+    const {ctx, camera, world} = this, row = world.row(name);
+    if (row < 0) return;
+    const body = world.scene.bodies[row];
     this.bodies.setTransform(world.frame, row, by);
     const [x, y] = body.centroid;
     ctx.translate(x, y);
