@@ -70,7 +70,10 @@ new MutationObserver((changes) => {
 PARTS = """
 document.addEventListener('DOMContentLoaded', async () => {
     if (!document.querySelector('#world')) return;
-    const {arrows, handles, records, world} = await import('/page/app.js'), {scales} = arrows;
+    // A page that is left meanwhile loads no scripts any more.
+    const page = await import('/page/app.js').catch(() => null);
+    if (!page) return;
+    const {arrows, handles, records, world} = page, {scales} = arrows;
     const counts = ([name, {samples, left}]) => [name, [samples.length, left.length]];
     for (const [name, get] of Object.entries({
         forces: () => arrows.drawn,
