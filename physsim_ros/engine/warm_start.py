@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.engine.core import dtype_of
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.checkpoint import ImpulseCache
 import pymunk
@@ -25,16 +26,8 @@ from pymunk._chipmunk_cffi import ffi, lib
 
 # ruff: noqa: SLF001
 
-# Fields of the engine's contact point that are read and written: the hash that tells the points of
-# a pair apart, and the impulses along and across the normal.
-_POINT = np.dtype(
-    {
-        'names': ['hash', 'jnAcc', 'jtAcc'],
-        'formats': [np.uint64, np.float64, np.float64],
-        'offsets': [ffi.offsetof('struct cpContact', each) for each in ('hash', 'jnAcc', 'jtAcc')],
-        'itemsize': ffi.sizeof('struct cpContact'),
-    }
-)
+# The engine's contact point, of which the hash tells the points of a pair apart.
+_POINT = dtype_of('cpContact')
 
 
 class ShapeIds:

@@ -1,10 +1,11 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Structs of Chipmunk, with the fields that the core reads or writes; the others are padding.
+// Structs of Chipmunk, up to the last field that the core reads or writes; the others are padding.
 //
-// They are those of Munk2D as in Pymunk 7.3.1, whose headers no wheel has. `engine/layout.py` compares them with what
-// Pymunk itself returns, when the core is imported. cffi reads this file too, but for lines that begin with '#'.
+// They are those of Munk2D as in Pymunk 7.3.1, whose headers no wheel has. When the core is imported,
+// `engine/layout.py` compares them with what Pymunk itself returns, and refuses a Pymunk with others. cffi reads this
+// file too, but for lines that begin with '#'.
 
 #ifndef PHYSSIM_CHIPMUNK_H
 #define PHYSSIM_CHIPMUNK_H
@@ -74,7 +75,6 @@ typedef struct cpSegmentShape {
     cpVect a, b, n;    // ends [m] and normal in the body's frame
     cpVect ta, tb, tn; // the same in the world
     double r;
-    cpVect a_tangent, b_tangent;
 } cpSegmentShape;
 
 typedef struct cpSplittingPlane {
@@ -109,7 +109,7 @@ typedef struct cpArbiterThread {
     struct cpArbiter *next, *prev;
 } cpArbiterThread;
 
-enum { ARBITER_FIRST_COLLISION, ARBITER_NORMAL, ARBITER_IGNORE, ARBITER_CACHED, ARBITER_INVALIDATED };
+enum { ARBITER_FIRST_COLLISION }; // the other states do not count
 
 typedef struct cpArbiter {
     double e, u; // restitution and friction of the pair
@@ -174,7 +174,7 @@ typedef struct cpPivotJoint {
     cpConstraint constraint;
     cpVect anchorA, anchorB, r1, r2;
     double k[4];
-    cpVect jAcc, bias;
+    cpVect jAcc;
 } cpPivotJoint;
 
 typedef struct cpPinJoint {
@@ -182,7 +182,7 @@ typedef struct cpPinJoint {
     cpVect anchorA, anchorB;
     double dist;
     cpVect r1, r2, n;
-    double nMass, jnAcc, bias;
+    double nMass, jnAcc;
 } cpPinJoint;
 
 typedef struct cpSlideJoint {
@@ -190,7 +190,7 @@ typedef struct cpSlideJoint {
     cpVect anchorA, anchorB;
     double min, max;
     cpVect r1, r2, n;
-    double nMass, jnAcc, bias;
+    double nMass, jnAcc;
 } cpSlideJoint;
 
 typedef struct cpGearJoint {
