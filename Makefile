@@ -42,7 +42,7 @@ CHECKED := $(CORE) $(wildcard tools/sanitize/*.c test/engine/core/*.[ch])
 # A stamp for each file in which clang-tidy has found nothing.
 TIDY := $(patsubst %,$(VENV)/.tidy/%,$(filter %.c,$(CHECKED)))
 # The options of compilers that only check the core.
-STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core -DCORE_SOURCES='""'
+STRICT := -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core -DCORE_SOURCES='""'
 
 # TypeScript checks the types that stand in comments of the page's scripts.
 TSC := npx --yes --package=typescript -- tsc

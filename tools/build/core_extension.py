@@ -24,6 +24,8 @@ HASH = runpy.run_path(str(SOURCE / CORE / 'sources.py'))['hash_of_sources'](SOUR
 COMPILER = runpy.run_path(str(SOURCE / 'tools/build/compiler.py'))
 FLAGS = [
     '-std=c11',
+    # The monotonic clock.
+    '-D_POSIX_C_SOURCE=200809L',
     # The same bits by every compiler: no sum in another order, no fused multiply-add.
     '-O2',
     '-ffp-contract=off',

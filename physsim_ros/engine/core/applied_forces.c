@@ -33,16 +33,9 @@ static Twist steady_lead(const World *world, const Body *body) {
     return twist_plus(body->state.field, gained, world->dt / 2.0);
 }
 
-void find_leads(World *world, bool changed) {
-    if (!has_stage(world, STAGE_HALF_STEP)) {
-        return;
-    }
-    for (int number = 0; changed && number < active_count(world); number++) {
-        Body *body = active_at(world, number);
-        body->scratch.lead = steady_lead(world, body);
-    }
+void turn_leads(World *world) {
     const Body *last = NULL;
-    for (int number = 0; number < world->force_count; number++) {
+    for (int number = 0; has_stage(world, STAGE_HALF_STEP) && number < world->force_count; number++) {
         const AppliedForce *applied = world->forces + number;
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
@@ -54,6 +47,14 @@ void find_leads(World *world, bool changed) {
         Twist change = {scaled(wrench.v, engine->m_inv), wrench.w * engine->i_inv};
         body->scratch.lead = twist_plus(body->scratch.lead, change, world->dt / 2.0);
     }
+}
+
+void find_leads(World *world) {
+    for (int number = 0; has_stage(world, STAGE_HALF_STEP) && number < active_count(world); number++) {
+        Body *body = active_at(world, number);
+        body->scratch.lead = steady_lead(world, body);
+    }
+    turn_leads(world);
 }
 
 void apply_forces(World *world) {

@@ -33,7 +33,7 @@ static void use_battery(const World *world, Robot *robot) {
 }
 
 void use_batteries(World *world) {
-    for (int number = 0; has_stage(world, STAGE_FLOOR) && number < world->robot_count; number++) {
+    for (int number = 0; number < world->robot_count; number++) {
         use_battery(world, world->robots + number);
     }
 }

@@ -303,7 +303,7 @@ static void solve_cluster(const World *world, const Cluster *cluster) {
 }
 
 void solve_impacts(World *world) {
-    if (!has_stage(world, STAGE_BLOCK_SOLVER) || world->own->kept == 0.0) {
+    if (world->own->kept == 0.0) {
         return;
     }
     Hit *hits = TAKE(&world->own->arena, Hit, arbiter_count(world));

@@ -44,9 +44,6 @@ static bool second_leads(const cpArbiter *arbiter, Vec gravity_step) {
 }
 
 void order_points(World *world) {
-    if (!has_stage(world, STAGE_ORDER)) {
-        return;
-    }
     Vec gravity_step = scaled(world->space->gravity, world->dt);
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);

@@ -45,19 +45,14 @@ typedef struct Report {
     int begun_room;
 } Report;
 
-static Report *report_of(World *world) {
-    if (world->own->report == NULL) {
-        world->own->report = allocated(1, sizeof(Report));
-    }
-    return world->own->report;
+Report *new_report(void) {
+    return allocated(1, sizeof(Report));
 }
 
 void free_report(World *world) {
-    if (world->own->report != NULL) {
-        free(world->own->report->pairs);
-        free(world->own->report->slots);
-        free(world->own->report);
-    }
+    free(world->own->report->pairs);
+    free(world->own->report->slots);
+    free(world->own->report);
     free(world->contacts);
     free(world->begun);
 }
@@ -103,8 +98,9 @@ static void make_room(Report *report) {
     }
 }
 
-static ReportedPair *reported_pair(Report *report, int a, int b) {
-    assert(a >= 0 && a <= b);
+static ReportedPair *reported_pair(Report *report, int one, int other) {
+    int a = one < other ? one : other, b = one < other ? other : one;
+    assert(a >= 0);
     if (report->count == report->room) {
         make_room(report);
     }
@@ -156,7 +152,7 @@ static bool is_higher(Vec normal, Vec than) {
 
 static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) {
     int a = place_of(world, arbiter->body_a), b = place_of(world, arbiter->body_b);
-    ReportedPair *pair = reported_pair(report, a < b ? a : b, a < b ? b : a);
+    ReportedPair *pair = reported_pair(report, a, b);
     begin_pair(world, report, pair);
     double sign = a < b ? 1.0 : -1.0;
     Vec normal = scaled(arbiter->n, sign);
@@ -181,7 +177,7 @@ static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) 
 static void add_overlap(cpArbiter *arbiter, void *data) {
     World *world = data;
     if (arbiter->count == 0 && arbiter->stamp == world->space->stamp && !is_ignored(arbiter)) {
-        add_arbiter(world, report_of(world), arbiter);
+        add_arbiter(world, world->own->report, arbiter);
     }
 }
 
@@ -214,7 +210,7 @@ static void read_sleeping(World *world, Report *report) {
         const Body *body = world->bodies + place;
         const cpArbiter *each = body->dynamic && sleeps(body) ? body->engine->arbiterList : NULL;
         for (; each != NULL; each = next_of(each, body->engine)) {
-            const Body *other = body_of(each->body_a == body->engine ? each->body_b : each->body_a);
+            const Body *other = body_of(other_of(each, body->engine));
             if (each->body_a == body->engine || !(other->dynamic && sleeps(other))) {
                 add_arbiter(world, report, each);
             }
@@ -224,16 +220,31 @@ static void read_sleeping(World *world, Report *report) {
 
 // A pair whose overlap lies within a sub-step has no points.
 static void add_crossing(World *world, const Body *body, const Body *sensor) {
-    Report *report = report_of(world);
+    Report *report = world->own->report;
     int a = place_of(world, body->engine), b = place_of(world, sensor->engine);
-    ReportedPair *pair = reported_pair(report, a < b ? a : b, a < b ? b : a);
+    ReportedPair *pair = reported_pair(report, a, b);
     if (pair->stamp < report->stamp - 1) {
         begin_pair(world, report, pair);
     }
 }
 
+// Nobody is told of the contacts of this step.
+static void forget_contacts(World *world) {
+    Report *report = world->own->report;
+    if (report->follows || report->count > 0) {
+        report->count = 0;
+        make_room(report);
+        report->follows = false;
+        world->frame_steps = world->begun_count = 0;
+    }
+}
+
 void report_contacts(World *world) {
-    Report *report = report_of(world);
+    if (!world->own->reports) {
+        forget_contacts(world);
+        return;
+    }
+    Report *report = world->own->report;
     report->stamp++;
     if (!report->follows) {
         read_sleeping(world, report);
@@ -251,7 +262,7 @@ void report_contacts(World *world) {
 }
 
 void core_clear_contacts(World *world) {
-    Report *report = report_of(world);
+    Report *report = world->own->report;
     int kept = 0;
     for (int number = 0; number < report->count; number++) {
         ReportedPair pair = report->pairs[number];
@@ -266,16 +277,6 @@ void core_clear_contacts(World *world) {
         make_room(report);
     }
     world->frame_steps = world->begun_count = 0;
-}
-
-void forget_contacts(World *world) {
-    Report *report = world->own->report;
-    if (report != NULL && (report->follows || report->count > 0)) {
-        report->count = 0;
-        make_room(report);
-        report->follows = false;
-        world->frame_steps = world->begun_count = 0;
-    }
 }
 
 static int by_pair(const void *one, const void *other) {
@@ -301,7 +302,7 @@ static Contact contact_of(const World *world, const ReportedPair *pair) {
 }
 
 void core_take_contacts(World *world) {
-    Report *report = report_of(world);
+    Report *report = world->own->report;
     free(world->contacts);
     world->contacts = allocated((size_t)report->count, sizeof(Contact));
     world->contact_count = 0;
@@ -321,7 +322,7 @@ void core_take_contacts(World *world) {
 
 void rename_contacts(World *world, const int32_t *former, int count) {
     Report *report = world->own->report;
-    if (report == NULL || report->count == 0) {
+    if (report->count == 0) {
         return;
     }
     int *places = allocated((size_t)world->body_count, sizeof(int));
@@ -360,17 +361,11 @@ void rename_contacts(World *world, const int32_t *former, int count) {
 }
 
 void core_copy_contacts(World *world, const World *old) {
-    Report *report = report_of(world);
+    Report *report = world->own->report;
     const Report *from = old->own->report;
     free(report->pairs);
     free(report->slots);
     free(world->begun);
-    world->begun = NULL;
-    world->begun_count = 0;
-    *report = (Report){0};
-    if (from == NULL) {
-        return;
-    }
     // A world that resumes here does not know the step before, either.
     *report = (Report){.stamp = from->stamp, .count = from->count, .begun_room = old->begun_count};
     report->pairs = with_room(from->pairs, from->count, from->count, sizeof(ReportedPair));

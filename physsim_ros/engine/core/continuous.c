@@ -72,9 +72,6 @@ static void set_back(World *world, const Mover *mover) {
 }
 
 void clamp_moves(World *world) {
-    if (!has_stage(world, STAGE_CONTINUOUS)) {
-        return;
-    }
     int fast = 0;
     for (int number = 0; number < active_count(world); number++) {
         fast += is_fast(world, active_at(world, number));

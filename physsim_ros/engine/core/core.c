@@ -21,6 +21,7 @@ World *core_new(cpSpace *space, Chipmunk chipmunk, double dt, cpConstraint *hook
     world->own = allocated(1, sizeof(Private));
     world->own->hook = hook;
     world->own->all_active = true;
+    world->own->report = new_report();
     hook->userData = world;
     return world;
 }

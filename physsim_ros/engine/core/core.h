@@ -347,15 +347,15 @@ typedef struct Part {
 
 // A joint; its parts follow one another, and so do its rows.
 typedef struct Joint {
-    double anchor_a[2]; // in the frame of the first body, its origin the centre of mass [m]
-    double anchor_b[2]; // the same in the frame of the second
-    double axis[2];     // unit vector of a slider or a rack in the frame of the second body
-    double most;        // impulse in a step beyond which it breaks [N s, N m s]
-    uint8_t has_axis;   // the direction from its first to its second point is an axis of the second body
-    uint8_t presses;    // its first part may push the bodies apart
-    uint8_t unstepped;  // its first step is to come, or it is being drawn together since it was made
-    uint8_t broken;     // in the last step
-    int32_t a, b;       // places of its bodies in the table
+    cpVect anchor_a;   // in the frame of the first body, its origin the centre of mass [m]
+    cpVect anchor_b;   // the same in the frame of the second
+    cpVect axis;       // unit vector of a slider or a rack in the frame of the second body
+    double most;       // impulse in a step beyond which it breaks [N s, N m s]
+    uint8_t has_axis;  // the direction from its first to its second point is an axis of the second body
+    uint8_t presses;   // its first part may push the bodies apart
+    uint8_t unstepped; // its first step is to come, or it is being drawn together since it was made
+    uint8_t broken;    // in the last step
+    int32_t a, b;      // places of its bodies in the table
     int32_t first_part, part_count;
     int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring without damping
     // Of an unstepped one that is to be drawn together: how far its rows are out of their bounds, else 0 [m, rad].

@@ -50,7 +50,7 @@ static Twist at_center(Twist velocity, Vec center, double yaw) {
 
 // Accelerate the wheels.
 void roll_wheels(World *world) {
-    for (int number = 0; has_stage(world, STAGE_FLOOR) && number < world->robot_count; number++) {
+    for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         double yaw = world->bodies[robot->body].scratch.begin.yaw;
         bool obeys = world->step < robot->state.until && !is_empty(robot);

@@ -46,10 +46,6 @@ static Twist half_change(const World *world, const cpBody *engine, Twist force) 
     return (Twist){scaled(force.v, engine->m_inv * world->dt / 2.0), force.w * engine->i_inv * world->dt / 2.0};
 }
 
-static bool have_fields(const World *world) {
-    return world->has_fields && has_stage(world, STAGE_FIELDS);
-}
-
 // The force of attraction on each body (body_count), a time after now [s, N, N m].
 static Twist *attracted(World *world, double ahead) {
     Twist *forces = TAKE(&world->own->arena, Twist, world->body_count);
@@ -90,7 +86,7 @@ static void begin_field(World *world, const Media *media, Body *body, Twist attr
 }
 
 void begin_fields(World *world) {
-    if (!have_fields(world) || world->own->sub_step > 0) {
+    if (!world->has_fields || world->own->sub_step > 0) {
         return;
     }
     if (world->own->fluid_forces == NULL) {
@@ -99,7 +95,7 @@ void begin_fields(World *world) {
     if (!has_fresh(world)) {
         return;
     }
-    find_leads(world, true);
+    find_leads(world);
     Media media = media_of(world, 0.0);
     const Twist *attraction = attracted(world, 0.0);
     for (int place = 0; place < world->body_count; place++) {
@@ -147,7 +143,7 @@ static void find_fluid_forces(World *world) {
 }
 
 void apply_fields(World *world) {
-    if (!have_fields(world)) {
+    if (!world->has_fields) {
         return;
     }
     if (world->region_count > 0) {
@@ -169,10 +165,14 @@ void apply_fields(World *world) {
 }
 
 void keep_fields(World *world) {
-    for (int place = 0; have_fields(world) && place < world->body_count; place++) {
+    if (!world->has_fields) {
+        return;
+    }
+    for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         if (is_moved_by_fields(body)) {
             body->state.field = body->scratch.field;
         }
     }
+    find_leads(world);
 }

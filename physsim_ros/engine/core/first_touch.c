@@ -15,7 +15,7 @@
 //
 // 1. False contacts: polygons whose normal points from the second to the first, and which a face separates (separating
 //    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1). Chipmunk ignores the contact in this step, and in
-//    the next one what it finds counts as a first touch.
+//    the next one what it finds counts as a first touch (`find_begun`).
 //    So are those of bodies that pass a one-way body (`one_way.c`), and polygons whose faces have met by
 //    rounding as the sub-step ends: one corner alone is in, which turned boxes that slide on a floor.
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc, or a corner,
@@ -94,63 +94,82 @@ static bool meets_next(const World *world, cpArbiter *arbiter) {
            has_face(arbiter->a, touch.normal) && has_face(arbiter->b, negated(touch.normal));
 }
 
-// Turn the contact of a disc, which has begun before.
-static void roll_over_edge(cpArbiter *arbiter) {
-    Touch touch = touch_of(arbiter);
-    if (slide_over_edge(&touch)) {
-        write_touch(&touch);
-        prepare_contact(arbiter);
-    }
-}
-
 // Have Chipmunk ignore a contact in this step; in the next one it begins.
 static void ignore(cpArbiter *arbiter) {
     arbiter->data = arbiter;
     arbiter->count = 0;
 }
 
-void correct_first_touches(World *world) {
-    Arena *arena = &world->own->arena;
-    Touch *touches = TAKE(arena, Touch, arbiter_count(world));
-    int count = 0;
-    find_passing(world);
+void ignore_false_contacts(World *world) {
+    for (int number = 0; number < arbiter_count(world); number++) {
+        if (is_false(arbiter_at(world, number))) {
+            ignore(arbiter_at(world, number));
+        }
+    }
+}
+
+void find_begun(World *world) {
+    SubStep *now = &world->own->now;
+    now->begun = TAKE(&world->own->arena, Touch, arbiter_count(world));
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (passes(world, arbiter) || (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter)) ||
-            (is_new(arbiter) && meets_next(world, arbiter))) {
+        if (arbiter->count == 0) {
+            continue; // it is ignored already
+        }
+        if (passes(world, arbiter) || (is_new(arbiter) && meets_next(world, arbiter))) {
             ignore(arbiter);
         } else if (is_new(arbiter)) {
             arbiter->data = NULL;
             arbiter->state = ARBITER_FIRST_COLLISION;
-            touches[count++] = touch_of(arbiter);
-        } else if (has_stage(world, STAGE_EDGES) && is_disc_on_edges(arbiter)) {
-            roll_over_edge(arbiter);
+            now->begun[now->begun_count++] = touch_of(arbiter);
         }
     }
-    for (int number = 0; number < count; number++) {
-        if (has_stage(world, STAGE_IMPACT)) {
-            move_to_impact(world, touches + number);
+}
+
+void move_to_impacts(World *world) {
+    for (int number = 0; number < world->own->now.begun_count; number++) {
+        move_to_impact(world, world->own->now.begun + number);
+    }
+}
+
+// Turn the contacts of discs that have begun before.
+static void roll_over_edges(World *world) {
+    for (int number = 0; number < arbiter_count(world); number++) {
+        cpArbiter *arbiter = arbiter_at(world, number);
+        if (!is_new(arbiter) && is_disc_on_edges(arbiter)) {
+            Touch touch = touch_of(arbiter);
+            if (slide_over_edge(&touch)) {
+                write_touch(&touch);
+                prepare_contact(arbiter);
+            }
         }
     }
-    int begun = 0;
-    bool *hidden = TAKE(arena, bool, count);
-    const Touch **faces = TAKE(arena, const Touch *, count);
-    int face_count = has_stage(world, STAGE_EDGES) ? list_faces(touches, count, faces) : 0;
-    for (int number = 0; number < count; number++) {
-        hidden[number] = is_hidden(touches + number, faces, face_count);
+}
+
+void slide_over_edges(World *world) {
+    roll_over_edges(world);
+    SubStep *now = &world->own->now;
+    bool *hidden = TAKE(&world->own->arena, bool, now->begun_count);
+    const Touch **faces = TAKE(&world->own->arena, const Touch *, now->begun_count);
+    int face_count = list_faces(now->begun, now->begun_count, faces), kept = 0;
+    for (int number = 0; number < now->begun_count; number++) {
+        hidden[number] = is_hidden(now->begun + number, faces, face_count);
     }
-    for (int number = 0; number < count; number++) {
+    for (int number = 0; number < now->begun_count; number++) {
         if (hidden[number]) {
-            ignore(touches[number].arbiter);
-            continue;
+            ignore(now->begun[number].arbiter);
+        } else {
+            slide_over_edge(now->begun + number);
+            now->begun[kept++] = now->begun[number];
         }
-        if (has_stage(world, STAGE_EDGES)) {
-            slide_over_edge(touches + number);
-        }
-        write_touch(touches + number);
-        prepare_contact(touches[number].arbiter);
-        touches[begun++] = touches[number];
     }
-    world->own->now.begun = touches;
-    world->own->now.begun_count = begun;
+    now->begun_count = kept;
+}
+
+void prepare_begun(World *world) {
+    for (int number = 0; number < world->own->now.begun_count; number++) {
+        const Touch *touch = world->own->now.begun + number;
+        write_touch(touch);
+        prepare_contact(touch->arbiter);
+    }
 }

@@ -222,7 +222,7 @@ static Driving driving_of(const World *world, int place, const Robot **robot, co
 }
 
 void apply_floor(World *world) {
-    if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
+    if (!world->own->has_floor) {
         return;
     }
     Conveyors conveyors = conveyors_of(world);
@@ -241,7 +241,7 @@ void apply_floor(World *world) {
 }
 
 void find_floor_pushes(World *world) {
-    if (!has_stage(world, STAGE_FLOOR) || !world->own->has_floor) {
+    if (!world->own->has_floor) {
         return;
     }
     for (int place = 0; place < world->body_count; place++) {

@@ -52,7 +52,11 @@ static bool keeps_contact(const Body *body) {
 
 // Find the free flight that the next step begins with, and the bodies whose support was removed (body_count).
 static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
-    find_leads(world, world->own->all_active);
+    if (world->own->all_active) {
+        find_leads(world);
+    } else {
+        turn_leads(world);
+    }
     bool released = false;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
@@ -166,8 +170,7 @@ void find_free(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->state.free = false;
-        if (!body->dynamic || is_held(body) || body->braking > 0.0 || sleeps(body) ||
-            !has_stage(world, STAGE_HALF_STEP)) {
+        if (!body->dynamic || is_held(body) || body->braking > 0.0 || sleeps(body)) {
             continue;
         }
         Twist after = twist_of(body->engine), flown = body->scratch.lead;

@@ -30,9 +30,6 @@ typedef struct Load {
 } Load;
 
 void list_load_bounds(World *world) {
-    if (!has_stage(world, STAGE_LOADS)) {
-        return;
-    }
     int points = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         points += arbiter_at(world, number)->count;

@@ -116,9 +116,6 @@ static bool is_weaker(const World *world, const cpArbiter *arbiter, double impac
 }
 
 void defer_contacts(World *world) {
-    if (!has_stage(world, STAGE_PROPAGATION)) {
-        return;
-    }
     const double *impacts = fastest_impacts(world);
     Pair *weaker = TAKE(&world->own->arena, Pair, arbiter_count(world));
     int count = 0;

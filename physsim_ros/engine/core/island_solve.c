@@ -36,8 +36,7 @@ void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian
 void change_velocities(Solve *solve, const Twist *changes, double share) {
     for (int body = 0; body < solve->island->body_count; body++) {
         Twist *twist = solve->velocities + body;
-        twist->v = add(twist->v, scaled(changes[body].v, share));
-        twist->w += changes[body].w * share;
+        *twist = twist_plus(*twist, changes[body], share);
         if (solve->island->inverses[body].mass > 0.0) {
             set_twist(solve->island->engine[body], *twist);
         }

@@ -47,16 +47,14 @@ static void mix(const Solve *solve, VelocityRows *rows, Solution *elastic, const
                 double lost) {
     const Island *island = solve->island;
     for (int body = 0; body < island->body_count; body++) {
-        elastic->changes[body].v = sub(elastic->changes[body].v, plastic->changes[body].v);
-        elastic->changes[body].w -= plastic->changes[body].w;
+        elastic->changes[body] = twist_plus(elastic->changes[body], plastic->changes[body], -1.0);
     }
     double bend = mass_product(&solve->system, elastic->changes, elastic->changes) / 2.0;
     lost = least(lost, 0.0);
     double slope = gained - lost - bend;
     double share = -2.0 * lost / greatest(slope + sqrt(slope * slope - 4.0 * bend * lost), 1e-300);
     for (int body = 0; body < island->body_count; body++) {
-        elastic->changes[body].v = add(plastic->changes[body].v, scaled(elastic->changes[body].v, share));
-        elastic->changes[body].w = plastic->changes[body].w + elastic->changes[body].w * share;
+        elastic->changes[body] = twist_plus(plastic->changes[body], elastic->changes[body], share);
     }
     for (int row = 0; row < island->row_count; row++) {
         double difference = elastic->impulses[row] - plastic->impulses[row];

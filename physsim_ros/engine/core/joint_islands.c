@@ -86,7 +86,7 @@ static Members members_of(World *world) {
     for (int number = 0, count = members.count; number < count; number++) {
         const cpBody *body = world->bodies[members.places[number]].engine;
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
-            const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
+            const cpBody *other = other_of(each, body);
             int place = place_of(world, other);
             bool touched = each->count > 0 && world->bodies[place].dynamic && !members.marks[place];
             if (touched && point_count(other, MOST_BEARINGS) <= MOST_BEARINGS) {

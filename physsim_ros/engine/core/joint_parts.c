@@ -44,8 +44,8 @@ Vec impulse_of_part(const Part *part) {
 // Put the point from which a limit measures on the axis through the first anchor, as far along it as it was, so that it
 // acts along the axis however far the anchor is off its line.
 static void put_on_axis(const Joint *joint, const Anchors *anchors, cpSlideJoint *limit) {
-    Vec axis = vec(joint->axis[0], joint->axis[1]), across = perpendicular(axis);
-    Vec second = vec(joint->anchor_b[0], joint->anchor_b[1]);
+    Vec axis = joint->axis, across = perpendicular(axis);
+    Vec second = joint->anchor_b;
     double along = dot(axis, sub(limit->anchorA, second));
     double beside = dot(across, rotated_back(anchors->offset, anchors->of_b));
     limit->anchorA = add(second, add(scaled(axis, along), scaled(across, beside)));

@@ -117,7 +117,6 @@ static bool is_drawn(const World *world, const Joint *joint) {
 }
 
 void find_broken_joints(World *world) {
-    world->has_broken = false;
     for (int number = 0; number < world->joint_count; number++) {
         Joint *joint = world->joints + number;
         // The first step of a joint takes back the half-step lead of a body that was in free flight: that impulse is no

@@ -13,10 +13,10 @@
 
 Anchors anchors_turned(const Joint *joint, Vec a, Rotation of_a, Vec b, Rotation of_b) {
     Anchors anchors = {.of_b = of_b};
-    anchors.arm_a = rotated(vec(joint->anchor_a[0], joint->anchor_a[1]), of_a);
-    anchors.arm_b = rotated(vec(joint->anchor_b[0], joint->anchor_b[1]), of_b);
+    anchors.arm_a = rotated(joint->anchor_a, of_a);
+    anchors.arm_b = rotated(joint->anchor_b, of_b);
     anchors.offset = sub(add(a, anchors.arm_a), add(b, anchors.arm_b));
-    anchors.axis = rotated(vec(joint->axis[0], joint->axis[1]), of_b);
+    anchors.axis = rotated(joint->axis, of_b);
     return anchors;
 }
 

@@ -64,10 +64,8 @@ static void correct_island(Solve *solve) {
 }
 
 void find_joint_islands(World *world) {
-    if (has_stage(world, STAGE_JOINTS)) {
-        world->own->now.joint_islands = TAKE(&world->own->arena, Islands, 1);
-        *world->own->now.joint_islands = joint_islands(world);
-    }
+    world->own->now.joint_islands = TAKE(&world->own->arena, Islands, 1);
+    *world->own->now.joint_islands = joint_islands(world);
 }
 
 // Whether all islands have the layouts of the last sub-step.
@@ -89,9 +87,6 @@ static void make_systems(Private *own, const Islands *found) {
 }
 
 void solve_joints(World *world) {
-    if (!has_stage(world, STAGE_JOINTS)) {
-        return;
-    }
     Private *own = world->own;
     Islands *found = own->now.joint_islands;
     if (!have_systems(own, found)) {
@@ -107,13 +102,13 @@ void solve_joints(World *world) {
 }
 
 void correct_joint_positions(World *world) {
-    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->now.joint_islands->count; number++) {
+    for (int number = 0; number < world->own->now.joint_islands->count; number++) {
         correct_island(world->own->now.joint_islands->solves + number);
     }
 }
 
 void remove_closing_impulses(World *world) {
-    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->now.joint_islands->count; number++) {
+    for (int number = 0; number < world->own->now.joint_islands->count; number++) {
         const Island *island = world->own->now.joint_islands->islands + number;
         for (const Bearing *bearing = island->bearings; bearing < island->bearings + island->bearing_count; bearing++) {
             bearing->point->jnAcc -= bearing->closing;

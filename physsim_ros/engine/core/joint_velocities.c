@@ -155,8 +155,7 @@ void solve_velocities(Solve *solve) {
     bend(solve, &rows, &solution, velocities);
     find_rest_of_step(solve, &rows, &solution, velocities);
     for (int body = 0; body < island->body_count; body++) {
-        velocities[body].v = sub(velocities[body].v, solve->velocities[body].v);
-        velocities[body].w -= solve->velocities[body].w;
+        velocities[body] = twist_plus(velocities[body], solve->velocities[body], -1.0);
     }
     change_velocities(solve, velocities, 1.0);
     write_impulses(solve, &solution);

@@ -25,7 +25,7 @@ typedef struct Support {
 static void note_contacts(const Support *support) {
     const cpBody *engine = support->world->bodies[support->released].engine;
     for (const cpArbiter *each = engine->arbiterList; each != NULL; each = next_of(each, engine)) {
-        int other = place_of(support->world, each->body_a == engine ? each->body_b : each->body_a);
+        int other = place_of(support->world, other_of(each, engine));
         support->touching[other] = support->released + 1;
         if (presses(each)) {
             support->pressing[other] = support->released + 1;

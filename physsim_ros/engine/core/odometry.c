@@ -40,7 +40,7 @@ static void propagate_covariance(Robot *robot, Vec chord, double distance, doubl
 
 // Add the step to the travel of the wheels, and to the odometry.
 void reckon_odometry(World *world) {
-    for (int number = 0; has_stage(world, STAGE_FLOOR) && number < world->robot_count; number++) {
+    for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         const Body *body = world->bodies + robot->body;
         Vec travel = scaled(robot->mean.v, world->dt), measured = travel;

@@ -6,8 +6,7 @@
 
 #include "world.h"
 
-// List the bodies that pass one-way bodies, then tell by contacts: whether its bodies pass each other.
-void find_passing(World *world);
+// Whether the bodies of a contact pass each other, by what `find_passing` has found.
 bool passes(const World *world, const cpArbiter *arbiter);
 
 static inline bool is_one_way(const Body *body) {

@@ -157,7 +157,7 @@ Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *ac
     for (int number = 0; number < around->wall_count; number++) {
         const cpShape *wall = around->walls[number];
         Nearest nearest;
-        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->point, &nearest)) {
+        if (sees_wall(world, wall, self->body, self->point, &nearest)) {
             double room = nearest.distance - self->radius, time = room > 0.0 ? model->wall_horizon : parting_time;
             planes[programme.count++] = (HalfPlane){nearest.outwards, -room / time};
         }

@@ -64,7 +64,7 @@ static void give_to_last(cpArbiter *arbiter, void *data) {
 static void release_around(World *world, cpBody *body) {
     world->chipmunk.body_activate(body);
     for (cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
-        cpBody *other = each->body_a == body ? each->body_b : each->body_a;
+        cpBody *other = other_of(each, body);
         world->chipmunk.body_activate(other);
         body_of(other)->state.released = true;
     }

@@ -91,9 +91,6 @@ static void time_throws(World *world) {
 }
 
 void time_impacts(World *world) {
-    if (!has_stage(world, STAGE_REST_OF_STEP)) {
-        return;
-    }
     for (int number = 0; number < world->own->now.begun_count; number++) {
         const Touch *touch = world->own->now.begun + number;
         double approach = approach_of(touch->arbiter);

@@ -50,7 +50,7 @@ static bool sticks(const cpArbiter *arbiter) {
 void damp_resting(World *world) {
     double step = world->dt * (double)SUB_STEPS;
     int64_t period = llround(1.0 / (rate_of_damping * step));
-    if (world->age % (period > 1 ? period : 1) != 0 || !has_stage(world, STAGE_RESTING_DAMPING)) {
+    if (world->age % (period > 1 ? period : 1) != 0) {
         return;
     }
     int *parents = sets_of(world);

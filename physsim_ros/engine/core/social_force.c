@@ -102,7 +102,7 @@ static int find_fronts(const World *world, const Surroundings *around, const Dis
     for (int number = 0; number < around->wall_count; number++) {
         const cpShape *wall = around->walls[number];
         Nearest nearest;
-        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->point, &nearest)) {
+        if (sees_wall(world, wall, self->body, self->point, &nearest)) {
             seen[count] = (Seen){wall, nearest, distance_beside(wall, self->point, ahead), count};
             count++;
         }

@@ -11,10 +11,11 @@
 // Wrenches of commands, and free flight of bodies that requests have changed (`half_step.c`).
 void begin_half_step(World *world);
 
-// Constant forces on bodies, and their part of the lead of a body in free flight (`applied_forces.c`).
+// Constant forces on bodies (`applied_forces.c`); the leads of bodies in free flight, of all, and anew where a force
+// turns with its body.
 void apply_forces(World *world);
-// `changed`: requests or fields may have changed what does not turn with a body.
-void find_leads(World *world, bool changed);
+void find_leads(World *world);
+void turn_leads(World *world);
 
 // Forces that depend on where all bodies are and how they move: media (`media.c`), attraction (`attraction.c`);
 // their half-step treatment (`fields.c`).
@@ -43,9 +44,9 @@ void use_batteries(World *world);
 void apply_floor(World *world);
 void find_floor_pushes(World *world);
 
-// Contacts of one-way bodies that carry a load (`one_way.c`): as the sub-step begins, and anew after the solver, for
-// the sweeps of the rest of the step.
+// One-way bodies (`one_way.c`): contacts that carry a load, and bodies that pass.
 void find_loaded(World *world);
+void find_passing(World *world);
 
 // Fast bodies end their step where they first hit something (`continuous.c`), and move on after that
 // (`rest_of_step.c`); they keep small boxes (`tight_boxes.c`).
@@ -63,12 +64,16 @@ void begin_rolling(World *world);
 double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
-// Between narrow phase and solver, in this order, for each has what the ones before have made of contacts: those that
-// begin (`first_touch.c`), their slop (`overlap_bias.c`), surfaces that move along their outlines (`belts.c`), the
-// first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), when impacts were
-// (`rest_of_step.c`), contacts next to an impact (`impact_propagation.c`), rounds of the solvers
-// (`steep_friction.c`), points that are hit at once (`block_solver.c`), contacts that roll (`rolling.c`).
-void correct_first_touches(World *world);
+// Between narrow phase and solver: contacts that begin (`first_touch.c`), their slop (`overlap_bias.c`), surfaces that
+// move along their outlines (`belts.c`), the first of two points (`contact_order.c`), the greatest load
+// (`impact_loads.c`), when impacts were (`rest_of_step.c`), contacts next to an impact (`impact_propagation.c`), rounds
+// of the solvers (`steep_friction.c`), points that are hit at once (`block_solver.c`), contacts that roll
+// (`rolling.c`).
+void ignore_false_contacts(World *world);
+void find_begun(World *world);
+void move_to_impacts(World *world);
+void slide_over_edges(World *world);
+void prepare_begun(World *world);
 void set_overlap_biases(World *world);
 void move_belts(World *world);
 void order_points(World *world);
@@ -114,7 +119,7 @@ double crossing_time(World *world, Body *body, Body *sensor);
 
 // What touched, and how it pressed (`contact_report.c`).
 void report_contacts(World *world);
-void forget_contacts(World *world);
+struct Report *new_report(void);
 void rename_contacts(World *world, const int32_t *former, int count);
 void free_report(World *world);
 

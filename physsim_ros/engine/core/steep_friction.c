@@ -31,9 +31,6 @@ static void damp_rounds(const cpArbiter *arbiter, cpContact *point) {
 }
 
 void damp_steep_friction(World *world) {
-    if (!has_stage(world, STAGE_STEEP_FRICTION)) {
-        return;
-    }
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *each = arbiter_at(world, number);
         for (int point = 0; point < each->count; point++) {

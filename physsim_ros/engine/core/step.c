@@ -22,12 +22,13 @@ static void begin_bodies(World *world) {
 }
 
 // Begin the next sub-step of bodies that have fallen asleep in this one: until they wake it is not done again.
-static void begin_sleepers(Body *const *bodies, int count) {
-    for (int number = 0; number < count; number++) {
-        if (sleeps(bodies[number])) {
-            begin_body(bodies[number]);
-            bodies[number]->scratch.twist = twist_of(bodies[number]->engine);
-            bodies[number]->state.free = false;
+static void begin_sleepers(World *world) {
+    for (int number = 0; number < world->own->now.awake_count; number++) {
+        Body *body = world->own->now.awake[number];
+        if (sleeps(body)) {
+            begin_body(body);
+            body->scratch.twist = twist_of(body->engine);
+            body->state.free = false;
         }
     }
 }
@@ -49,7 +50,6 @@ static bool is_lost(const cpBody *engine, double farthest) {
 }
 
 static void find_lost(World *world) {
-    world->has_lost = false;
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->scratch.lost = is_lost(body->engine, world->farthest);
@@ -57,86 +57,114 @@ static void find_lost(World *world) {
     }
 }
 
-// Chipmunk calls this between its narrow phase and its solver: all contacts of the step are known, with their target
-// velocities, and none has been solved. Munk2D has no hook there but that of constraints (`preSolve`, called after
-// `cpArbiterPreStep` of all contacts); it can go when it has one.
-static void before_solving(cpConstraint *hook, cpSpace *space) {
-    (void)space;
-    World *world = hook->userData;
-    correct_first_touches(world);
-    set_overlap_biases(world);
-    move_belts(world);
-    order_points(world);
-    list_load_bounds(world);
-    time_impacts(world);
-    defer_contacts(world);
-    damp_steep_friction(world);
-    solve_impacts(world);
-    find_joint_islands(world);
-    find_rolls(world);
+// A stage, and the part of the step that is left out with it (`STAGE_...`); 0 is none.
+typedef struct Stage {
+    void (*act)(World *world);
+    uint32_t part;
+} Stage;
+
+static void run(World *world, const Stage *stages) {
+    for (const Stage *stage = stages; stage->act != NULL; stage++) {
+        if (has_stage(world, stage->part)) {
+            stage->act(world);
+        }
+    }
 }
 
-// Step Chipmunk; return the bodies that were awake before.
-static Body **step_chipmunk(World *world, int *count) {
-    *count = world->space->dynamicBodies->num;
-    Body **awake = TAKE(&world->own->arena, Body *, *count);
-    for (int number = 0; number < *count; number++) {
-        awake[number] = body_of(world->space->dynamicBodies->arr[number]);
+// Between Chipmunk's narrow phase and its solver: all contacts of the step are known, with their target velocities, and
+// none has been solved. Each stage has what the ones before have made of the contacts.
+static const Stage contact_stages[] = {
+    {find_passing, 0},                             // which bodies pass one-way bodies
+    {ignore_false_contacts, STAGE_FALSE_CONTACTS}, // contacts that are none
+    {find_begun, 0},                               // the list of contacts that begin
+    {move_to_impacts, STAGE_IMPACT},               // in it: normals and points
+    {slide_over_edges, STAGE_EDGES},               // in it: normals at seams; less contacts
+    {prepare_begun, 0},                            // contacts, by that list
+    {set_overlap_biases, 0},                       // bias
+    {move_belts, 0},                               // surface velocities
+    {order_points, STAGE_ORDER},                   // which of two points is the first
+    {list_load_bounds, STAGE_LOADS},               // the greatest impulses to start the next sub-step from
+    {time_impacts, STAGE_REST_OF_STEP},            // bounce, and how long ago impacts were
+    {defer_contacts, STAGE_PROPAGATION},           // bounce, of contacts that wait for a faster impact
+    {damp_steep_friction, STAGE_STEEP_FRICTION},   // nMass
+    {solve_impacts, STAGE_BLOCK_SOLVER},           // impulses that the solver starts from, and velocities
+    {find_joint_islands, STAGE_JOINTS},            // islands, with the contacts that are their rows
+    {find_rolls, 0},                               // contacts that roll and are no such row
+    {NULL, 0},
+};
+
+// Munk2D has no hook there but that of constraints (`preSolve`, called after `cpArbiterPreStep` of all contacts); it
+// can go when it has one.
+static void before_solving(cpConstraint *hook, cpSpace *space) {
+    (void)space;
+    run(hook->userData, contact_stages);
+}
+
+static void step_chipmunk(World *world) {
+    const cpArray *awake = world->space->dynamicBodies;
+    SubStep *now = &world->own->now;
+    now->awake = TAKE(&world->own->arena, Body *, awake->num);
+    for (now->awake_count = 0; now->awake_count < awake->num; now->awake_count++) {
+        now->awake[now->awake_count] = body_of(awake->arr[now->awake_count]);
     }
     begin_rolling(world);
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
     end_rolling(world);
-    return awake;
 }
 
-static void make_sub_step(World *world) {
-    reset_memory(world);
-    begin_fields(world);
-    begin_half_step(world);
-    begin_bodies(world);
-    apply_forces(world);
-    pull_grips(world);
-    apply_fields(world);
-    roll_wheels(world);
-    apply_floor(world);
-    find_loaded(world);
-    clamp_moves(world);
-    tighten_boxes(world);
-    prepare_parts(world);
-    command_motors(world);
-    save_start(world);
-    int awake_count = 0;
-    Body **awake = step_chipmunk(world, &awake_count);
-    keep_fields(world);
-    find_leads(world, world->has_fields);
-    ignore_jitter(world);
-    solve_joints(world);
-    report_joint_impulses(world);
-    find_loaded(world);
-    finish_moves(world);
-    correct_joint_positions(world);
-    report_joint_closings(world);
-    find_floor_pushes(world);
-    reckon_odometry(world);
-    use_batteries(world);
-    if (world->own->reports) {
-        report_contacts(world);
-    } else {
-        forget_contacts(world);
-    }
-    find_free(world);
-    keep_awake(world);
-    remove_closing_impulses(world);
-    remove_impact_impulses(world);
-    begin_sleepers(awake, awake_count);
-}
+// A sub-step, with what each stage sets. Chipmunk moves bodies by their velocities first, and finds new velocities
+// then.
+static const Stage sub_step_stages[] = {
+    {begin_fields, STAGE_FIELDS},            // leads by fields, of bodies that requests have changed
+    {begin_half_step, 0},                    // leads, and who flies; forces of commands
+    {begin_bodies, 0},                       // scratch, and the pose that the sub-step begins with
+    {apply_forces, 0},                       // forces
+    {pull_grips, 0},                         // forces
+    {apply_fields, STAGE_FIELDS},            // forces, and half of what they change velocities by
+    {roll_wheels, STAGE_FLOOR},              // velocities of the floor under robots
+    {apply_floor, STAGE_FLOOR},              // velocities and forces of what the floor carries
+    {find_loaded, 0},                        // one-way contacts with a load, by the last impulses: for `clamp_moves`
+    {clamp_moves, STAGE_CONTINUOUS},         // poses, set back so that Chipmunk's move ends at the first impact
+    {tighten_boxes, STAGE_TIGHT_BOXES},      // boxes in Chipmunk's tree
+    {prepare_parts, 0},                      // anchors of constraints
+    {command_motors, 0},                     // rates of rows
+    {save_start, 0},                         // velocities before the solver
+    {step_chipmunk, 0},                      // poses, contacts by `contact_stages`, velocities, impulses
+    {keep_fields, STAGE_FIELDS},             // leads, with those by fields
+    {turn_leads, 0},                         // leads by forces that turn with their bodies
+    {ignore_jitter, 0},                      // idle times
+    {solve_joints, STAGE_JOINTS},            // velocities and impulses of islands of joints
+    {report_joint_impulses, 0},              // impulses that joints report
+    {find_loaded, 0},                        // by the new impulses: for the sweeps of `finish_moves`
+    {finish_moves, 0},                       // poses, by the velocities after impacts
+    {correct_joint_positions, STAGE_JOINTS}, // poses, and impulses that close gaps
+    {report_joint_closings, 0},              // impulses that joints report
+    {find_floor_pushes, STAGE_FLOOR},        // what contacts and joints have changed on the floor
+    {reckon_odometry, STAGE_FLOOR},          // odometry
+    {use_batteries, STAGE_FLOOR},            // charges
+    {report_contacts, 0},                    // contacts of the frame
+    {find_free, 0},                          // who flies
+    {keep_awake, 0},                         // idle times
+    {remove_closing_impulses, STAGE_JOINTS}, // impulses that the next sub-step starts from
+    {remove_impact_impulses, STAGE_LOADS},   // the same
+    {begin_sleepers, 0},                     // scratch of bodies that have fallen asleep
+    {NULL, 0},
+};
 
-// Time since some moment [s].
-static double wall_clock(void) {
+static const Stage first_stages[] = {
+    {damp_resting, STAGE_RESTING_DAMPING}, // velocities of what friction locks in place
+    {clear_joint_reports, 0},
+    {measure_drawn_joints, 0},
+    {begin_actors, 0},
+    {NULL, 0},
+};
+
+// Time since some moment [s], by a clock that is never set.
+static double monotonic_clock(void) {
     struct timespec now;
-    timespec_get(&now, TIME_UTC);
+    clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
@@ -146,11 +174,11 @@ typedef struct {
     double ended; // its last part [s]
 } CallTime;
 
-// End a part; whether another one as long as this would end too late. A clock that was set back ends the call, too.
+// End a part; whether another one as long as this would end too late.
 static bool end_part(const World *world, CallTime *time) {
-    double now = wall_clock(), part = now - time->ended, took = now - time->began;
+    double now = monotonic_clock(), part = now - time->ended, took = now - time->began;
     time->ended = now;
-    return !(part >= 0.0 && took >= 0.0 && took + part <= world->longest_call);
+    return took + part > world->longest_call;
 }
 
 // Begin a step, before its first sub-step; false where the next call of the core goes on with that.
@@ -158,10 +186,7 @@ static bool begin_step(World *world, CallTime *time) {
     Private *own = world->own;
     if (!own->choosing) {
         reset_memory(world);
-        damp_resting(world);
-        clear_joint_reports(world);
-        measure_drawn_joints(world);
-        begin_actors(world);
+        run(world, first_stages);
     }
     own->choosing = true;
     while (choose_velocity(world)) {
@@ -187,7 +212,7 @@ static void end_step(World *world) {
 // its bits.
 int32_t core_step(World *world, int32_t count) {
     Private *own = world->own;
-    double now = wall_clock();
+    double now = monotonic_clock();
     CallTime time = {.began = now, .ended = now};
     int32_t made = 0;
     own->kept = pow(world->space->damping, world->dt);
@@ -199,7 +224,8 @@ int32_t core_step(World *world, int32_t count) {
             world->within_step = true;
             break;
         }
-        make_sub_step(world);
+        reset_memory(world);
+        run(world, sub_step_stages);
         own->all_active = false;
         own->sub_step = (own->sub_step + 1) % SUB_STEPS;
         world->within_step = own->sub_step > 0;

@@ -23,10 +23,10 @@ bool has_begun(const World *world, const Actor *actor) {
     return actor->state.begun <= world->step;
 }
 
-bool sees_wall(const World *world, const cpShape *wall, Vec point, Nearest *nearest) {
+bool sees_wall(const World *world, const cpShape *wall, const Body *self, Vec point, Nearest *nearest) {
     double x = greatest(greatest(wall->bb[0] - point.x, point.x - wall->bb[2]), 0.0);
     double y = greatest(greatest(wall->bb[1] - point.y, point.y - wall->bb[3]), 0.0);
-    if (greatest(x, y) > farthest_seen) {
+    if (greatest(x, y) > farthest_seen || passes_through(self, body_of(wall->body))) {
         return false;
     }
     cpPointQueryInfo found;
@@ -71,13 +71,7 @@ static Disc disc_of(const World *world, const Body *body, const Actor *own) {
 
 Surroundings surroundings_of(World *world) {
     Arena *arena = &world->own->arena;
-    int anchored_count = 0;
-    for (int place = 0; place < world->body_count; place++) {
-        const cpShape *shape = world->bodies[place].anchored ? world->bodies[place].engine->shapeList : NULL;
-        for (; shape != NULL; shape = shape->next) {
-            anchored_count++;
-        }
-    }
+    int anchored_count = anchored_shape_count(world);
     Surroundings around = {.discs = TAKE(arena, Disc, world->body_count),
                            .walls = TAKE(arena, const cpShape *, anchored_count),
                            .anchored = TAKE(arena, const cpShape *, anchored_count),

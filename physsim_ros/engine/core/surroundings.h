@@ -68,8 +68,8 @@ bool has_begun(const World *world, const Actor *actor);
 // Of bodies that move, and of anchored discs, the disc around them; of others each shape.
 Surroundings surroundings_of(World *world);
 
-// A wall as a pedestrian at a point sees it; false if it is too far away.
-bool sees_wall(const World *world, const cpShape *wall, Vec point, Nearest *nearest);
+// A wall as a pedestrian at a point sees it; false if it is too far away, or the pedestrian passes through it.
+bool sees_wall(const World *world, const cpShape *wall, const Body *self, Vec point, Nearest *nearest);
 
 // The distance of a wall from the line through a point in a direction, at most 0 where the line meets it.
 double distance_beside(const cpShape *wall, Vec point, Vec ahead);

@@ -19,18 +19,6 @@ static const double budget = 125000.0;
 // Greatest count of cuts of a horizon, by half each, after which a body is not followed at all.
 enum { CUTS = 8 };
 
-static int static_shape_count(const World *world) {
-    int count = 0;
-    for (int place = 0; place < world->body_count; place++) {
-        const Body *body = world->bodies + place;
-        const cpShape *shape = body->anchored && !body->sensor ? body->engine->shapeList : NULL;
-        for (; shape != NULL; shape = shape->next) {
-            count++;
-        }
-    }
-    return count;
-}
-
 static Mover static_mover(Body *body, const cpShape *shape) {
     const double *bb = shape->bb;
     Box box = {{bb[0], bb[1]}, {bb[2], bb[3]}};
@@ -59,10 +47,10 @@ const Statics *statics_of(World *world) {
         return own->statics;
     }
     arena_reset(arena);
-    int count = static_shape_count(world);
+    int room = anchored_shape_count(world);
     own->statics = TAKE(arena, Statics, 1);
-    own->statics->movers = TAKE(arena, Mover, count);
-    Box *boxes = TAKE(arena, Box, count);
+    own->statics->movers = TAKE(arena, Mover, room);
+    Box *boxes = TAKE(arena, Box, room);
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         const cpShape *shape = body->anchored && !body->sensor ? body->engine->shapeList : NULL;
@@ -72,8 +60,8 @@ const Statics *statics_of(World *world) {
             own->statics->movers[own->statics->count++] = mover;
         }
     }
-    assert(own->statics->count == count);
-    own->statics->tree = tree_of(boxes, count, arena);
+    assert(own->statics->count <= room);
+    own->statics->tree = tree_of(boxes, own->statics->count, arena);
     world->statics_moved = false;
     return own->statics;
 }

@@ -69,7 +69,7 @@ static Box box_of_fast(const World *world) {
 }
 
 void tighten_boxes(World *world) {
-    Box all = has_stage(world, STAGE_TIGHT_BOXES) ? box_of_fast(world) : nowhere;
+    Box all = box_of_fast(world);
     if (!overlap(all, all)) {
         return;
     }

@@ -47,10 +47,6 @@ static bool find_span(const cpShape *wall, Vec from, Vec ahead, double radius, S
     return span->right < 0.0 && span->left > 0.0 && greatest_angle - least_angle < pi;
 }
 
-static bool avoids(const World *world, const Disc *self, const cpShape *wall, Nearest *nearest) {
-    return !passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->point, nearest);
-}
-
 // Find the nearest wall that the straight line to a point meets.
 static const cpShape *wall_in_way(const World *world, const Surroundings *around, const Disc *self, Vec point,
                                   Vec ahead, Span *span) {
@@ -60,8 +56,9 @@ static const cpShape *wall_in_way(const World *world, const Surroundings *around
         const cpShape *wall = around->anchored[number];
         Nearest nearest;
         Span there, back;
-        if (distance_beside(wall, self->point, ahead) < self->radius && avoids(world, self, wall, &nearest) &&
-            nearest.distance < least_distance && find_span(wall, self->point, ahead, self->radius, &there) &&
+        if (distance_beside(wall, self->point, ahead) < self->radius &&
+            sees_wall(world, wall, self->body, self->point, &nearest) && nearest.distance < least_distance &&
+            find_span(wall, self->point, ahead, self->radius, &there) &&
             find_span(wall, point, negated(ahead), self->radius, &back)) {
             found = wall, least_distance = nearest.distance, *span = there;
         }
@@ -76,8 +73,8 @@ static bool is_blocked(const World *world, const Surroundings *around, const Dis
     for (int number = 0; number < around->anchored_count; number++) {
         const cpShape *other = around->anchored[number];
         Nearest nearest;
-        if (other != wall && !passes_through(self->body, body_of(other->body)) &&
-            sees_wall(world, other, point, &nearest) && nearest.distance < self->radius * (1.0 - equal_share)) {
+        if (other != wall && sees_wall(world, other, self->body, point, &nearest) &&
+            nearest.distance < self->radius * (1.0 - equal_share)) {
             return true;
         }
     }

@@ -20,6 +20,17 @@ int compared(int count, const double keys[][2]) {
     return (keys[key][0] > keys[key][1]) - (keys[key][0] < keys[key][1]);
 }
 
+int anchored_shape_count(const World *world) {
+    int count = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        const cpShape *shape = world->bodies[place].anchored ? world->bodies[place].engine->shapeList : NULL;
+        for (; shape != NULL; shape = shape->next) {
+            count++;
+        }
+    }
+    return count;
+}
+
 void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *)) {
     if (count > 1) {
         qsort(list, (size_t)count, size, compare);

@@ -13,12 +13,14 @@
 
 // The results of stages that later stages of the same sub-step use, in the memory of the arena.
 typedef struct SubStep {
+    Body **awake; // before Chipmunk's step
+    int awake_count;
     struct Roll *rolls;
     int roll_count;
     // Pairs of shapes, one of a one-way body, that carry a load; pairs of bodies that pass each other.
     struct Pair *loaded, *passing;
     int loaded_count, passing_count;
-    struct Touch *begun; // contacts that begin
+    struct Touch *begun; // contacts that begin; those of internal edges are taken out
     int begun_count;
     struct Load *loads; // of contacts
     int load_count;
@@ -85,7 +87,7 @@ static inline double slop_of(const cpArbiter *arbiter) {
 }
 
 static inline bool has_stage(const World *world, uint32_t stage) {
-    return (world->stages & stage) != 0;
+    return (world->stages & stage) == stage;
 }
 
 static inline bool sleeps(const Body *body) {
@@ -145,6 +147,10 @@ static inline cpArbiter *next_of(const cpArbiter *arbiter, const cpBody *body) {
     return arbiter->body_a == body ? arbiter->thread_a.next : arbiter->thread_b.next;
 }
 
+static inline cpBody *other_of(const cpArbiter *arbiter, const cpBody *body) {
+    return arbiter->body_a == body ? arbiter->body_b : arbiter->body_a;
+}
+
 static inline int arbiter_count(const World *world) {
     return world->space->arbiters->num;
 }
@@ -155,6 +161,9 @@ static inline cpArbiter *arbiter_at(const World *world, int number) {
 
 // The order of two things by pairs of their keys: -1, 0 or 1, by the first pair whose keys differ.
 int compared(int count, const double keys[][2]);
+
+// The count of the shapes of anchored bodies.
+int anchored_shape_count(const World *world);
 
 // `qsort`, which in GNU's library takes time and memory for an empty list, too.
 void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *));

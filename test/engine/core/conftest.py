@@ -17,7 +17,8 @@ from ...source_tree import ROOT
 
 HERE = Path(__file__).parent
 CORE = ROOT / 'physsim_ros/engine/core'
-FLAGS = ['-std=c11', '-O0', '-g', '-Wall', '-Wextra', '-Werror', '-shared', '-fPIC']
+STANDARD = ['-std=c11', '-D_POSIX_C_SOURCE=200809L']
+FLAGS = [*STANDARD, '-O0', '-g', '-Wall', '-Wextra', '-Werror', '-shared', '-fPIC']
 
 
 @pytest.fixture(scope='session')
