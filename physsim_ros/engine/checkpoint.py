@@ -145,7 +145,7 @@ def _restore_bodies(
         space.bodies.add_without_shapes(some)
         yield
     put_commands(space, rigids, checkpoint)
-    space.lay_out(scene)
+    space.tables.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
     space.core.write_state(at_rest)
@@ -174,7 +174,7 @@ def _restore_joints(space: Space, checkpoint: Checkpoint) -> Iterator[None]:
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
     yield from space.joints.slices_of_table()
-    space.lay_out_joints()
+    space.tables.lay_out_joints()
     yield
     space.joints.set_impulses(checkpoint.memory.joints)
     space.joints.set_totals(checkpoint.memory.totals)
@@ -328,7 +328,10 @@ def _slices_of_clearing(space: Space) -> Iterator[None]:
 
 def _extract_body(space: Space) -> RigidBody:
     """Remove a body from a retired space and return it, at rest and without a wrench."""
-    rigid = space.extract_last()
+    # The table holds all bodies.
+    space.tables.drop()
+    _, rigid = space.bodies.by_name.popitem()
+    space.bodies.take_out(rigid)
     # The last step left a bias velocity, by which the next one would push overlaps apart.
     pymunk.Body.update_position(rigid.pm_body, 0.0)
     return RigidBody(rigid.body, rigid.pm_body, rigid.handles)

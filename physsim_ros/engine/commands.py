@@ -12,7 +12,8 @@ from __future__ import annotations
 from dataclasses import replace
 import math
 
-from physsim_ros.engine.bodies import BodySet, RigidBody
+from physsim_ros.engine.bodies import RigidBody
+from physsim_ros.engine.body_set import BodySet
 from physsim_ros.engine.coming import ComingCommands
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.model.motor_command import CommandPoint, MotorCommand, TimedCommand

@@ -16,8 +16,8 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine.bodies import lead_of, offset_of
-from physsim_ros.engine.body_table import columns_of
 from physsim_ros.engine.checkpoint import put_commands, restore_checkpoint, take_checkpoint
+from physsim_ros.engine.scene_columns import columns_of
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import (
     BodyState,
@@ -158,7 +158,7 @@ def begin_at(space: Space, checkpoint: Checkpoint, state: WorldState, step: int)
         scene = replace(scene, bodies=_bodies_at(state, step))
         for rigid, body in zip(rigids, scene.bodies, strict=True):
             rigid.body = body
-        space.lay_out(scene)
+        space.tables.lay_out(scene)
     checkpoint = replace(checkpoint, scene=scene, **_timed(state, step))
     put_commands(space, rigids, checkpoint)
     space.table.robots['state'], space.table.actors['state'] = checkpoint.robots, checkpoint.actors

@@ -13,20 +13,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 import math
 
-from physsim_ros.engine.bodies import (
-    BodySet,
-    build_body,
-    RigidBody,
-    same_in_engine,
-    wake_bodies,
-)
-from physsim_ros.engine.body_table import BodyTable, check_columns, check_floor, columns_of
+from physsim_ros.engine.bodies import build_body, RigidBody, same_in_engine
+from physsim_ros.engine.body_set import BodySet, wake_bodies
+from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.commands import CommandSet
 from physsim_ros.engine.core import lib
-from physsim_ros.engine.core_world import CoreWorld, Table
+from physsim_ros.engine.core_tables import CoreTables
+from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.scene_columns import check_columns, check_floor
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
@@ -58,6 +55,7 @@ class Space:
     :ivar joints: between them
     :ivar commands: of their motors, and of the drives of robots
     :ivar grips: of hands on them
+    :ivar tables: of the core
     """
 
     def __init__(
@@ -85,14 +83,10 @@ class Space:
         self._changes = self._age = 0
         # The bodies that are still to be removed at the end of the step.
         self._leaving: list[str] = []
-        self._table: BodyTable | None = None
-        # Row of the background in the last table; -1 if there was none.
-        self._background = -1
-        # Fields of the last table; None if there was none.
-        self._fields: tuple[object, ...] | None = None
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
         self.grips = GripSet()
+        self.tables = CoreTables(self.bodies, self.joints, self.grips, self._core, dt)
         self._settings = _WITHOUT_GRAVITY
         self.configure(settings)
 
@@ -114,13 +108,13 @@ class Space:
     @property
     def table(self) -> BodyTable:
         """Return the bodies as the core has them."""
-        return self.lay_out(self._scene) if self._table is None else self._table
+        return self.tables.latest or self.tables.lay_out(self._scene)
 
     @property
     def core(self) -> CoreWorld:
         """Return the core, which has the bodies and joints of now."""
-        if self._table is None:
-            self.lay_out(self._scene)
+        if self.tables.latest is None:
+            self.tables.lay_out(self._scene)
         return self._core
 
     @property
@@ -132,48 +126,6 @@ class Space:
             lesson=self._lesson,
         )
 
-    def lay_out(self, scene: Scene) -> BodyTable:
-        """Return a new table of the bodies, which the core steps from now on."""
-        rigids, background = tuple(self.bodies.by_name.values()), self.pm_space.static_body
-        self._note_fields(scene)
-        self._table = table = BodyTable(scene, rigids, background, self.dt)
-        self._core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
-        self._core.use(
-            forces=table.columns.forces,
-            regions=table.columns.regions,
-            attractors=table.columns.attractors,
-            robots=table.robots,
-            actors=table.actors,
-        )
-        self._core.use_settings(self._settings, has_fields=table.has_fields)
-        self._background = len(rigids)
-        self.grips.note_rows()
-        for row, rigid in enumerate(rigids):
-            rigid.row = row
-        self.lay_out_joints()
-        return table
-
-    def _note_fields(self, scene: Scene) -> None:
-        """Have bodies wake, and begin with the fields of now, where these are others."""
-        columns, settings = columns_of(scene, self.dt), scene.settings
-        fields = (
-            _values(columns.regions),
-            _values(columns.attractors),
-            (settings.gravitation, settings.coulomb),
-            (settings.attraction_power, settings.softening),
-        )
-        if self._fields not in (None, fields):
-            wake_bodies(rigid.pm_body for rigid in self.bodies.by_name.values())
-            for rigid in self.bodies.by_name.values():
-                rigid.begin_fields()
-        self._fields = fields
-
-    def lay_out_joints(self) -> None:
-        """Have the core step the joints that there are."""
-        if self.joints.by_name:
-            bodies = (*(rigid.pm_body for rigid in self.table.bodies), self.pm_space.static_body)
-            self.joints.use_places({body: place for place, body in enumerate(bodies)})
-
     def twist_of(self, rigid: RigidBody) -> Twist:
         """Return the true velocity of a body."""
         if rigid.pm_body.is_sleeping:
@@ -183,7 +135,7 @@ class Space:
     def configure(self, settings: WorldSettings) -> None:
         """Replace the settings: gravity, damping, iterations, and the walls of `bounds`."""
         check_floor(self._scene, settings, self.dt)
-        self._drop_table()
+        self.tables.drop()
         old, self._settings = self._settings, settings
         self._changes += old != settings
         if old.gravity != settings.gravity:
@@ -208,7 +160,7 @@ class Space:
         """Replace a body by a changed one, in its place in the spawn order."""
         check_columns(body, self._settings, self.dt)
         if same_in_engine(old.body, body):
-            self._drop_table()
+            self.tables.drop()
             self._changes += body != old.body
             old.take_over_roles(old, body)
             old.body = body
@@ -250,12 +202,6 @@ class Space:
             self.commands.coming.put(name, ())
             del self.bodies.by_name[name]
 
-    def extract_last(self) -> RigidBody:
-        """Remove and return the last body, in a space without joints that is not used any more."""
-        _, rigid = self.bodies.by_name.popitem()
-        self._take_out(rigid)
-        return rigid
-
     def set_poses(self, poses: Sequence[tuple[RigidBody, Pose]]) -> None:
         """Set the poses of bodies."""
         for rigid, pose in poses:
@@ -271,7 +217,8 @@ class Space:
         if any(rigid.body.medium is not None for rigid in moved):
             wake_bodies(each.pm_body for each in rigids)
         # They attract others from other places.
-        attracting = len(self._table.columns.attractors) if self._table is not None else 0
+        table = self.tables.latest
+        attracting = table is not None and len(table.columns.attractors) > 0
         for each in rigids if attracting else moved:
             each.begin_fields()
         self._changes += len(poses)
@@ -291,8 +238,8 @@ class Space:
         self.put_wrench(rigid, wrench, until)
         if wrench != NO_WRENCH:
             rigid.pm_body.activate()
-        if self._table is not None:
-            self._table.set_wrench(rigid.row, wrench)
+        if self.tables.latest is not None:
+            self.tables.latest.set_wrench(rigid.row, wrench)
         if free:
             self.set_twist(rigid, twist)
         self._changes += 1
@@ -343,7 +290,7 @@ class Space:
 
     def join(self, joint: Joint) -> None:
         """Add a joint; it replaces one of that name in its place."""
-        self._drop_table()
+        self.tables.drop()
         self._changes += 1
         if (old := self.joints.by_name.get(joint.name)) is not None:
             self._joined.update(old.joint.bodies)
@@ -353,7 +300,7 @@ class Space:
 
     def unjoin(self, name: str) -> None:
         """Remove a joint."""
-        self._drop_table()
+        self.tables.drop()
         self._changes += 1
         joint, bodies = self.joints.by_name[name].joint, self.bodies.by_name
         self._joined.update(joint.bodies)
@@ -461,8 +408,7 @@ class Space:
         self.pm_space.gravity = new
 
     def _rebuild_boundary(self) -> None:
-        background = self.pm_space.static_body
-        touching = self.bodies.touching(background)
+        touching = self.bodies.touching(self.bodies.background)
         self.boundary.rebuild(self._settings)
         self._release(touching)
 
@@ -475,7 +421,7 @@ class Space:
                 now.state['released'] = True
 
     def _insert(self, rigid: RigidBody, pose: Pose, twist: Twist) -> None:
-        self._drop_table()
+        self.tables.drop()
         self._changes += 1
         rigid.pose = pose
         # At rest: see `core/tight_boxes.c`.
@@ -483,20 +429,10 @@ class Space:
         rigid.set_twist(twist, self._settings.gravity, self.dt)
 
     def _take_out(self, rigid: RigidBody) -> None:
-        self._drop_table()
+        self.tables.drop()
         self._changes += 1
         self.bodies.take_out(rigid)
         self._wrenched.pop(rigid.body.name, None)
-
-    def _drop_table(self) -> None:
-        """Drop the table, before a body or joint is added, removed or changed."""
-        self._core.drop_joints()
-        self._table = None
-
-
-def _values(records: Table) -> tuple[bytes, ...]:
-    """Return the numbers of records, without the bytes between the fields, which are any."""
-    return tuple(records[name].tobytes() for name in records.dtype.names or ())
 
 
 def _pressing_share(old: Point, new: Point) -> float:

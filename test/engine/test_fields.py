@@ -6,7 +6,7 @@
 import itertools
 
 import numpy as np
-from physsim_ros.engine import body_table
+from physsim_ros.engine import scene_columns
 from physsim_ros.engine.core_world import Table
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.scene import Scene
@@ -22,14 +22,14 @@ from ..building import DISC, spawn
 )
 def test_fields_begin_anew_where_their_numbers_are_others(monkeypatch, changes, are_others):
     # Between the number of a body and its centre are four bytes, which have any content.
-    makes, contents = body_table._attractor_records, itertools.count(1)  # noqa: SLF001
+    makes, contents = scene_columns._attractor_records, itertools.count(1)  # noqa: SLF001
 
     def with_content(scene: Scene) -> Table:
         records = makes(scene)
         records.view(np.uint8).reshape(len(records), -1)[:, 4:8] = next(contents)
         return records
 
-    monkeypatch.setattr(body_table, '_attractor_records', with_content)
+    monkeypatch.setattr(scene_columns, '_attractor_records', with_content)
     world = World(settings=WorldSettings(gravity=(0.0, 0.0), gravitation=1.0))
     for x in (0.0, 5.0):
         spawn(world, f'star/{x:g}', DISC, (x, 0.0, 0.0))

@@ -12,7 +12,7 @@ import math
 from typing import Any
 
 from physsim_ros import Simulation
-from physsim_ros.engine import body_table
+from physsim_ros.engine import scene_columns
 from physsim_ros.engine.joints import joint_table
 from physsim_ros.model.actors import actor_from, ACTORS
 from physsim_ros.model.applied_forces import AppliedForce
@@ -117,7 +117,7 @@ def test_an_error_in_what_steps_need_refuses_the_request(change, monkeypatch):
     before = world.past.cursor.arrive().digest()
     records = {'actor': '_actor_records', 'robot': '_robot_records', 'forces': '_force_records'}
 
-    monkeypatch.setattr(body_table, records[change], fail)
+    monkeypatch.setattr(scene_columns, records[change], fail)
     for request in (
         ChangeBody(name='b/0', properties=properties),
         Spawn(name='c/0', shape=DISC, pose=(0.0, 9.0, 0.0), properties=properties),
@@ -154,7 +154,7 @@ def test_an_error_in_what_steps_need_on_a_floor_refuses_that_floor(monkeypatch):
     world = Simulation(boundary=ErrorBoundary(log=lambda _: None))
     world.perform(Spawn(name='b/0', shape=DISC, pose=(0.0, 5.0, 0.0)))
     before = world.past.cursor.arrive().digest()
-    monkeypatch.setattr(body_table, 'lever_of', fail)
+    monkeypatch.setattr(scene_columns, 'lever_of', fail)
     with pytest.raises(Failed):
         world.perform(Configure(changes={'floor_friction': 0.3}))
     monkeypatch.undo()
