@@ -13,19 +13,19 @@
 
 // The results of stages that later stages of the same sub-step use, in the memory of the arena.
 typedef struct SubStep {
-    Body **awake; // before Chipmunk's step
-    int awake_count;
-    struct Roll *rolls;
-    int roll_count;
-    // Pairs of shapes, one of a one-way body, that carry a load; pairs of bodies that pass each other.
+    // `find_loaded`: pairs of shapes, one of a one-way body, that carry a load; `find_passing`: pairs of bodies.
     struct Pair *loaded, *passing;
     int loaded_count, passing_count;
-    struct Touch *begun; // contacts that begin; those of internal edges are taken out
+    Body **awake; // `step_chipmunk`: before its step, for `begin_sleepers`
+    int awake_count;
+    struct Touch *begun; // `find_begun`: contacts that begin, without those that `slide_over_edges` ignores
     int begun_count;
-    struct Load *loads; // of contacts
+    struct Load *loads; // `list_load_bounds`, for `remove_impact_impulses`
     int load_count;
-    struct Islands *joint_islands;
-    bool *bearers; // (body_count): bodies all of whose contacts are rows of these; NULL without any
+    struct Islands *joint_islands; // `find_joint_islands`, for all stages of joints
+    bool *bearers;                 // of the same (body_count): bodies all of whose contacts are rows; NULL without any
+    struct Roll *rolls;            // `find_rolls`, for Chipmunk's solver
+    int roll_count;
 } SubStep;
 
 typedef struct Private {
