@@ -72,13 +72,13 @@ static void run(World *world, const Stage *stages) {
 }
 
 // Between Chipmunk's narrow phase and its solver: all contacts of the step are known, with their target velocities, and
-// none has been solved. Each stage has what the ones before have made of the contacts.
+// none has been solved. Each stage has what the ones before have made of the contacts; beside it is what it sets.
 static const Stage contact_stages[] = {
     {find_passing, 0},                             // which bodies pass one-way bodies
     {ignore_false_contacts, STAGE_FALSE_CONTACTS}, // contacts that are none
     {find_begun, 0},                               // the list of contacts that begin
     {move_to_impacts, STAGE_IMPACT},               // in it: normals and points
-    {slide_over_edges, STAGE_EDGES},               // in it: normals at seams; less contacts
+    {slide_over_edges, STAGE_EDGES},               // in it: normals at seams; hidden contacts leave it
     {prepare_begun, 0},                            // contacts, by that list
     {set_overlap_biases, 0},                       // bias
     {move_belts, 0},                               // surface velocities
@@ -114,11 +114,11 @@ static void step_chipmunk(World *world) {
     end_rolling(world);
 }
 
-// A sub-step, with what each stage sets. Chipmunk moves bodies by their velocities first, and finds new velocities
-// then.
+// A sub-step; beside each stage is what it sets. Chipmunk moves bodies by their velocities first, and finds new
+// velocities then.
 static const Stage sub_step_stages[] = {
     {begin_fields, STAGE_FIELDS},            // leads by fields, of bodies that requests have changed
-    {begin_half_step, 0},                    // leads, and who flies; forces of commands
+    {begin_half_step, 0},                    // leads, and which bodies are in free flight; forces of commands
     {begin_bodies, 0},                       // scratch, and the pose that the sub-step begins with
     {apply_forces, 0},                       // forces
     {pull_grips, 0},                         // forces
@@ -145,7 +145,7 @@ static const Stage sub_step_stages[] = {
     {reckon_odometry, STAGE_FLOOR},          // odometry
     {use_batteries, STAGE_FLOOR},            // charges
     {report_contacts, 0},                    // contacts of the frame
-    {find_free, 0},                          // who flies
+    {find_free, 0},                          // which bodies are in free flight
     {keep_awake, 0},                         // idle times
     {remove_closing_impulses, STAGE_JOINTS}, // impulses that the next sub-step starts from
     {remove_impact_impulses, STAGE_LOADS},   // the same
@@ -153,6 +153,7 @@ static const Stage sub_step_stages[] = {
     {NULL, 0},
 };
 
+// Before the first sub-step of a step.
 static const Stage first_stages[] = {
     {damp_resting, STAGE_RESTING_DAMPING}, // velocities of what friction locks in place
     {clear_joint_reports, 0},
