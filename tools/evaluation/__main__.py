@@ -22,7 +22,7 @@ import time
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.forms import classification_of
-from physsim_ros.drawing.strokes.stages import DELETION, GRAVITY
+from physsim_ros.drawing.strokes.stages import MeaningKind
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 
@@ -104,7 +104,7 @@ class Tally:
         if what != _REFUSED and scene.meaning is not None:
             where = 'with bodies' if scene.view.names else 'in the open'
             self.reliability[where].add(confidence, right=what == scene.meaning)
-        self.harm += what in {DELETION, GRAVITY} and what != scene.meaning
+        self.harm += what in {MeaningKind.DELETION, MeaningKind.GRAVITY} and what != scene.meaning
         if scene.fault in _ALL_DRAWN:
             drawn = float(np.hypot(*np.ptp(scene.samples[:, :2], axis=0)))
             self.whole.append(resample_stroke(scene.samples).size > 0.85 * drawn)

@@ -23,10 +23,9 @@ from physsim_ros.drawing.strokes.evidence import log_odds, logistic
 from physsim_ros.drawing.strokes.stages import (
     CLOSED,
     confidences_in,
-    DELETION,
-    GRAVITY,
     Guess,
     Meaning,
+    MeaningKind,
     MOST_GUESSES,
     OPEN,
     Reading,
@@ -38,8 +37,9 @@ from physsim_ros.model.errors import NotRecognised
 _DOUBT, _UNEXPLAINED = 0.02, 0.3
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
 _GROUP_BIAS, _GROUP_SLOPE = -0.4, 1.9
-# The least confidence with which bodies are deleted, and gravity is turned.
-_SURE = 0.9
+# Meanings that destroy what was drawn before, or change the whole world; the least confidence in
+# them.
+_DRASTIC, _SURE = frozenset({MeaningKind.DELETION, MeaningKind.GRAVITY}), 0.9
 
 
 def guesses_among(meanings: Iterable[Meaning], unexplained: float) -> tuple[Guess, ...]:
@@ -48,13 +48,13 @@ def guesses_among(meanings: Iterable[Meaning], unexplained: float) -> tuple[Gues
 
     :param unexplained: the weight that no form of the stroke has, 0 .. 1
     """
-    weights: dict[str, float] = {}
+    weights: dict[MeaningKind, float] = {}
     # Of each meaning, the likeliest one.
-    best: dict[str, Meaning] = {}
+    best: dict[MeaningKind, Meaning] = {}
     for each in meanings:
-        weights[each.name] = weights.get(each.name, 0.0) + each.weight
-        if each.name not in best or each.weight > best[each.name].weight:
-            best[each.name] = each
+        weights[each.kind] = weights.get(each.kind, 0.0) + each.weight
+        if each.kind not in best or each.weight > best[each.kind].weight:
+            best[each.kind] = each
     total = sum(weights.values())
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
@@ -87,7 +87,7 @@ def group_confidence(weight: float, total: float, unexplained: float = 0.0) -> f
     return logistic(_GROUP_BIAS + _GROUP_SLOPE * log_odds(weight / (total + doubt)))
 
 
-def _group_of(meaning: str) -> frozenset[str]:
+def _group_of(meaning: MeaningKind) -> frozenset[MeaningKind]:
     """Return the group of a meaning."""
     return next((group for group in (CLOSED, OPEN) if meaning in group), frozenset({meaning}))
 
@@ -124,6 +124,6 @@ def is_likely(guesses: Sequence[Guess], settings: DrawingSettings) -> bool:
     if not guesses:
         return False
     guess = guesses[0]
-    if guess.meaning in {DELETION, GRAVITY} and guess.group_confidence < _SURE:
+    if guess.meaning in _DRASTIC and guess.group_confidence < _SURE:
         return False
     return guess.group_confidence >= settings.sketch_confidence

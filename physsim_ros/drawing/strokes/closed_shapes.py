@@ -21,12 +21,10 @@ from physsim_ros.drawing.strokes.axles import axle_pairs, crossed_pair
 from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.stages import (
     Context,
-    DISC,
     Form,
     Meaning,
+    MeaningKind,
     Outcome,
-    POLYGON,
-    RECTANGLE,
 )
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
@@ -42,23 +40,25 @@ _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
 # The least number of corners of a polygon that may be a small circle; one of four may be a square.
 _LEAST_CORNERS = 5
 # The meaning of an outline that is a body, and the function of its points that builds that.
-_Body = tuple[str, Callable[[Floats, Context], Outcome]]
+_Body = tuple[MeaningKind, Callable[[Floats, Context], Outcome]]
 
 
 def disc_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and disc."""
     circle = point_of(form.points[0]), math.dist(*form.points)
-    return _axle_or_body(form, circle, (DISC, outcomes.disc), context)
+    return _axle_or_body(form, circle, (MeaningKind.DISC, outcomes.disc), context)
 
 
 def oval_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and polygon, which is not regularised."""
-    return _axle_or_body(form, _circle_of(form), (POLYGON, outcomes.smooth_polygon), context)
+    return _axle_or_body(
+        form, _circle_of(form), (MeaningKind.POLYGON, outcomes.smooth_polygon), context
+    )
 
 
 def polygon_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a polygon, and axle or weld: small circles are drawn with corners, squares askew."""
-    body = POLYGON, outcomes.polygon
+    body = MeaningKind.POLYGON, outcomes.polygon
     if len(form.points) < _LEAST_CORNERS:
         return _weld_or_body(form, body, context)
     return _axle_or_body(form, _circle_of(form), body, context)
@@ -66,7 +66,7 @@ def polygon_meanings(form: Form, context: Context) -> Iterator[Meaning]:
 
 def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a weld and a rectangle."""
-    return _weld_or_body(form, (RECTANGLE, outcomes.rectangle), context)
+    return _weld_or_body(form, (MeaningKind.RECTANGLE, outcomes.rectangle), context)
 
 
 def _circle_of(form: Form) -> tuple[Point, float]:
@@ -83,7 +83,9 @@ def _axle_or_body(
     :param circle: centre and radius of the axle [m]
     """
     share = _axle_share(*circle, context)
-    return _either(form, share, ('axle', partial(_build_axle, *circle, context)), body, context)
+    return _either(
+        form, share, (MeaningKind.AXLE, partial(_build_axle, *circle, context)), body, context
+    )
 
 
 def _weld_or_body(form: Form, body: _Body, context: Context) -> Iterator[Meaning]:
@@ -94,13 +96,13 @@ def _weld_or_body(form: Form, body: _Body, context: Context) -> Iterator[Meaning
         side = max(map(math.dist, form.points[:2], form.points[1:3]))
         share = _SMALL.below(side / _largest_joint(center, under, context))
     weld = partial(_weld_bodies, center, under, context)
-    return _either(form, share, ('pin', weld), body, context)
+    return _either(form, share, (MeaningKind.PIN, weld), body, context)
 
 
 def _either(
     form: Form,
     share: float,
-    joint: tuple[str, Callable[[], Outcome]],
+    joint: tuple[MeaningKind, Callable[[], Outcome]],
     body: _Body,
     context: Context,
 ) -> Iterator[Meaning]:
@@ -110,9 +112,9 @@ def _either(
     :param share: of the joint, 0 .. 1
     """
     meaning, outcome = body
-    yield Meaning(name=joint[0], weight=form.weight * share, build=joint[1])
+    yield Meaning(kind=joint[0], weight=form.weight * share, build=joint[1])
     build = partial(outcome, form.points, context)
-    yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
+    yield Meaning(kind=meaning, weight=form.weight * (1.0 - share), build=build)
 
 
 def _axle_share(center: Point, radius: float, context: Context) -> float:

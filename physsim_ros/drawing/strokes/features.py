@@ -31,7 +31,7 @@ _DIRECTIONS = np.column_stack((np.cos(_ANGLES), np.sin(_ANGLES)))
 # Number of outermost points at either side that the extent of a stroke leaves out.
 _FRINGE = 4
 # The least count of swings whose height and advance are measured.
-FEWEST = 3
+FEWEST_SWINGS = 3
 # The height of swings that are those of a trembling hand, or of a mouse that moves by pixels, in
 # shares of the size; what swings higher is drawn so.
 TREMOR = Limit(0.08)
@@ -54,7 +54,7 @@ class Swings:
 
     :param count: of swings
     :param height: mean height of a swing, across the advance [m]; 0 where they are fewer than
-        `FEWEST`, as are the other figures
+        `FEWEST_SWINGS`, as are the other figures
     :param spread: how far apart they lie: above 1 those of a zigzag, below those of a scribble
     :param steady: straightness of the advance, 0 .. 1
     """
@@ -135,7 +135,7 @@ def swings_of(points: Floats) -> Swings:
     counts = changes.sum(axis=1)
     # Among directions with as many swings, the one with the smallest extent.
     best = int((counts - extent[:, 0] / extent.max() / 2).argmax())
-    if counts[best] < FEWEST:
+    if counts[best] < FEWEST_SWINGS:
         return Swings(count=int(counts[best]), height=0.0, spread=0.0, steady=0.0)
     bounds = [0, *(np.flatnonzero(changes[best]) + 1).tolist(), len(points)]
     out = place[best] * side[best]

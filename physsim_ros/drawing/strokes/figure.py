@@ -17,14 +17,11 @@ from physsim_ros.drawing.strokes.choice import is_likely
 from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.stages import (
     Classification,
-    DELETION,
-    DISC,
-    GRAVITY,
     Guess,
+    MeaningKind,
     MOST_GUESSES,
     OPEN,
-    POLYGON,
-    RECTANGLE,
+    SOLIDS,
 )
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
@@ -32,11 +29,11 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request
 
 # Meanings of open lines that join nothing.
-_LOOSE = frozenset({'wall', 'hatching'})
+_LOOSE = frozenset({MeaningKind.WALL, MeaningKind.HATCHING})
 # Meanings of arrows.
-ARROWS = frozenset({GRAVITY, 'velocity'})
+ARROWS = frozenset({MeaningKind.GRAVITY, MeaningKind.VELOCITY})
 # Meanings of the heads of arrows, closed and filled, without their shafts.
-_HEADS = frozenset({POLYGON, DELETION})
+_HEADS = frozenset({MeaningKind.POLYGON, MeaningKind.DELETION})
 # The least share of a line that lies on a solid, or on the bodies at its ends, if it is no more
 # than a mark on the one or a joint of the others.
 ON_SOLID = 0.6
@@ -94,20 +91,20 @@ class Figure:
         )
 
     @property
-    def meaning(self) -> str:
-        """Return the meaning that it was read with; '' where it was not recognised."""
-        return '' if self.chosen is None else self.guesses[self.chosen].meaning
+    def meaning(self) -> MeaningKind | None:
+        """Return the meaning that it was read with; None where it was not recognised."""
+        return None if self.chosen is None else self.guesses[self.chosen].meaning
 
     @property
     def is_open(self) -> bool:
         """Return whether it is an open line, or not recognised, and joins no two bodies."""
         to_background = any(isinstance(each, Join) and each.b == WORLD for each in self.requests)
-        return self.is_line and (self.meaning in {'', *_LOOSE} or to_background)
+        return self.is_line and (self.meaning in {None, *_LOOSE} or to_background)
 
     @property
     def is_line(self) -> bool:
         """Return whether it is an open line, or not recognised."""
-        return not self.meaning or self.meaning in OPEN
+        return self.meaning is None or self.meaning in OPEN
 
     @property
     def is_arrow(self) -> bool:
@@ -122,14 +119,18 @@ class Figure:
     @property
     def is_solid(self) -> bool:
         """Return whether it is a body of its own."""
-        return self.meaning in {DISC, RECTANGLE, POLYGON}
+        return self.meaning in SOLIDS
 
     def with_gravity(self) -> Figure:
         """Return a new body with the guess that the arrow before it did turn gravity."""
         chosen = self.guesses[self.chosen or 0]
         # The body alone is built.
-        turned = replace(chosen, meaning=GRAVITY, confidence=1.0 - chosen.confidence)
-        rest = (each for each in self.guesses if each is not chosen and each.meaning != GRAVITY)
+        turned = replace(chosen, meaning=MeaningKind.GRAVITY, confidence=1.0 - chosen.confidence)
+        rest = (
+            each
+            for each in self.guesses
+            if each is not chosen and each.meaning is not MeaningKind.GRAVITY
+        )
         return replace(self, guesses=(chosen, turned, *rest)[:MOST_GUESSES], chosen=0)
 
     @property

@@ -31,7 +31,7 @@ from physsim_ros.drawing.strokes.joining import (
     touching,
 )
 from physsim_ros.drawing.strokes.resampled import few_points
-from physsim_ros.drawing.strokes.stages import Classification, CLOSED
+from physsim_ros.drawing.strokes.stages import Classification, CLOSED, MeaningKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Join, Spawn
 
@@ -40,10 +40,10 @@ MOST_STROKES = 8
 # The greatest CPU time for reading strokes together [s]: a reading takes some 3 ms.
 MOST_TIME = 0.01
 # Meanings that several strokes may have together.
-_JOINED = CLOSED | ARROWS | {'anchor', 'motor'}
+_JOINED = CLOSED | ARROWS | {MeaningKind.ANCHOR, MeaningKind.MOTOR}
 # Signs on a body that two strokes are however slowly they are drawn, and the longest pause between
 # these [s]: two lines across a body, and a rod with barbs at its free end, are nothing else.
-_ON_BODIES, SLOWLY = frozenset({'anchor', 'velocity'}), 10.0
+_ON_BODIES, SLOWLY = frozenset({MeaningKind.ANCHOR, MeaningKind.VELOCITY}), 10.0
 
 
 def grouped(
@@ -65,7 +65,7 @@ def grouped(
         if clock() > began + MOST_TIME:
             break
         whole = _as_one(group, settings)
-        if whole is not None and not (hatching and whole.meaning == 'anchor'):
+        if whole is not None and not (hatching and whole.meaning is MeaningKind.ANCHOR):
             gestures = tuple(number for figure in group for number in figure.gestures)
             before = len(figures) + 1 - len(group)
             return *figures[:before], replace(whole, gestures=gestures)
@@ -100,7 +100,7 @@ def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None
         each.name
         for figure in group
         for each in figure.requests
-        if isinstance(each, Spawn) and figure.meaning == 'wall'
+        if isinstance(each, Spawn) and figure.meaning is MeaningKind.WALL
     }
     joints = [_leaves_its_bodies(figure, walls) for figure in group]
     if all(joints):
@@ -124,7 +124,7 @@ def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None
 
 def _together(
     group: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[tuple[Classification, AbstractSet[str]]]:
+) -> Iterator[tuple[Classification, AbstractSet[MeaningKind]]]:
     """Yield what figures may be together, each with the meanings that make it better."""
     strokes = tuple(stroke for figure in group for stroke in figure.strokes)
     pairs = itertools.pairwise(group)
@@ -173,7 +173,7 @@ def _is_hatching(figures: Sequence[Figure]) -> bool:
     hatched = [
         {each.name for each in figure.requests if isinstance(each, ChangeBody)}
         for figure in figures[-3:-1]
-        if figure.meaning == 'hatching'
+        if figure.meaning is MeaningKind.HATCHING
     ]
     return len(hatched) == 2 and hatched[0] == hatched[1]
 

@@ -15,7 +15,7 @@ from physsim_ros.drawing.strokes.figure import Figure, ON_SOLID
 from physsim_ros.drawing.strokes.grouping import follows, is_side
 from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.resampled import middle_half
-from physsim_ros.drawing.strokes.stages import Guess, Outcome, Reading
+from physsim_ros.drawing.strokes.stages import Guess, MeaningKind, Outcome, Reading
 from physsim_ros.model.translation import Text
 
 
@@ -39,7 +39,7 @@ def lies_within(line: Figure, solid: Figure) -> bool:
 def mark_reading(line: Figure) -> Reading:
     """Return the reading of a line within a solid: a mark, which has no requests."""
     mark = Guess(
-        meaning='mark',
+        meaning=MeaningKind.MARK,
         confidence=line.guesses[0].confidence if line.guesses else 1.0,
         group_confidence=1.0,
         build=lambda: Outcome(

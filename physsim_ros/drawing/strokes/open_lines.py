@@ -19,9 +19,17 @@ from physsim_ros.drawing.geometry import path_length, point_of
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.bodies_under import hangs_from, stands_on
 from physsim_ros.drawing.strokes.evidence import LEAST
-from physsim_ros.drawing.strokes.features import Features, FEWEST
+from physsim_ros.drawing.strokes.features import Features, FEWEST_SWINGS
 from physsim_ros.drawing.strokes.resampled import ARM, COUNT
-from physsim_ros.drawing.strokes.stages import BETWEEN, Context, End, Form, Meaning, Outcome
+from physsim_ros.drawing.strokes.stages import (
+    BETWEEN,
+    Context,
+    End,
+    Form,
+    Meaning,
+    MeaningKind,
+    Outcome,
+)
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind
@@ -48,16 +56,16 @@ def meanings(form: Form, context: Context) -> Iterator[Meaning]:
         return
     if ends is not None and kind is not None:
         yield Meaning(
-            name=str(kind),
+            kind=MeaningKind(kind),
             weight=form.weight * BETWEEN,
             build=partial(outcomes.join, kind, ends, context),
         )
         if kind is JointKind.ROPE:
             # No stroke tells a chain from a rope: it is offered, and never the first guess.
             build = partial(outcomes.chain, ends, context)
-            yield Meaning(name='chain', weight=LEAST, build=build)
+            yield Meaning(kind=MeaningKind.CHAIN, weight=LEAST, build=build)
     yield Meaning(
-        name='wall',
+        kind=MeaningKind.WALL,
         weight=form.weight * (1.0 if kind is None else 1.0 - BETWEEN),
         build=partial(outcomes.wall, points, context),
     )
@@ -73,7 +81,7 @@ def rope_around_wheels(context: Context) -> Meaning | None:
     ):
         return None
     build = partial(outcomes.join, JointKind.ROPE, context.ends, context)
-    return Meaning(name=str(JointKind.ROPE), weight=BETWEEN, build=build)
+    return Meaning(kind=MeaningKind.ROPE, weight=BETWEEN, build=build)
 
 
 def _joint_along(points: Floats, ends: tuple[End, End], context: Context) -> JointKind | None:
@@ -119,10 +127,10 @@ def _is_toothed(features: Features, points: Floats) -> bool:
     """
     # Bends of a brace are all on one side of the straight line between its ends.
     side = np.sign(cross(points[-1] - points[0], points[1:-1] - points[0]))
-    if len(side) >= FEWEST and bool((side[1:] == -side[:-1]).all()):
+    if len(side) >= FEWEST_SWINGS and bool((side[1:] == -side[:-1]).all()):
         return True
     swings = features.swings
-    return swings.count > FEWEST and features.has_teeth and swings.steady > _STRAIGHT
+    return swings.count > FEWEST_SWINGS and features.has_teeth and swings.steady > _STRAIGHT
 
 
 def _cubic_length(points: Floats) -> float:
@@ -155,7 +163,9 @@ def hatching_meaning(body: str, lines: int, context: Context, *, weight: float) 
     :param lines: number of lines of the hatching
     """
     return Meaning(
-        name='hatching', weight=weight, build=partial(_make_heavier, body, lines, context)
+        kind=MeaningKind.HATCHING,
+        weight=weight,
+        build=partial(_make_heavier, body, lines, context),
     )
 
 

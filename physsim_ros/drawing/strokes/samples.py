@@ -29,7 +29,7 @@ from physsim_ros.model.transform import norms
 
 # Strokes of fewer samples than half of `COUNT` have more put between them, on arcs; the only turn
 # of three makes no arc.
-_FEWEST = 4
+_FEWEST_SAMPLES = 4
 # The greatest turn at a sample of an arc [rad]: a circle of eight has 0.79, a hexagon 1.05.
 _GENTLE = 0.9
 # The least distance of two samples that are kept, in shares of the stroke's size: a resting pen
@@ -55,7 +55,7 @@ def pen_path(samples: Floats) -> Floats:
         raise BadSize(
             f'the stroke is smaller than {SMALLEST:g} m: a point draws nothing', field='poses'
         )
-    while _FEWEST <= len(path) < COUNT // 2:
+    while _FEWEST_SAMPLES <= len(path) < COUNT // 2:
         path = _subdivided(path)
     return path
 

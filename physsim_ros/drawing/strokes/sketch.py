@@ -17,7 +17,7 @@ from physsim_ros.drawing.strokes.choice import reading_of
 from physsim_ros.drawing.strokes.figure import Figure
 from physsim_ros.drawing.strokes.grouping import grouped, MOST_STROKES
 from physsim_ros.drawing.strokes.marks import marked_solid
-from physsim_ros.drawing.strokes.stages import Reading
+from physsim_ros.drawing.strokes.stages import MeaningKind, Reading
 from physsim_ros.drawing.strokes.waiting import readings_over
 from physsim_ros.drawing.strokes.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.translation import Text
@@ -74,9 +74,9 @@ class Sketch:
             requests += over.requests
             message = Text('{first}; {then}', first=message, then=over.message)
             also.append(over.meaning)
-            if over.meaning == 'mark':
+            if over.meaning is MeaningKind.MARK:
                 mark = replace(stroke, requests=(), gestures=())
-            elif over.meaning == 'velocity':
+            elif over.meaning is MeaningKind.VELOCITY:
                 figure = figure.with_gravity()
                 reading = replace(reading, guesses=figure.guesses)
         reading = replace(reading, requests=requests, message=message, also=tuple(also))

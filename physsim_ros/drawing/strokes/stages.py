@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from enum import StrEnum
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
@@ -24,14 +25,47 @@ LINE, DISC, OVAL, RECTANGLE, POLYGON = 'line', 'disc', 'oval', 'rectangle', 'pol
 MISPLACED = 0.5
 # Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
 BETWEEN = 0.98
-# Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
-# Every other meaning is a group of its own.
-CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
-OPEN = frozenset({'wall', 'rod', 'rope', 'chain', 'spring', 'hatching'})
-# Meanings that destroy what was drawn before, or change the whole world.
-DELETION, GRAVITY = 'deletion', 'gravity'
 # The greatest number of guesses that a reading has.
 MOST_GUESSES = 3
+
+
+class MeaningKind(StrEnum):
+    """The kinds of meanings; the value is the word in `~/events` and on pages."""
+
+    DISC = 'disc'
+    RECTANGLE = 'rectangle'
+    POLYGON = 'polygon'
+    AXLE = 'axle'
+    PIN = 'pin'
+    WALL = 'wall'
+    ROD = 'rod'
+    ROPE = 'rope'
+    CHAIN = 'chain'
+    SPRING = 'spring'
+    HATCHING = 'hatching'
+    ANCHOR = 'anchor'
+    DELETION = 'deletion'
+    MOTOR = 'motor'
+    VELOCITY = 'velocity'
+    GRAVITY = 'gravity'
+    MARK = 'mark'
+
+
+# Bodies of their own.
+SOLIDS = frozenset({MeaningKind.DISC, MeaningKind.RECTANGLE, MeaningKind.POLYGON})
+# Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
+# Every other meaning is a group of its own.
+CLOSED = SOLIDS | {MeaningKind.AXLE, MeaningKind.PIN}
+OPEN = frozenset(
+    {
+        MeaningKind.WALL,
+        MeaningKind.ROD,
+        MeaningKind.ROPE,
+        MeaningKind.CHAIN,
+        MeaningKind.SPRING,
+        MeaningKind.HATCHING,
+    }
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -143,12 +177,12 @@ class Meaning:
     """
     A meaning that a stroke may have.
 
-    :param name: as `~/events` reports it: `disc`, `anchor` and so on
+    :param kind: of meaning
     :param weight: likelihood, not yet normalised
     :param build: returns the outcome, or raises a Refusal
     """
 
-    name: str
+    kind: MeaningKind
     weight: float
     build: Callable[[], Outcome]
 
@@ -173,13 +207,13 @@ class Guess:
     """
     One of the likeliest meanings of a stroke, with the confidence in it.
 
-    :param meaning: name of it, as `~/events` reports it: `disc`, `anchor` and so on
+    :param meaning: the kind of it
     :param confidence: in the meaning: the share of such guesses that are right, 0 .. 1
     :param group_confidence: in its group, 0 .. 1
     :param build: returns the outcome, or raises a Refusal; changes nothing
     """
 
-    meaning: str
+    meaning: MeaningKind
     confidence: float
     group_confidence: float
     build: Callable[[], Outcome]
@@ -198,11 +232,11 @@ class Reading(Outcome):
 
     guesses: tuple[Guess, ...]
     amends: tuple[int, ...] = ()
-    also: tuple[str, ...] = ()
+    also: tuple[MeaningKind, ...] = ()
 
     @property
-    def meaning(self) -> str:
-        """Return the meaning: `disc`, `anchor` and so on."""
+    def meaning(self) -> MeaningKind:
+        """Return the meaning."""
         return self.guesses[0].meaning
 
     @property

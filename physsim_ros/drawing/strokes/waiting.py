@@ -34,7 +34,7 @@ from physsim_ros.drawing.strokes.marks import lies_within, mark_reading
 from physsim_ros.drawing.strokes.reading import guesses_of
 from physsim_ros.drawing.strokes.resampled import few_points, middle_half
 from physsim_ros.drawing.strokes.scene_after import scene_after
-from physsim_ros.drawing.strokes.stages import Classification, GRAVITY, Reading
+from physsim_ros.drawing.strokes.stages import Classification, MeaningKind, Reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -43,8 +43,18 @@ from physsim_ros.model.shapes import contains
 from physsim_ros.model.transform import rotated_each
 
 # Meanings that a stroke has by the bodies under it, and by an axle.
-_BY_BODIES = frozenset({'rod', 'rope', 'spring', 'axle', 'pin', 'anchor', 'velocity'})
-_BY_AXLE = frozenset({'motor'})
+_BY_BODIES = frozenset(
+    {
+        MeaningKind.ROD,
+        MeaningKind.ROPE,
+        MeaningKind.SPRING,
+        MeaningKind.AXLE,
+        MeaningKind.PIN,
+        MeaningKind.ANCHOR,
+        MeaningKind.VELOCITY,
+    }
+)
+_BY_AXLE = frozenset({MeaningKind.MOTOR})
 
 
 def readings_over(
@@ -96,7 +106,9 @@ def _readings_over_body(
     requests = list(solid.requests)
     groups = list(_waiting(figures, solid, settings.snap))
     # A wall that is a rod itself is no end of another one.
-    walls = _names([each for each, *more in groups if each.meaning == 'wall' and not more])
+    walls = _names(
+        [each for each, *more in groups if each.meaning is MeaningKind.WALL and not more]
+    )
     done: set[str] = set()
     for group in groups:
         names = _names(group)
@@ -118,7 +130,7 @@ def _waiting(
 ) -> Iterator[tuple[Figure, ...]]:
     """Yield figures that wait: two walls, which may be an x, then each alone."""
     there = [each for each in figures if _is_there(each, solid.scene, snap)]
-    walls = [each for each in there if each.meaning == 'wall']
+    walls = [each for each in there if each.meaning is MeaningKind.WALL]
     yield from itertools.pairwise(walls)
     for each in there:
         if each not in walls or _is_mark(each, solid) or not _bears(each, solid.scene, snap):
@@ -143,7 +155,7 @@ def _undoing(figures: Sequence[Figure]) -> Iterator[Request]:
     """Yield the requests by which what figures have become is gone."""
     yield from (Delete(name=each) for each in sorted(_names(figures)))
     for figure in figures:
-        if figure.meaning == GRAVITY:
+        if figure.meaning is MeaningKind.GRAVITY:
             yield Configure(changes={'gravity': figure.scene.settings.gravity})
 
 
@@ -164,7 +176,7 @@ def _is_there(figure: Figure, scene: SceneQuery, snap: float) -> bool:
 
 def _is_mark(figure: Figure, solid: Figure) -> bool:
     """Return whether a figure is a wall within a solid that was drawn about it."""
-    return figure.meaning == 'wall' and lies_within(figure, solid)
+    return figure.meaning is MeaningKind.WALL and lies_within(figure, solid)
 
 
 def _bears(wall: Figure, scene: SceneQuery, snap: float) -> bool:
@@ -211,7 +223,7 @@ def _likely_reading(
     stroke: Classification,
     scene: SceneQuery,
     settings: DrawingSettings,
-    meanings: AbstractSet[str],
+    meanings: AbstractSet[MeaningKind],
 ) -> Reading | None:
     """Return the likeliest reading of a stroke if it can be built and is one of some meanings."""
     guesses = guesses_of(stroke, scene, settings)

@@ -336,13 +336,13 @@ LIMITS: dict[
         (0.38, 0.43), ('rectangle', 'polygon'),
     ),
     'swings of a scribble': (
-        'swings._FEWEST',
+        'swings._FEWEST_OF_SCRIBBLE',
         PLATE,
         lambda it: [(1.3 * (n / it - 0.5), 1.2 * (n % 2 - 0.5)) for n in range(int(it) + 1)],
         (5, 6), ('wall', 'deletion a/0'),
     ),
     'lines of a zigzag between bodies': (
-        'features.FEWEST',
+        'features.FEWEST_SWINGS',
         APART, lambda it: teeth(it, 0.3, end=4.0), (3, 4), ('rope', 'spring'),
     ),
     'height of swings between bodies': (
@@ -811,7 +811,7 @@ STAGES: dict[
 
 # Numbers of points between which readings do not differ, and what words and work are limited to.
 RESOLUTION = {
-    'samples._FEWEST', 'fitting._ROUNDS', 'arrow._ALONG', 'corner_detection._ALONG',
+    'samples._FEWEST_SAMPLES', 'fitting._ROUNDS', 'arrow._ALONG', 'corner_detection._ALONG',
     'corner_detection._PARABOLA',
     'resampled.COUNT', 'resampled.ARM', 'resampled._FEW', 'resampled._SMOOTHING', 'stroke._FINER',
     'stroke._FINELY', 'joining._BETWEEN', 'open_lines._CUBICS', 'features._ANGLES',

@@ -17,8 +17,8 @@ from physsim_ros.drawing.strokes.stages import (
     Candidate,
     Context,
     Form,
-    GRAVITY,
     Meaning,
+    MeaningKind,
     MISPLACED,
     Outcome,
     Sign,
@@ -127,14 +127,14 @@ def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     moving = next((name for name in near if not scene.body(name).anchored), None)
     if moving is not None:
         yield Meaning(
-            name='velocity',
+            kind=MeaningKind.VELOCITY,
             weight=form.weight,
             build=partial(_set_velocity, moving, points, context),
         )
         return
     free = not scene.bodies_at(tail)
     yield Meaning(
-        name=GRAVITY,
+        kind=MeaningKind.GRAVITY,
         weight=form.weight * (1.0 if free else MISPLACED),
         build=partial(_turn_gravity, points, context),
     )

@@ -18,6 +18,7 @@ from physsim_ros.drawing.strokes.stages import (
     Context,
     Form,
     Meaning,
+    MeaningKind,
     MISPLACED,
     Outcome,
     Sign,
@@ -79,7 +80,7 @@ def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     center, arc = form.points[0], form.points[1:]
     axle = _nearest_axle(center, arc, context.scene)
     yield Meaning(
-        name='motor',
+        kind=MeaningKind.MOTOR,
         weight=form.weight * (1.0 if axle is not None else MISPLACED),
         build=partial(_drive_axle, axle, _sweep(arc, center), context),
     )

@@ -14,13 +14,13 @@ from functools import partial
 
 from physsim_ros.drawing.strokes import bodies_under, open_lines, outcomes
 from physsim_ros.drawing.strokes.evidence import Limit
-from physsim_ros.drawing.strokes.features import Features, FEWEST
+from physsim_ros.drawing.strokes.features import Features, FEWEST_SWINGS
 from physsim_ros.drawing.strokes.stages import (
     Candidate,
     Context,
-    DELETION,
     Form,
     Meaning,
+    MeaningKind,
     MISPLACED,
     Outcome,
     Sign,
@@ -35,8 +35,8 @@ from physsim_ros.model.translation import Text
 _CLOSEST = 0.9
 # The share of the stroke that lies on the bodies at its ends from which on it is no spring.
 _ON_ENDS = Limit(0.6)
-# The least number of swings: people make six and more.
-_FEWEST = 6
+# The least number of swings of a scribble: people make six and more.
+_FEWEST_OF_SCRIBBLE = 6
 # The greatest spread of swings: those of zigzags lie farther apart.
 _FARTHEST = 1.15
 # The greatest share of the middle half of a spring that lies on the bodies at its ends: a scribble
@@ -47,7 +47,7 @@ _MIDDLE_ON_ENDS = Limit(0.15)
 def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
     """Yield teeth in a row, sharp or round; the points are its ends and bends."""
     swings = features.swings
-    if swings.count >= FEWEST and features.has_teeth and swings.spread > _CLOSEST:
+    if swings.count >= FEWEST_SWINGS and features.has_teeth and swings.spread > _CLOSEST:
         yield Candidate(measures=features.measures, points=features.bends)
 
 
@@ -66,9 +66,9 @@ def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
         share = bodies_under.share_on(crossed, ends)
         spring = _ON_ENDS.below(share) if ends[1].body != WORLD else 1.0 - share
         build = partial(outcomes.join, JointKind.SPRING, ends, context)
-        yield Meaning(name='spring', weight=weight * spring, build=build)
+        yield Meaning(kind=MeaningKind.SPRING, weight=weight * spring, build=build)
     yield Meaning(
-        name='wall',
+        kind=MeaningKind.WALL,
         weight=weight * (1.0 - spring),
         build=partial(outcomes.wall, form.points, context),
     )
@@ -76,7 +76,7 @@ def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
 
 def _scribble_candidates(features: Features) -> Iterator[Candidate]:
     """Yield swings, or loops, that hardly advance; the points are all of it."""
-    if features.swings.count >= _FEWEST and features.swings.spread < _FARTHEST:
+    if features.swings.count >= _FEWEST_OF_SCRIBBLE and features.swings.spread < _FARTHEST:
         yield Candidate(measures=features.measures, points=features.stroke.points)
 
 
@@ -92,9 +92,9 @@ def _scribble_meanings(form: Form, context: Context) -> Iterator[Meaning]:
         middle = 1.0 if others else bodies_under.middle_share_on(crossed, ends)
         spring = _MIDDLE_ON_ENDS.below(middle)
         build = partial(outcomes.join, JointKind.SPRING, ends, context)
-        yield Meaning(name='spring', weight=form.weight * spring, build=build)
+        yield Meaning(kind=MeaningKind.SPRING, weight=form.weight * spring, build=build)
     yield Meaning(
-        name=DELETION,
+        kind=MeaningKind.DELETION,
         weight=form.weight * (1.0 - spring) * (1.0 if covered else MISPLACED),
         build=partial(_delete_bodies, covered, context),
     )

@@ -18,6 +18,7 @@ from physsim_ros.drawing.strokes.stages import (
     Context,
     Form,
     Meaning,
+    MeaningKind,
     MISPLACED,
     Outcome,
     Sign,
@@ -95,7 +96,7 @@ def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     crossing = point_of(form.points[0])
     under = _body_under(crossing, context)
     yield Meaning(
-        name='anchor',
+        kind=MeaningKind.ANCHOR,
         weight=form.weight * (1.0 if under is not None else MISPLACED),
         build=partial(_anchor_body, under, crossing, context),
     )
