@@ -15,8 +15,9 @@ Not here: ROS (`ros` has the node's `WorldControl`), the reading of strokes (`dr
 `sketchpad`. Other folders import the names below.
 """
 
+from physsim_ros.sketchpad.locks import locks_of
 from physsim_ros.sketchpad.results import results_file
-from physsim_ros.sketchpad.rights import locks_of, Role
+from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.class_server import ClassServer
 from physsim_ros.sketchpad.server.seats import WorldAddresses
 from physsim_ros.sketchpad.sketchpad import Sketchpad

@@ -27,16 +27,12 @@ from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Opened
+from physsim_ros.sketchpad.locks import check_locked, check_unchanged
 from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts
 from physsim_ros.sketchpad.person import author_of, Person
 from physsim_ros.sketchpad.results import Results
-from physsim_ros.sketchpad.rights import (
-    check_locked,
-    check_right,
-    check_unchanged,
-    Right,
-)
+from physsim_ros.sketchpad.rights import check_right, Right
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after

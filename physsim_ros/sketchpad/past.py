@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The past for pages: timeline, ghost of a course that was left, pasts of bodies, earlier touches.
+The past that pages ask for: motions of bodies, earlier touches and forces.
 
-Laws: the timeline is sent at once where more than its time changes, else each 0.1 s. The world's
-thread only looks up the snapshots of a body's past; the server's thread makes its columns. Touches
-and forces of the past are those of a replay, so that a gate, or a body, that is chosen after a run
-tells the same.
+Laws: the world's thread only looks up the snapshots of a body's past; the server's thread makes
+its columns. Touches and forces of the past are those of a replay, so that a gate, or a body, that
+is chosen after a run tells the same.
 """
 
 from __future__ import annotations
@@ -26,16 +25,13 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.rope_path import spans
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, rotated_each
 from physsim_ros.simulation.past import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.contacts import touches_content
-from physsim_ros.sketchpad.message import Content, text_content
+from physsim_ros.sketchpad.message import Content
 
-# Time from one timeline to the next while nothing but its time changes [s].
-TIMELINE_PERIOD = 0.1
 # Time of a replay in a period of publishing [s]: a quarter of one of 60 Hz.
 REPLAY_TIME = 0.004
 # Kinds of the forces of a past, as pages call them; air is media and attraction.
@@ -47,76 +43,6 @@ MOST_FRAMES = 3600
 # Time from one past to the next, for all pages together [s]: a past takes some 35 ms of the
 # server's thread.
 PAST_PERIOD = 0.2
-
-
-class TimelineReport:
-    """
-    The status of the timeline that was sent last, and the course of the ghost.
-
-    :param simulation: of the timeline
-    """
-
-    def __init__(self, simulation: Simulation) -> None:
-        self._simulation = simulation
-        self._sent: TimelineStatus | None = None
-        self._read_at = 0.0
-        # The course that was left last.
-        self._beside: CourseSpan | None = None
-
-    def take_status(self, frame: Frame, now: float) -> TimelineStatus | None:
-        """
-        Return the status with a frame; None where it need not be sent.
-
-        :param now: steady time [s]
-        """
-        last = self._sent
-        # A running world without requests changes nothing but its time.
-        runs = frame.passing and not frame.answers
-        known = last is not None and last.speed == frame.speed
-        if runs and known and now - self._read_at < TIMELINE_PERIOD:
-            return None
-        status = self.read_status(now)
-        return None if status == last else status
-
-    def read_status(self, now: float) -> TimelineStatus:
-        """
-        Return the status, to be sent to all pages.
-
-        :param now: steady time [s]
-        """
-        self._sent = status = self._simulation.status
-        self._read_at = now
-        self._beside = max(status.courses, key=lambda each: each.number, default=None)
-        return status
-
-    def ghost(self, snapshot: Snapshot) -> Snapshot | None:
-        """Return the snapshot of the course that was left last at the time of a snapshot."""
-        course, seconds = self._beside, snapshot.stamp * 1e-9
-        if course is None or not course.begins <= seconds <= course.ends:
-            return None
-        return self._simulation.past.course_snapshot(course.number, seconds)
-
-
-def timeline_content(status: TimelineStatus) -> dict[str, Any]:
-    """Return the message of a status; times in [s]."""
-    return {
-        'type': 'timeline',
-        'state': status.state,
-        'speed': status.speed,
-        'oldest': status.oldest,
-        'now': status.now,
-        'newest': status.newest,
-        'course': status.course,
-        'line': status.line,
-        'parts': status.parts,
-        'undo': status.undo,
-        'redo': status.redo,
-        'undo_text': text_content(status.undo),
-        'redo_text': text_content(status.redo),
-        'courses': [
-            {'id': each.number, 'from': each.begins, 'to': each.ends} for each in status.courses
-        ],
-    }
 
 
 class _Search(NamedTuple):

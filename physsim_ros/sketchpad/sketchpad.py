@@ -26,15 +26,17 @@ from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
+from physsim_ros.sketchpad.locks import check_moment
 from physsim_ros.sketchpad.message import answer_content, asker_key, Message
 from physsim_ros.sketchpad.page_session import answers_of, PageSession, Shared
-from physsim_ros.sketchpad.past import BodyPasts, PastContacts, timeline_content, TimelineReport
+from physsim_ros.sketchpad.past import BodyPasts, PastContacts
 from physsim_ros.sketchpad.person import Person
 from physsim_ros.sketchpad.results import Results, results_file
-from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
+from physsim_ros.sketchpad.rights import check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
 from physsim_ros.sketchpad.server.open_pages import MOST_PAGES
 from physsim_ros.sketchpad.server.server import Server
+from physsim_ros.sketchpad.timeline import timeline_content, TimelineReport
 from physsim_ros.sketchpad.world_control import open_content, WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes

@@ -19,7 +19,7 @@ from physsim_ros.model.shapes import Disc
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.requests.parameter_services import MOST_PARAMETERS
-from physsim_ros.sketchpad.rights import MOST_PATTERNS
+from physsim_ros.sketchpad.locks import MOST_PATTERNS
 from physsim_ros.sketchpad.server import website
 from physsim_ros.testing import box, disc, own_context, PhysSim
 import pytest

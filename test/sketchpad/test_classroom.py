@@ -22,10 +22,10 @@ from physsim_ros.model.lesson import LONGEST_TITLE
 from physsim_ros.ros import time_control, world_files
 from physsim_ros.simulation.world import Beginning, beginning_of
 from physsim_ros.sketchpad import file_work, results, Role
+from physsim_ros.sketchpad.locks import MOST_PATTERNS
 from physsim_ros.sketchpad.messages.classroom import LONGEST_ANSWER, LONGEST_MESSAGE
 from physsim_ros.sketchpad.messages.fields import LONGEST_PERSON
 from physsim_ros.sketchpad.results import MOST_RESULTS, Results, results_file
-from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server.access import Access
 import pytest
 from rcl_interfaces.msg import SetParametersResult

@@ -17,8 +17,8 @@ import numpy as np
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.sketchpad import Role
 from physsim_ros.sketchpad.inbox import Opened
+from physsim_ros.sketchpad.locks import MOST_PATTERNS
 from physsim_ros.sketchpad.message import KINDS, Message, read_message
-from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server.server import MOST_BYTES
 from physsim_ros.testing import PhysSim
 import pytest

@@ -16,12 +16,13 @@ from physsim_ros.sketchpad import autosave, message, Role, sketchpad, world_cont
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.page_session import PageSession
-from physsim_ros.sketchpad.past import BodyPasts, TimelineReport
+from physsim_ros.sketchpad.past import BodyPasts
 from physsim_ros.sketchpad.server import gallery, world_handlers
 from physsim_ros.sketchpad.server.frame_feed import FrameFeed
 from physsim_ros.sketchpad.server.open_pages import OpenPages
 from physsim_ros.sketchpad.server.page_handlers import CookieCheck
 from physsim_ros.sketchpad.server.server import Server
+from physsim_ros.sketchpad.timeline import TimelineReport
 import pytest
 
 from .browser import Browser

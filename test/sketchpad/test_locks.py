@@ -19,9 +19,10 @@ from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.world.world import HANDLERS
 from physsim_ros.sketchpad import page_session, Role
+from physsim_ros.sketchpad.locks import check_locked, check_unchanged, Locks
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages.worlds import ACTIONS
-from physsim_ros.sketchpad.rights import check_locked, check_unchanged, Locks, Right
+from physsim_ros.sketchpad.rights import Right
 from physsim_ros.testing import PhysSim
 import pytest
 

@@ -14,12 +14,13 @@ from physsim_ros.model.lesson import LONGEST_TITLE
 from physsim_ros.model.requests import DeleteBodies
 from physsim_ros.model.translation import Text
 from physsim_ros.simulation.entries import Origin, TakeBack, Unread
+from physsim_ros.sketchpad.locks import check_taken_back, locks_of
 from physsim_ros.sketchpad.message import message
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.person import author_of, TEACHER, UNNAMED
-from physsim_ros.sketchpad.rights import check_taken_back, locks_of, Right, Role
+from physsim_ros.sketchpad.rights import Right, Role
 
 # Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
 LONGEST_ANSWER, LONGEST_MESSAGE = 24, 200

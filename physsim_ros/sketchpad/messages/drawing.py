@@ -22,10 +22,11 @@ from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.transform import Point
 from physsim_ros.model.translation import Text
 from physsim_ros.simulation.entries import Origin
+from physsim_ros.sketchpad.locks import check_locked, check_taken_back
 from physsim_ros.sketchpad.message import message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
-from physsim_ros.sketchpad.rights import check_locked, check_taken_back, Right
+from physsim_ros.sketchpad.rights import Right
 
 
 def _samples(value: object, name: str) -> Floats:

@@ -18,11 +18,12 @@ from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced, with_checks
 from physsim_ros.simulation.entries import Origin, Wait
+from physsim_ros.sketchpad.locks import check_moment
 from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession
-from physsim_ros.sketchpad.rights import check_moment, Right
+from physsim_ros.sketchpad.rights import Right
 from physsim_ros.sketchpad.world_control import open_content
 
 # Names of the services that a page may call.
