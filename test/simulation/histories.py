@@ -317,7 +317,8 @@ class Player:
         frames = [*self._frames_overdue(calls), self.sim.apply_requests()]
         later = self._cut(before, gesture)
         self.submitted += requests
-        for frame in frames:
+        # One of steps that were under way shows the line before.
+        for frame in itertools.dropwhile(lambda each: each and not each.answers, frames):
             self.look(frame)
         self._check_done_again(later)
         self.undone.clear()
