@@ -12,13 +12,13 @@ from string import Formatter
 from typing import Any
 
 import physsim_ros
+from physsim_ros.drawing.strokes.stages import MeaningKind
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import _COUNTED, WorldSettings
 from physsim_ros.model.timeline import RunState
 from physsim_ros.model.translation import counted
 from physsim_ros.simulation.world.world import HANDLERS
-from tools.evaluation.scenes import MEANINGS
 
 _FILES = sorted(Path(physsim_ros.__file__).parent.rglob('*.py'))
 _PHRASED: list[Any] = [each for each in HANDLERS if each is not Join]
@@ -42,7 +42,7 @@ NAMES = set(WorldSettings.FIELDS)
 
 def server_texts() -> dict[str, set[str]]:
     """Return the templates of all texts that pages translate, with the names of their values."""
-    texts: dict[str, set[str]] = {meaning: set() for meaning in MEANINGS}
+    texts: dict[str, set[str]] = {str(meaning): set() for meaning in MeaningKind}
     for path in _FILES:
         tree = ast.parse(path.read_text(encoding='utf-8'))
         for call in _calls(tree, 'Text'):
@@ -54,10 +54,6 @@ def server_texts() -> dict[str, set[str]]:
             for number in (1, 2):
                 text = counted(number, ast.literal_eval(call.args[1]))
                 texts[text.template] = set(text.values)
-        for name, key in (('Meaning', 'name'), ('Guess', 'meaning')):
-            given = [each for call in _calls(tree, name) for each in call.keywords]
-            words = [each.value for each in given if each.arg == key]
-            texts |= {str(each.value): set() for each in words if isinstance(each, ast.Constant)}
     return texts
 
 
