@@ -88,7 +88,7 @@ export class Words {
    * @returns {string} what it says; '' where the clock, the hand or the tool show the same
    */
   tell({text, code = '', ok = true}) {
-    const said = capital(this.say(text));
+    const words = this.say(text), said = /^\S+\/\d/.test(words) ? words : capital(words); // a name stays as it is
     return ok ? said : refusalText(code, said);
   }
 
