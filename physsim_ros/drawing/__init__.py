@@ -14,7 +14,7 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.session import Check, DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.stages import Reading
-from physsim_ros.drawing.submission import submit_reading
+from physsim_ros.drawing.submission import submit_reading, submit_told
 
 __all__ = [
     'Check',
@@ -24,4 +24,5 @@ __all__ = [
     'SceneQuery',
     'Tool',
     'submit_reading',
+    'submit_told',
 ]

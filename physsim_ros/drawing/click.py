@@ -17,7 +17,6 @@ import math
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.model.answer import request_count
 from physsim_ros.model.errors import BadSize, nothing_at, UnknownBody
 from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import SMALLEST
@@ -67,11 +66,6 @@ class ClickResult:
 
     requests: tuple[Request, ...] = ()
     message: str = ''
-
-    @property
-    def values(self) -> tuple[tuple[str, str], ...]:
-        """Return the number of requests that the message is about, as a pair of key and value."""
-        return (request_count(len(self.requests)),) if self.requests else ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,7 @@ import time
 
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import Path
-from physsim_ros.drawing import DrawingSession, submit_reading
-from physsim_ros.model.answer import Answer
+from physsim_ros.drawing import DrawingSession, submit_reading, submit_told
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros.frame_loop import FrameLoop
@@ -71,12 +70,7 @@ class DrawingTopics:
         with self._drawing_on_snapshot(origin) as snapshot:
             point, frame = point_in_frame(message, self._frame_id)
             result = self._session.click(point, frame, snapshot)
-            queue = self._simulation.requests
-            if result.message:
-                topic, message = origin.topic, result.message
-                queue.tell(Answer(topic=topic, message=message, values=result.values))
-            if result.requests:
-                queue.submit_gesture(result.requests, origin)
+            submit_told(self._simulation, result.requests, origin, message=result.message)
 
     def _stroke(self, message: Path) -> None:
         origin = Origin('~/stroke', 'poses')

@@ -174,7 +174,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             services,
             loop=loop,
             outputs=outputs,
-            world_files=self.world_files,
+            files=self.world_files,
             live=self._live,
             boundary=boundary,
         )

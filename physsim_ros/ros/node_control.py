@@ -11,7 +11,6 @@ controlled by `time_control`, and world files by `world_files`.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
@@ -37,13 +36,11 @@ class NodeControl:
     :param services: by their names
     :param loop: of the node, which applies requests
     :param outputs: of the node
-    :param world_files: reads and writes the world
+    :param files: reads and writes the world
     :param live: the parameters of the node
     :param boundary: of the node
 
     :ivar values: of the parameters of the node, by name, always up to date
-    :ivar bring_up_to_date: applies the waiting requests, and returns the snapshot that is shown
-    :ivar make_call: makes a call at its time among the requests
     :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
     """
 
@@ -55,37 +52,25 @@ class NodeControl:
         *,
         loop: FrameLoop,
         outputs: Outputs,
-        world_files: WorldFiles,
+        files: WorldFiles,
         live: LiveParameters,
         boundary: ErrorBoundary,
     ) -> None:
         self.boundary = boundary
         self.simulation = simulation
         self.time = time
-        self._services = services
+        self.services = services
         self.values: Mapping[str, Any] = live.values
         self.on_quit: Callable[[], object] | None = None
         self._is_quitting = False
-        self._loop = loop
-        self.bring_up_to_date = loop.bring_up_to_date
-        self.make_call = loop.make_call
+        self.loop = loop
         self._outputs = outputs
-        self._files = world_files
+        self.files = files
         self._live = live
         # The world whose bodies are locked: the one that was loaded last when they were.
         self._locked_in = simulation.loaded.world
 
     # Values
-
-    @property
-    def world_dir(self) -> Path:
-        """Return the directory of the user's worlds."""
-        return self._files.directory
-
-    @property
-    def lesson_dir(self) -> Path:
-        """Return the directory of the user's lessons."""
-        return self._files.lessons
 
     @property
     def drawing_settings(self) -> DrawingSettings:
@@ -96,11 +81,6 @@ class NodeControl:
     def recording_address(self) -> str:
         """Return the address of the viewer's web page on this machine; '' while there is none."""
         return self._outputs.viewer.page_address
-
-    @property
-    def is_frozen(self) -> bool:
-        """Whether pages of pupils change nothing."""
-        return bool(self.values['sketchpad_frozen'])
 
     @property
     def locked_bodies(self) -> tuple[str, ...]:
@@ -121,11 +101,7 @@ class NodeControl:
         """
         self._live.set_together([Parameter(name, value=value)])
 
-    # Requests
-
-    def service(self, name: str) -> Service:
-        """Return a service."""
-        return self._services[name]
+    # World files
 
     async def load_world(self, world: str) -> str:
         """
@@ -133,7 +109,7 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        return await self._with_file(world, self._files.load(world))
+        return await self._with_file(world, self.files.load(world))
 
     async def open_world(self, world: str) -> str:
         """
@@ -141,7 +117,7 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        return await self._with_file(world, self._files.open_world(world))
+        return await self._with_file(world, self.files.open_world(world))
 
     async def save_world(self, world: str) -> str:
         """
@@ -149,7 +125,7 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        return await self._with_file(world, self._files.save(world))
+        return await self._with_file(world, self.files.save(world))
 
     async def _with_file(self, world: str, work: Slices[str]) -> str:
         """Carry out work on the world of a name, and have parameter `world_file` name it then."""
@@ -160,7 +136,7 @@ class NodeControl:
     def note_change(self) -> None:
         """Have the parameters mirror the world, and a short seek be done at once."""
         self._live.mirror_world()
-        self._loop.finish_short_seek()
+        self.loop.finish_short_seek()
 
     # The end of the program
 

@@ -69,6 +69,8 @@ class Pages:
         try:
             sketchpad = Sketchpad(
                 self._control,
+                directory=self._control.files.directory,
+                lessons=self._control.files.lessons,
                 address=values['sketchpad_address'],
                 port=values['sketchpad_port'],
                 wake=self._wake,

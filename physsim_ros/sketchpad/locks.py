@@ -65,7 +65,7 @@ def locks_of(names: tuple[str, ...]) -> Locks:
     return Locks(names)
 
 
-def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> None:
+def check_locked(role: Role, wanted: Iterable[Request], control: WorldControl) -> None:
     """
     Refuse requests that concern locked bodies, but for a teacher.
 
@@ -75,66 +75,68 @@ def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> 
     """
     # A hand lets go anywhere, and at any time.
     wanted = [each for each in wanted if not isinstance(each, requests.LetGo)]
-    if not wanted or not world.locked_bodies or role is Role.TEACH:
+    if not wanted or not control.locked_bodies or role is Role.TEACH:
         return
-    snapshot = world.bring_up_to_date()
-    _check_newest(world)
-    _check_names((name for each in wanted for name in _bodies_of(each, snapshot)), world)
+    snapshot = control.loop.bring_up_to_date()
+    _check_newest(control)
+    _check_names((name for each in wanted for name in _bodies_of(each, snapshot)), control)
 
 
-def check_unchanged(role: Role, locked: Collection[str], world: WorldControl) -> None:
+def check_unchanged(role: Role, locked: Collection[str], control: WorldControl) -> None:
     """
     Refuse what waited while a teacher froze the pages or locked bodies, but for a teacher.
 
     :param locked: patterns of the bodies that were locked when it came
     :raises Frozen: it has to be asked for again
     """
-    check_right(Right.CHANGE, role, frozen=world.is_frozen)
-    if role is not Role.TEACH and not set(locked).issuperset(world.locked_bodies):
+    check_right(Right.CHANGE, role, frozen=control.values['sketchpad_frozen'])
+    if role is not Role.TEACH and not set(locked).issuperset(control.locked_bodies):
         raise Frozen('a teacher has locked bodies meanwhile', field='name')
 
 
-def check_moment(role: Role, world: WorldControl) -> None:
+def check_moment(role: Role, control: WorldControl) -> None:
     """
     Refuse what replaces all bodies, by those of another moment or world, but for a teacher.
 
     :raises Frozen: a body of this world is locked
     """
-    check_locked(role, (requests.DeleteAll(),), world)
+    check_locked(role, (requests.DeleteAll(),), control)
 
 
-def check_taken_back(role: Role, gestures: Collection[int], world: WorldControl) -> None:
+def check_taken_back(
+    role: Role, gestures: Collection[int], snapshot: Snapshot, control: WorldControl
+) -> None:
     """
     Refuse to take back gestures that concern locked bodies, but for a teacher.
 
     :param gestures: their numbers
+    :param snapshot: of now
     :raises Frozen: one of them does
     """
-    if not gestures or not world.locked_bodies or role is Role.TEACH:
+    if not gestures or not control.locked_bodies or role is Role.TEACH:
         return
-    snapshot = world.bring_up_to_date()
-    _check_newest(world)
-    nodes = world.simulation.past.line.nodes_of(gestures)
-    _check_names((name for each in nodes for name in _bodies_then(each, snapshot)), world)
+    _check_newest(control)
+    nodes = control.simulation.past.line.nodes_of(gestures)
+    _check_names((name for each in nodes for name in _bodies_then(each, snapshot)), control)
 
 
-def _check_newest(world: WorldControl) -> None:
+def _check_newest(control: WorldControl) -> None:
     """
     Refuse to change the past of a world in which bodies are locked.
 
     :raises Frozen: the past is shown
     """
-    if not world.simulation.playback.is_newest:
+    if not control.simulation.playback.is_newest:
         raise Frozen('the past is shown, and bodies are locked by a teacher', field='history')
 
 
-def _check_names(names: Iterable[str], world: WorldControl) -> None:
+def _check_names(names: Iterable[str], control: WorldControl) -> None:
     """
     Refuse names of locked bodies.
 
     :raises Frozen: one of them is
     """
-    locks = locks_of(world.locked_bodies)
+    locks = locks_of(control.locked_bodies)
     for name in names:
         # Patterns are those of bodies.
         if name != WORLD and locks.has(name):

@@ -14,6 +14,7 @@ from functools import partial
 import time
 from typing import Any, NamedTuple
 
+from physsim_ros.drawing import submit_told
 from physsim_ros.files import OwnWorlds
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
@@ -44,7 +45,7 @@ class Shared(NamedTuple):
     """
     What all pages of a world share.
 
-    :ivar world: that they draw in
+    :ivar control: of the world that they draw in
     :ivar send: sends a message to the page of a number, or to all
     :ivar pasts: of bodies that pages plot
     :ivar past_contacts: contacts of the past that pages ask for
@@ -56,7 +57,7 @@ class Shared(NamedTuple):
     :ivar ask_to_leave: asks the pupils who have come until now to leave
     """
 
-    world: WorldControl
+    control: WorldControl
     send: Callable[[Content, int | None], None]
     pasts: BodyPasts
     past_contacts: PastContacts
@@ -77,7 +78,7 @@ class PageSession:
     :param person: at it
     :param shared: with other pages
 
-    :ivar world: that it draws in
+    :ivar control: of the world that it draws in
     :ivar role: its rights
     :ivar watches: whether a teacher watches a class with it, and is nobody in this world
     :ivar hand: name of its hand in the world
@@ -89,7 +90,7 @@ class PageSession:
         self.number = number
         self.person = person
         self.shared = shared
-        self.world = shared.world
+        self.control = shared.control
         self.role = opened.role
         self.watches = opened.watches
         self.hand = f'page {number}'
@@ -101,17 +102,17 @@ class PageSession:
 
     def handle(self, message: Message) -> None:
         """Carry out a message."""
-        self.person.drawing.settings = self.world.drawing_settings
+        self.person.drawing.settings = self.control.drawing_settings
         kind = message.kind
         asker = asker_key(self.number, message.request)
         origin = Origin(kind.topic, asker=asker, author=author_of(self.person.name, self.role))
         if kind.right is Right.CHANGE:
-            locked = self.world.locked_bodies
-            check = partial(check_unchanged, self.role, locked, self.world)
+            locked = self.control.locked_bodies
+            check = partial(check_unchanged, self.role, locked, self.control)
             origin = origin._replace(check=check)
         try:
-            with self.world.boundary.message(kind.topic):
-                check_right(kind.right, self.role, frozen=self.world.is_frozen)
+            with self.control.boundary.message(kind.topic):
+                check_right(kind.right, self.role, frozen=self.control.values['sketchpad_frozen'])
                 kind.handle(self, origin, **message.arguments)
         except Refusal as refusal:
             self.refuse(origin, refusal)
@@ -127,7 +128,7 @@ class PageSession:
             return
         keep = KeepHand(hand=self.hand)
         try:
-            check_locked(self.role, (keep,), self.world)
+            check_locked(self.role, (keep,), self.control)
         except Frozen:
             self._hand_used = None
             self._submit_unasked(LetGo(hand=self.hand))
@@ -138,7 +139,7 @@ class PageSession:
     def tell_touches(self, frame: Frame) -> None:
         """Tell the page which of the bodies that it follows were touched in a frame, and when."""
         if self.followed:
-            rate = self.world.simulation.physics_rate
+            rate = self.control.simulation.physics_rate
             content = touches_content(frame.snapshot, frame.contacts, self.followed, rate)
             if content is not None:
                 self.send(content)
@@ -158,24 +159,19 @@ class PageSession:
         requests: Iterable[Request],
         *,
         message: str = '',
-        values: tuple[tuple[str, str], ...] = (),
         gesture: int | None = None,
     ) -> int:
         """
         Submit requests that are undone together, and return the number of their gesture.
 
         :param message: that is answered first; '' is none
-        :param values: of that answer; `requests` of the answers after it belong to it
         :param gesture: number of an earlier gesture that they are in, too
         :raises Frozen: one of them concerns a locked body; none is submitted
         """
         requests = tuple(requests)
-        check_locked(self.role, requests, self.world)
-        queue = self.world.simulation.requests
-        if message:
-            topic, asker = origin.topic, origin.asker
-            queue.tell(Answer(topic=topic, message=message, values=values, asker=asker))
-        return queue.submit_gesture(requests, origin, gesture) if requests else 0
+        check_locked(self.role, requests, self.control)
+        simulation = self.control.simulation
+        return submit_told(simulation, requests, origin, message=message, gesture=gesture)
 
     def use_hand(self, origin: Origin, request: HandRequest) -> None:
         """
@@ -183,8 +179,8 @@ class PageSession:
 
         :raises Frozen: it grabs a locked body
         """
-        check_locked(self.role, (request,), self.world)
-        self.world.simulation.requests.submit(request, origin)
+        check_locked(self.role, (request,), self.control)
+        self.control.simulation.requests.submit(request, origin)
         self._hand_used = None if isinstance(request, LetGo) else time.monotonic()
 
     # Answers
@@ -199,7 +195,7 @@ class PageSession:
 
     def refuse(self, origin: Origin, refusal: Refusal) -> None:
         """Queue the refusal of a message."""
-        self.world.simulation.requests.refuse(refusal, origin)
+        self.control.simulation.requests.refuse(refusal, origin)
 
     def answer_page(self, origin: Origin, message: str, **details: Any) -> None:
         """
@@ -220,7 +216,7 @@ class PageSession:
         async def answer() -> tuple[Answer, ...]:
             done = self.shared.file_work.do(work)
             try:
-                message = await self.world.boundary.slices_of_message(origin.topic, done)
+                message = await self.control.boundary.slices_of_message(origin.topic, done)
             except Refusal as refusal:
                 self.refuse(origin, refusal)
             else:
@@ -236,19 +232,19 @@ class PageSession:
         :param action: returns a message about it; raises a PhysSimError where it is refused
         :param wait: time of the action
         """
-        boundary = self.world.boundary
+        boundary = self.control.boundary
         self.call(origin, partial(answers_of, origin, action, boundary), wait)
 
     def call(self, origin: Origin, call: Sliced[Sequence[Answer]], wait: Wait) -> None:
         """Make a call at its time, or refuse it where too many wait."""
         try:
-            self.world.make_call(call, wait)
+            self.control.loop.make_call(call, wait)
         except Busy as refusal:
             self.refuse(origin, refusal)
 
     def _submit_unasked(self, request: HandRequest) -> None:
         """Submit a request of the hand that no message asks for."""
-        self.world.simulation.requests.submit(request, topic='~/drag/feedback')
+        self.control.simulation.requests.submit(request, topic='~/drag/feedback')
 
     def _send_preview(self) -> None:
         """Send the page its unfinished gesture, if that has changed."""

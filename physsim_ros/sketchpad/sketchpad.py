@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 import time
 from typing import Any
 
@@ -48,7 +49,9 @@ class Sketchpad:
     """
     The sketchpad of a world.
 
-    :param world: that the pages draw in
+    :param control: of the world that the pages draw in
+    :param directory: of the user's worlds
+    :param lessons: directory of the user's lessons
     :param address: to listen on
     :param port: to listen on, or the first free one after it
     :param wake: called on another thread when a message has come, or a file is written
@@ -61,20 +64,21 @@ class Sketchpad:
 
     def __init__(
         self,
-        world: WorldControl,
+        control: WorldControl,
         *,
+        directory: Path,
+        lessons: Path,
         address: str,
         port: int,
         wake: Callable[[], None],
     ) -> None:
-        self._world = world
-        self._boundary = world.boundary
-        self._simulation = world.simulation
+        self._control = control
+        self._boundary = control.boundary
+        self._simulation = simulation = control.simulation
         self._inbox = Inbox(wake)
-        self._timeline = TimelineReport(world.simulation)
-        self._contacts = LastContacts(world.simulation.forces_now)
-        directory = world.world_dir
-        own_worlds, results = OwnWorlds(directory, world.lesson_dir), results_file(directory)
+        self._timeline = TimelineReport(simulation)
+        self._contacts = LastContacts(simulation.forces_now)
+        own_worlds, results = OwnWorlds(directory, lessons), results_file(directory)
         self._file_work, self._lock = FileWork(wake), DirectoryLock(directory)
         self._autosave = Autosave(
             directory, self._lock, self._file_work, self._world_text, self._named_people
@@ -94,16 +98,16 @@ class Sketchpad:
             self._lock.release()
             raise
         self._shared = Shared(
-            world,
-            self._server.send,
-            BodyPasts(world.simulation, self._server.send),
-            PastContacts(world.simulation, self._server.send),
-            own_worlds,
-            self._autosave,
-            Results(results, self._lock),
-            self._file_work,
-            self._server.list_worlds,
-            self._server.ask_to_leave,
+            control=control,
+            send=self._server.send,
+            pasts=BodyPasts(simulation, self._server.send),
+            past_contacts=PastContacts(simulation, self._server.send),
+            own_worlds=own_worlds,
+            autosave=self._autosave,
+            results=Results(results, self._lock),
+            file_work=self._file_work,
+            list_worlds=self._server.list_worlds,
+            ask_to_leave=self._server.ask_to_leave,
         )
         self._sessions: dict[int, PageSession] = {}
         # Those who came last, by number and role: their pages may connect again.
@@ -112,10 +116,10 @@ class Sketchpad:
         self._colors: dict[str, int] = {}
         # The last one; None before the first.
         self._frame: Frame | None = None
-        self._sent_recording = world.recording_address
+        self._sent_recording = control.recording_address
         self._sent_class: dict[str, Any] = {}
         if self.autosave_failure is not None:
-            self._simulation.requests.tell(self.autosave_failure)
+            simulation.requests.tell(self.autosave_failure)
 
     def url(self, role: Role = Role.DRAW) -> str:
         """Return the address of a page with its token."""
@@ -139,10 +143,15 @@ class Sketchpad:
         )
 
     def handle_messages(self) -> None:
-        """Carry out the messages of pages that have come, as many as there is time for."""
+        """Carry out messages of pages for a bounded time, between the periodic work and sends."""
         now = time.monotonic()
         with self._boundary.output('page'):
-            self._do_periodic_work(now)
+            self._simulation.requests.continue_calls()
+            self._keep_hands(now)
+            self._send_pasts(now)
+            with self._boundary.output('autosave'):
+                self._save_if_due(now)
+            self._send_recording_address()
         self._handle_until(now + BUDGET)
         with self._boundary.output('page'):
             self._send_class()
@@ -192,24 +201,25 @@ class Sketchpad:
         self._server.close()
         self._file_work.submit(self._lock.release)
 
-    def _do_periodic_work(self, now: float) -> None:
-        """
-        Go on with work on files, keep hands, send pasts, autosave, tell of the recording.
-
-        :param now: steady time [s]
-        """
-        self._simulation.requests.continue_calls()
+    def _keep_hands(self, now: float) -> None:
         for session in self._sessions.values():
             session.keep_hand(now)
+
+    def _send_pasts(self, now: float) -> None:
         self._shared.pasts.send_due(now)
         self._shared.past_contacts.send_due()
-        with self._boundary.output('autosave'):
-            if (event := self._autosave.note_end()) is not None:
-                self._simulation.requests.tell(event)
-            if self._autosave.is_due(now) and self._simulation.playback.is_there:
-                self._autosave.save()
-        if self._world.recording_address != self._sent_recording:
-            self._sent_recording = self._world.recording_address
+
+    def _save_if_due(self, now: float) -> None:
+        """Tell how the last autosave has ended, and begin the next one where it is due."""
+        if (event := self._autosave.note_end()) is not None:
+            self._simulation.requests.tell(event)
+        if self._autosave.is_due(now) and self._simulation.playback.is_there:
+            self._autosave.save()
+
+    def _send_recording_address(self) -> None:
+        """Tell all pages the address of the viewer, if it changed."""
+        if self._control.recording_address != self._sent_recording:
+            self._sent_recording = self._control.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
     def _choose_colors(self) -> None:
@@ -237,8 +247,8 @@ class Sketchpad:
         ]
         content = {
             'type': 'class',
-            'frozen': self._world.is_frozen,
-            'locked': self._world.locked_bodies,
+            'frozen': self._control.values['sketchpad_frozen'],
+            'locked': self._control.locked_bodies,
             'people': people,
             'watched': any(session.watches for session in self._sessions.values()),
         }
@@ -264,7 +274,7 @@ class Sketchpad:
 
         async def answers() -> tuple[Answer]:
             load: Sliced[str] = partial(open_content, simulation, upload.content)
-            check = partial(check_moment, upload.role, self._world)
+            check = partial(check_moment, upload.role, self._control)
             call = partial(with_checks, load, check)
             (answer,) = await answers_of(origin, call, self._boundary)
             upload.reply(answer)
@@ -272,8 +282,9 @@ class Sketchpad:
 
         try:
             with self._boundary.message(origin.topic):
-                check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
-                self._world.make_call(answers, Wait.FOR_SEEK)
+                frozen = self._control.values['sketchpad_frozen']
+                check_right(Right.CHANGE, upload.role, frozen=frozen)
+                self._control.loop.make_call(answers, Wait.FOR_SEEK)
         except Refusal as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
             simulation.requests.refuse(refusal, origin)
@@ -283,7 +294,7 @@ class Sketchpad:
         key = opened.person, opened.role
         person = self._people.pop(key, None)
         if person is None or not opened.goes_on:
-            person = Person(*key, self._world.drawing_settings)
+            person = Person(*key, self._control.drawing_settings)
         # The page has dropped what it does not send again.
         person.drawing.drop()
         self._people[key] = person
@@ -297,7 +308,7 @@ class Sketchpad:
         person = self._person_at(opened)
         self._sessions[number] = PageSession(number, opened, person, self._shared)
         simulation, settings = self._simulation, self._simulation.settings
-        drawing = self._world.drawing_settings
+        drawing = self._control.drawing_settings
         self._server.send(
             {
                 'type': 'welcome',
@@ -306,9 +317,9 @@ class Sketchpad:
                 'received': opened.received,
                 'version': VERSION,
                 'physics_rate': simulation.physics_rate,
-                'frame_id': self._world.values['frame_id'],
-                'rate': self._world.values['publish_rate'],
-                'rerun': self._world.recording_address,
+                'frame_id': self._control.values['frame_id'],
+                'rate': self._control.values['publish_rate'],
+                'rerun': self._control.recording_address,
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,
                 'unsaved': self._autosave.unsaved_at if role.draws else 0.0,

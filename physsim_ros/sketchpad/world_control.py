@@ -10,9 +10,8 @@ pages have names, and an undo of their own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Any, Protocol
 
 from physsim_ros.drawing import DrawingSettings
@@ -24,6 +23,20 @@ from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of
+
+
+class Loop(Protocol):
+    """The loop that applies requests between frames."""
+
+    def bring_up_to_date(self) -> Snapshot:
+        """Apply the waiting requests, and return the snapshot that is shown."""
+
+    def make_call(self, call: Sliced[Sequence[Answer]], wait: Wait) -> None:
+        """
+        Make a call at its time among the requests, and tell its answers.
+
+        :raises Busy: too many requests wait
+        """
 
 
 class TimeControl(Protocol):
@@ -44,6 +57,8 @@ class WorldControl(Protocol):
     """
     The control of a world; a returned text is a message about what was done.
 
+    What cannot be done raises a PhysSimError, and nothing has changed.
+
     :ivar boundary: of the node
     :ivar simulation: the world and its time
     :ivar values: of the parameters of the node, by name, always up to date
@@ -54,16 +69,16 @@ class WorldControl(Protocol):
     values: Mapping[str, Any]
 
     @property
+    def loop(self) -> Loop:
+        """Return the loop of the node."""
+
+    @property
     def time(self) -> TimeControl:
         """Return the control of time."""
 
     @property
-    def world_dir(self) -> Path:
-        """Return the directory of the user's worlds."""
-
-    @property
-    def lesson_dir(self) -> Path:
-        """Return the directory of the user's lessons."""
+    def services(self) -> Mapping[str, tuple[Sliced[str], Wait]]:
+        """Return the actions of services, and when they are performed, by name."""
 
     @property
     def drawing_settings(self) -> DrawingSettings:
@@ -74,59 +89,20 @@ class WorldControl(Protocol):
         """Return the address of the viewer's web page on this machine; '' while there is none."""
 
     @property
-    def is_frozen(self) -> bool:
-        """Whether pages of pupils change nothing."""
-
-    @property
     def locked_bodies(self) -> tuple[str, ...]:
         """Return patterns of the names of bodies that pupils do not change."""
 
-    def bring_up_to_date(self) -> Snapshot:
-        """Apply the waiting requests, and return the snapshot that is shown."""
-
-    def make_call(
-        self,
-        call: Sliced[Sequence[Answer]],
-        wait: Wait,
-        on_told: Callable[[], object] = lambda: None,
-    ) -> None:
-        """
-        Make a call at its time among the requests, and tell its answers.
-
-        :param on_told: called when its answers are told
-        :raises Busy: too many requests wait
-        """
-
     def set_parameter(self, name: str, value: object) -> None:
-        """
-        Set a parameter.
-
-        :raises Refusal: it is refused
-        """
-
-    def service(self, name: str) -> tuple[Sliced[str], Wait]:
-        """Return the action of a service, which raises a PhysSimError, and its time."""
+        """Set a parameter."""
 
     async def load_world(self, world: str) -> str:
-        """
-        Replace the world by that of a name; time goes on.
-
-        :raises PhysSimError: it is refused, and nothing has changed
-        """
+        """Replace the world by that of a name; time goes on."""
 
     async def open_world(self, world: str) -> str:
-        """
-        Begin with the world of a name, at time 0; undo reverts it.
-
-        :raises PhysSimError: it is refused, and nothing has changed
-        """
+        """Begin with the world of a name, at time 0; undo reverts it."""
 
     async def save_world(self, world: str) -> str:
-        """
-        Save the world under a name; time goes on.
-
-        :raises PhysSimError: it is refused, and nothing has changed
-        """
+        """Save the world under a name; time goes on."""
 
 
 async def open_content(simulation: Simulation, content: Mapping[str, Any]) -> str:

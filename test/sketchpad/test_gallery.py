@@ -36,7 +36,7 @@ def test_pages_go_on_while_lessons_are_read_which_is_done_once_for_all_that_ask(
         return load_world(path)
 
     monkeypatch.setattr(gallery, 'load_world', load_slowly)
-    lessons = browser.physsim.node.control.lesson_dir
+    lessons = browser.physsim.node.control.files.lessons
     lessons.mkdir()
     lesson = (shipped_lessons() / 'lever.yaml').read_text().replace('title: Lever', 'title: Own')
     for number in range(2):

@@ -376,3 +376,23 @@ def test_what_waits_while_a_body_is_locked_is_refused_in_its_turn(
     (answer,) = (each for each in node.loop.apply_requests() if each.topic == 'x')
     assert answer.code == 'frozen'
     assert 'a/0' in browser.physsim.names
+
+
+def test_a_gesture_that_is_taken_back_is_looked_up_in_its_turn(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The first of two is under way when the second comes: the last gesture is another then."""
+    pupil, _ = opened(browser, tmp_path)
+    assert pupil.spawn('b/9', 40.0)['ok']
+    before, node = states_of(browser.physsim, ['a/*']), browser.physsim.node
+    # As between two ticks.
+    monkeypatch.setattr(node.loop, 'started', True)
+    first, second, heard = *(pupil.send('take_back') for _ in '12'), pupil.send('drop')
+    handle = node.outputs.sketchpad.handle_messages
+    pupil.until(lambda: handle() or pupil.answers(heard))
+    assert not pupil.answers(first)
+    node.loop.apply_requests()
+    pupil.until(lambda: pupil.answers(second))
+    assert pupil.answers(first)[0]['ok']
+    assert pupil.answers(second)[0]['code'] == 'frozen'
+    assert states_of(browser.physsim, ['a/*']) == before

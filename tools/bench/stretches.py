@@ -149,7 +149,7 @@ def save(watched: Watched, _: str) -> None:
 
 def of_service(name: str) -> Operation:
     """Return the operation that calls a service."""
-    return lambda watched, _: watched.call(*watched.node.control.service(name))
+    return lambda watched, _: watched.call(*watched.node.control.services[name])
 
 
 # By the head of the column; they are carried out in this order.

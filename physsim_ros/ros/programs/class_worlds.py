@@ -80,7 +80,7 @@ def _print_addresses(number: int, node: PhysSimNode) -> None:
         addresses = {
             'pupil': sketchpad.url(),
             'teacher': sketchpad.url(Role.TEACH),
-            'results': str(results_file(node.control.world_dir)),
+            'results': str(results_file(node.world_files.directory)),
         }
         sys.stdout.write(json.dumps({'number': number, **addresses}) + '\n')
         sys.stdout.flush()

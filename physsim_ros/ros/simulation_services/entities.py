@@ -54,14 +54,14 @@ class Entities:
 
     def state(self, request: Any, response: Any) -> str:
         """Tell pose and twist of a body."""
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         response.state = self._state_of(snapshot, snapshot.row(request.entity))
         return ''
 
     def set_state(self, request: Any, _: Any) -> str:
         """Set pose and twist of a body, both in the frame of the world."""
         state, name = request.state, request.entity
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         body = snapshot.scene.bodies[snapshot.row(name)]
         if named_frame(state.header.frame_id, self._frame_id):
             raise coded(
@@ -84,14 +84,14 @@ class Entities:
 
     def names(self, request: Any, response: Any) -> str:
         """Tell the names of all bodies that pass filters."""
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         rows = passing(snapshot, request.filters)
         response.entities = [snapshot.scene.names[row] for row in rows]
         return ''
 
     def states(self, request: Any, response: Any) -> str:
         """Tell names, poses and twists of all bodies that pass filters."""
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         rows = list(passing(snapshot, request.filters))
         response.entities = [snapshot.scene.names[row] for row in rows]
         response.states = [self._state_of(snapshot, row) for row in rows]
@@ -99,7 +99,7 @@ class Entities:
 
     def info(self, request: Any, response: Any) -> str:
         """Tell what a body is."""
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         body = snapshot.scene.bodies[snapshot.row(request.entity)]
         response.info = EntityInfo(
             category=EntityCategory(category=category_of(body)),
@@ -110,7 +110,7 @@ class Entities:
 
     def set_info(self, request: Any, _: Any) -> str:
         """Set the label of a body to a description."""
-        snapshot, info = self._control.bring_up_to_date(), request.info
+        snapshot, info = self._control.loop.bring_up_to_date(), request.info
         body = snapshot.scene.bodies[snapshot.row(request.entity)]
         # The first category is also that of a message in which none was set.
         categories = EntityCategory.CATEGORY_OBJECT, category_of(body)
@@ -135,7 +135,7 @@ class Entities:
 
     def bounds(self, request: Any, response: Any) -> str:
         """Tell the box around a body, in the body's frame."""
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         response.bounds = box_around(snapshot.scene.bodies[snapshot.row(request.entity)].shape)
         return ''
 

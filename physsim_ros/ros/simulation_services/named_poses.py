@@ -35,7 +35,7 @@ class NamedPoses:
 
     def poses(self, request: Any, response: Any) -> str:
         """Tell the places whose tags pass a filter."""
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         response.poses = [
             _named_pose(snapshot, row, body)
             for row, body in _places(snapshot)
@@ -45,7 +45,7 @@ class NamedPoses:
 
     def bounds(self, request: Any, response: Any) -> str:
         """Tell the box around a place, in the frame of its pose."""
-        snapshot = self._control.bring_up_to_date()
+        snapshot = self._control.loop.bring_up_to_date()
         body = next((body for _, body in _places(snapshot) if body.name == request.name), None)
         if body is None:
             raise UnknownBody(f'there is no named pose {request.name!r}', field='name')

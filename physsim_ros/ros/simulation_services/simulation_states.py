@@ -183,7 +183,7 @@ class SimulationStates:
             return simulation.load(await self._control.time.beginning())
         if scope == _SPAWNED:
             known = {each.body.name for each in loaded.bodies}
-            scene = self._control.bring_up_to_date().scene
+            scene = self._control.loop.bring_up_to_date().scene
             spawned = tuple(name for name in scene.names if name not in known)
             return (
                 simulation.perform(DeleteBodies(names=spawned)) if spawned else 'none was spawned'

@@ -84,7 +84,7 @@ class Spawning:
             entity_namespace=request.entity_namespace,
             initial_pose=request.initial_pose,
         )
-        names = NewNames(self._control.bring_up_to_date().scene.row_of)
+        names = NewNames(self._control.loop.bring_up_to_date().scene.row_of)
         spawn = self._request_of(wanted, names)
         message = self._perform(spawn, self._control.simulation.requests.begin_gesture())
         response.entity_name = spawn.name
@@ -100,7 +100,7 @@ class Spawning:
                 Result.RESULT_OPERATION_FAILED,
                 field='spawn_requests',
             )
-        names = NewNames(self._control.bring_up_to_date().scene.row_of)
+        names = NewNames(self._control.loop.bring_up_to_date().scene.row_of)
         gesture = self._control.simulation.requests.begin_gesture()
         for each in request.spawn_requests:
             result = SpawnResult()

@@ -62,7 +62,7 @@ class Worlds:
 
     def available(self, request: Any, response: Any) -> str:
         """List the worlds that `load` takes by name."""
-        unknown, own = unknown_sources(request.additional_sources), self._control.world_dir
+        unknown, own = unknown_sources(request.additional_sources), self._control.files.directory
         if not request.continue_on_error:
             if unknown:
                 raise coded(unknown, Result.RESULT_FEATURE_UNSUPPORTED, field='additional_sources')
@@ -137,8 +137,8 @@ class Worlds:
     def _files(self) -> dict[str, tuple[str, Path]]:
         """Return tag and file of each world by its name, as `find_world` finds them."""
         directories = (
-            ('own', self._control.world_dir),
-            ('lesson', self._control.lesson_dir),
+            ('own', self._control.files.directory),
+            ('lesson', self._control.files.lessons),
             ('shipped', shipped_worlds()),
             ('lesson', shipped_lessons()),
         )

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
-from physsim_ros.model.answer import request_count
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import FASTEST, flag, HEAVIEST, pair, VELOCITY, Within
 from physsim_ros.model.declarations import without_unset
@@ -109,7 +108,7 @@ def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
 def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Add bodies like others, of a part the whole robot, with their joints, at a distance [m]."""
-    requests = page.person.drawing.copy_machine(names, by, page.world.bring_up_to_date())
+    requests = page.person.drawing.copy_machine(names, by, page.control.loop.bring_up_to_date())
     if len(requests) == 1:
         page.submit(origin, requests)
         return
@@ -117,7 +116,7 @@ def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: 
     robots = [each.properties.robot is not None for each in requests if isinstance(each, Spawn)]
     copied = Text('a robot') if robots == [True] else counted(len(robots), 'body')
     message = Text('copied {bodies}', bodies=copied)
-    page.submit(origin, requests, message=message, values=(request_count(len(requests)),))
+    page.submit(origin, requests, message=message)
 
 
 @message('delete', '~/spawn', names=fields.names)
@@ -161,7 +160,7 @@ def drive(page: PageSession, origin: Origin, name: str, velocity: Twist) -> None
 @message('change_joint', '~/join', name=fields.text, properties=_joint_changes)
 def change_joint(page: PageSession, origin: Origin, name: str, properties: dict[str, Any]) -> None:
     """Change the properties of a joint that are given, where the joint is."""
-    snapshot = page.world.bring_up_to_date()
+    snapshot = page.control.loop.bring_up_to_date()
     scene = snapshot.scene
     joint = next((each for each in scene.joints if each.name == name), None)
     if joint is None:

@@ -116,18 +116,22 @@ def say(page: PageSession, origin: Origin, text: str) -> None:
 @message('take_back', '~/undo')
 def take_back(page: PageSession, origin: Origin) -> None:
     """Undo the last gesture of the person at this page, where it stands alone; time stays."""
-    # The last one may wait.
-    page.world.bring_up_to_date()
-    simulation = page.world.simulation
-    last = simulation.past.line.last_gesture_of(origin.author)
-    check_taken_back(page.role, () if last is None else (last.gesture,), page.world)
-    simulation.requests.submit(TakeBack(), origin)
+    simulation = page.control.simulation
+
+    def check() -> None:
+        origin.check()
+        last = simulation.past.line.last_gesture_of(origin.author)
+        gestures, snapshot = () if last is None else (last.gesture,), simulation.world.snapshot()
+        check_taken_back(page.role, gestures, snapshot, page.control)
+
+    # What waits before it may add a gesture of this person, or take one back.
+    simulation.requests.submit(TakeBack(), origin._replace(check=check))
 
 
 @message('freeze', 'page', Right.TEACH, frozen=flag)
 def freeze(page: PageSession, origin: Origin, *, frozen: bool) -> None:
     """Freeze the pages of pupils, or free them."""
-    page.world.set_parameter('sketchpad_frozen', frozen)
+    page.control.set_parameter('sketchpad_frozen', frozen)
     told = Text('the pages are frozen' if frozen else 'the pages are no longer frozen')
     page.answer_page(origin, told)
 
@@ -135,7 +139,7 @@ def freeze(page: PageSession, origin: Origin, *, frozen: bool) -> None:
 @message('lock', 'page', Right.TEACH, names=_patterns)
 def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     """Lock bodies, so that pages of pupils do not change them, in place of those before."""
-    page.world.set_parameter('sketchpad_locked', ','.join(names))
+    page.control.set_parameter('sketchpad_locked', ','.join(names))
     locked = Text('locked {names}', names=', '.join(names))
     page.answer_page(origin, locked if names else Text('no body is locked'))
 
@@ -145,7 +149,7 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added since the beginning of the history."""
 
     def deletion() -> DeleteBodies:
-        past = page.world.simulation.past
+        past = page.control.simulation.past
         added = [past.added_by(author_of(person, role)) for role in (Role.DRAW, Role.TEACH)]
         bodies, joints = (tuple(itertools.chain(*each)) for each in zip(*added, strict=True))
         if not bodies and not joints:
@@ -153,4 +157,4 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
         return DeleteBodies(names=bodies, joints=joints)
 
     # Requests that wait may add some.
-    page.world.simulation.requests.submit(Unread('', deletion), origin)
+    page.control.simulation.requests.submit(Unread('', deletion), origin)

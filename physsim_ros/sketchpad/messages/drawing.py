@@ -19,6 +19,7 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import BadProperty, Confidences, Malformed, NotRecognised
 from physsim_ros.model.requests import Grab, LetGo, MoveHand
 from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
 from physsim_ros.model.translation import Text
 from physsim_ros.simulation.entries import Origin
@@ -76,28 +77,30 @@ def read_stroke(page: PageSession, origin: Origin, points: Floats) -> None:
     times = points[:, 2]
     # A stroke that has waited for a connection comes late: its arrival counts only without a time.
     began = float(times.min()) or time.monotonic() - float(np.ptp(times))
-    snapshot = page.world.bring_up_to_date()
+    snapshot = page.control.loop.bring_up_to_date()
 
     def read(check: Check) -> Reading:
         return page.person.drawing.stroke(points, '', snapshot, began=began, check=check)
 
-    _submit(page, origin, read)
+    _submit(page, origin, snapshot, read)
 
 
 @message('instead', '~/instead', meaning=Optional(fields.text))
 def read_instead(page: PageSession, origin: Origin, meaning: str = '') -> None:
     """Replace the last reading by another guess; '' is the next one."""
     # The requests of the last reading may wait.
-    page.world.bring_up_to_date()
-    _submit(page, origin, lambda check: page.person.drawing.instead(meaning, check=check))
+    snapshot, drawing = page.control.loop.bring_up_to_date(), page.person.drawing
+    _submit(page, origin, snapshot, lambda check: drawing.instead(meaning, check=check))
 
 
-def _submit(page: PageSession, origin: Origin, read: Callable[[Check], Reading]) -> None:
+def _submit(
+    page: PageSession, origin: Origin, snapshot: Snapshot, read: Callable[[Check], Reading]
+) -> None:
     """Send the page a reading that it has the right to, built or not, and submit its requests."""
 
     def check(reading: Reading) -> None:
-        check_locked(page.role, reading.requests, page.world)
-        check_taken_back(page.role, reading.amends, page.world)
+        check_locked(page.role, reading.requests, page.control)
+        check_taken_back(page.role, reading.amends, snapshot, page.control)
 
     try:
         reading = read(check)
@@ -106,7 +109,7 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[Check], Reading])
         raise
     page.send(_reading_content(origin, reading.confidences, reading))
     reading = replace(reading, requests=page.person.with_material(reading.requests))
-    submit_reading(page.world.simulation, page.person.drawing, reading, origin)
+    submit_reading(page.control.simulation, page.person.drawing, reading, origin)
 
 
 def _reading_content(
@@ -136,9 +139,9 @@ def _reading_content(
 def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
     page.person.drawing.tool = tool
-    result = page.person.drawing.click(point, '', page.world.bring_up_to_date())
+    result = page.person.drawing.click(point, '', page.control.loop.bring_up_to_date())
     requests = page.person.with_material(result.requests)
-    page.submit(origin, requests, message=result.message, values=result.values)
+    page.submit(origin, requests, message=result.message)
 
 
 @message('drop', 'page', Right.DRAW)

@@ -78,9 +78,9 @@ def _world_text(value: object, name: str) -> str:
 def service(page: PageSession, origin: Origin, name: str, world: str = '') -> None:
     """Perform the action of a service, on the world file of a name where one is given."""
     origin = origin._replace(topic=f'~/{name}')
-    action, wait = page.world.service(name)
+    action, wait = page.control.services[name]
     if world:
-        of_files = {'load_world': page.world.load_world, 'save_world': page.world.save_world}
+        of_files = {'load_world': page.control.load_world, 'save_world': page.control.save_world}
         if name not in of_files:
             raise BadWorldFile(f'~/{name} takes no world', field='world')
         action = partial(of_files[name], world)
@@ -94,26 +94,26 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
 
 def _replace_bodies(page: PageSession, origin: Origin, action: Sliced[str], wait: Wait) -> None:
     """Perform an action unless a body is locked, be it while a thread reads the file."""
-    check = partial(check_moment, page.role, page.world)
+    check = partial(check_moment, page.role, page.control)
     page.perform(origin, partial(with_checks, action, check), wait)
 
 
 @message('speed', '~/speed', speed=number)
 def set_speed(page: PageSession, origin: Origin, speed: float) -> None:
     """Set the speed of time [simulation seconds a second]."""
-    page.perform(origin, partial(page.world.time.set_speed, speed))
+    page.perform(origin, partial(page.control.time.set_speed, speed))
 
 
 @message('seek', '~/seek', time=_stamp)
 def seek(page: PageSession, origin: Origin, time: int) -> None:
     """Go to a simulation time, which a message has in [s] and the function in [ns]."""
-    page.world.time.submit_seek(time, origin)
+    page.control.time.submit_seek(time, origin)
 
 
 @message('course', '~/timeline', course=Whole(0, 2**31))
 def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
     """Return to a course of events that was left, by its number."""
-    action = partial(page.world.simulation.return_to_course, course)
+    action = partial(page.control.simulation.return_to_course, course)
     _replace_bodies(page, origin, action, Wait.BEHIND_REQUESTS)
 
 
@@ -123,7 +123,7 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 @message('open', '~/load_world', name=_world_name)
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
     """Begin with a world at time 0, which undo reverts."""
-    _replace_bodies(page, origin, partial(page.world.open_world, name), Wait.FOR_SEEK)
+    _replace_bodies(page, origin, partial(page.control.open_world, name), Wait.FOR_SEEK)
 
 
 @message('save', '~/save_world', name=_world_name, replace=Optional(flag))
@@ -137,14 +137,14 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     async def save() -> str:
         with reaching(name):
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
-        return await page.world.save_world(name)
+        return await page.control.save_world(name)
 
     page.perform(origin, partial(_saving, page, save), Wait.TO_READ)
 
 
 async def _saving(page: PageSession, save: Sliced[str]) -> str:
     """Save the world, note that it is saved, and return the message about it."""
-    scene = page.world.simulation.world.scene
+    scene = page.control.simulation.world.scene
     done = await in_slices(save)
     page.shared.autosave.note_saved(scene)
     page.shared.list_worlds(None)
@@ -194,7 +194,7 @@ def open_text(page: PageSession, origin: Origin, world: str) -> None:
     async def load() -> str:
         # YAML of a megabyte takes a second to be read, and some a dozen.
         content = await on_thread(partial(load_mapping, world, field='world'))
-        return await open_content(page.world.simulation, content)
+        return await open_content(page.control.simulation, content)
 
     page.perform(origin, load, Wait.FOR_SEEK)
 
@@ -208,7 +208,7 @@ def share(page: PageSession, origin: Origin, *, run: bool = False) -> None:
     """
 
     async def send_text() -> list[Answer]:
-        boundary, simulation = page.world.boundary, page.world.simulation
+        boundary, simulation = page.control.boundary, page.control.simulation
         try:
             with boundary.message(origin.topic):
                 saved = simulation.saver_of_run() if run else simulation.saver()
