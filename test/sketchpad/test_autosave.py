@@ -338,8 +338,11 @@ def test_of_two_nodes_on_a_directory_one_autosaves_until_it_ends(
     first.interrupt(signal.SIGKILL)
     assert page.ask('answered', **lesson)['ok']
     assert page.spawn('a/2')['ok']
+    unsaved = tmp_path / '.unsaved.yaml'
+    # Between the move of the file and the first save there is none.
+    browser.until(lambda: browser.physsim.step() or (unsaved.exists() and kept.exists()))
     browser.until(lambda: browser.physsim.step() or 'a/2' in kept.read_text())
-    assert (tmp_path / '.unsaved.yaml').read_text() == 'drawn in the first'
+    assert unsaved.read_text() == 'drawn in the first'
 
 
 def test_no_file_is_left_of_a_save_in_which_a_person_saved_the_world(
