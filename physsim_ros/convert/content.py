@@ -217,10 +217,12 @@ def _list(value: object, place: str) -> Sequence[object]:
 
 def _unread(value: object, place: str, reads: _Reads) -> Iterator[str]:
     """Yield the places in a value that nobody read, without numbers of entries of lists."""
+    if id(value) in reads.settled:
+        return
     if isinstance(value, list):
         for each in value:
             yield from _unread(each, f'{place}[]', reads)
-    if not isinstance(value, Mapping) or id(value) in reads.settled:
+    if not isinstance(value, Mapping):
         return
     if id(value) not in reads.keys:
         yield place

@@ -28,6 +28,7 @@ from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Box, contains, LARGEST, piece_box, SMALLEST
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Pose, rotated_each
+from physsim_ros.model.translation import Text
 
 # Slate, on white and on black.
 _COLOR: Color = (0x5A / 255, 0x64 / 255, 0x70 / 255, 1.0)
@@ -71,16 +72,16 @@ def check_cells(resolution: float, rows: int, columns: int) -> None:
     if not np.isfinite(resolution):
         raise Malformed(f'resolution is {resolution}, not a finite number', field='resolution')
     if not SMALLEST <= resolution <= LARGEST:
-        raise BadSize(
-            f'resolution is {resolution:g} m; it must lie between {SMALLEST:g} and {LARGEST:g} m',
-            field='resolution',
-        )
+        template = 'resolution is {value:g} m; it must lie between {least:g} and {most:g} m'
+        message = Text(template, value=resolution, least=SMALLEST, most=LARGEST)
+        raise BadSize(message, field='resolution')
     if rows * columns > MOST_CELLS:
         raise WorldFull(
             f'a map of {columns} by {rows} cells has more than {MOST_CELLS}', field='width'
         )
     if max(rows, columns) * resolution > LARGEST:
-        raise BadSize(f'the map reaches further than {LARGEST:g} m', field='width')
+        message = Text('the map reaches further than {most:g} m', most=LARGEST)
+        raise BadSize(message, field='width')
 
 
 # Number of cells that are compared with a piece at once, 100 bytes each.

@@ -94,21 +94,25 @@ def _check_role(body: Body) -> None:
     :raises BadProperty: the body has another role, or the robot no namespace that ROS allows
     """
     if any(body.surface_velocity) and not body.sensor:
-        raise BadProperty(
-            f'{body.name} is not a sensor; only a sensor can be a conveyor from above; the '
-            'surface of a solid body runs by the property belt',
-            field='surface_velocity',
+        template = (
+            '{body} is not a sensor; only a sensor can be a conveyor from above; the surface of a '
+            'solid body runs by the property belt'
         )
+        raise BadProperty(Text(template, body=body.name), field='surface_velocity')
     if body.medium is not None and (body.dynamic or not body.sensor):
-        raise BadProperty(
-            f'{body.name} is not an anchored or kinematic sensor; only such a body can be filled '
-            'with a medium',
-            field='medium',
+        template = (
+            '{body} is not an anchored or kinematic sensor; only such a body can be filled with a '
+            'medium'
         )
+        raise BadProperty(Text(template, body=body.name), field='medium')
     if body.actor is not None and body.anchored:
-        raise BadProperty(f'{body.name} is an actor; it cannot be anchored', field='anchored')
+        message = Text(
+            '{body} is {noun}; it cannot be anchored', body=body.name, noun=Text('an actor')
+        )
+        raise BadProperty(message, field='anchored')
     if isinstance(body.actor, Pedestrian) and body.sensor:
-        raise BadProperty(f'{body.name} is a pedestrian; it cannot be a sensor', field='sensor')
+        message = Text('{body} is a pedestrian; it cannot be a sensor', body=body.name)
+        raise BadProperty(message, field='sensor')
     if body.robot is None:
         return
     if body.robot.drive is not None and body.towed is not None:

@@ -42,7 +42,8 @@ def check_name(value: object, field: str = 'name') -> str:
             f'{name!r} is not a name: <namespace>/<id>, the id a whole number', field=field
         )
     if len(name) > LONGEST_NAME:
-        raise Malformed(f'a name has at most {LONGEST_NAME} characters', field=field)
+        message = Text('a name has at most {most} characters', most=str(LONGEST_NAME))
+        raise Malformed(message, field=field)
     _check_visible(name, field)
     if REPLACEMENT in name:
         raise Malformed(f'{name!r} is not UTF-8', field=field)

@@ -50,7 +50,13 @@ class WaitingEntries:
         """Return a refusal if as many requests of a size together [bytes] exceed the limits."""
         if len(self) + count <= MOST_WAITING and self._size + size <= MOST_BYTES:
             return None
-        return Busy(f'{len(self)} requests wait; this one was one too many')
+        return Busy(
+            Text(
+                '{waiting} requests wait; {more} more were too many',
+                waiting=str(len(self)),
+                more=str(count),
+            )
+        )
 
     def replace_move(self, move: MoveHand) -> bool:
         """Have a move of a hand replace the one that waits, and return whether one does."""

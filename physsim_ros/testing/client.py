@@ -136,15 +136,15 @@ class RequestClient:
         executor.add_node(node)
         executor.spin_until(events.get_publisher_count, 'the world was not discovered')
 
-    def _publish(self, topic: str, message: Any) -> None:
-        """Publish a message, whose first one of a topic creates the publisher."""
+    def _publisher_of(self, topic: str, message: Any) -> Publisher:
+        """Return the publisher of a topic, which its first message creates."""
         if topic not in self._publishers:
             publisher = self._node.create_publisher(type(message), f'/physsim/{topic}', 10)
             self._executor.spin_until(
                 publisher.get_subscription_count, f'the world does not listen to {topic}'
             )
             self._publishers[topic] = publisher
-        self._publishers[topic].publish(message)
+        return self._publishers[topic]
 
     def request(self, topic: str, message: Any, answers: int = 1) -> str:
         """
@@ -154,12 +154,13 @@ class RequestClient:
         :param answers: number of answers that the request has
         :raises Refused: with the code of the first refusal
         """
+        publisher = self._publisher_of(topic, message)
         # Answers to earlier requests of other nodes come first, and are skipped.
         self._executor.settle()
         earlier = sum(answer.topic == f'~/{topic}' for answer in self._world.loop.apply_requests())
         count = earlier + answers
         self._topic, self._received = f'~/{topic}', []
-        self._publish(topic, message)
+        publisher.publish(message)
 
         def answered() -> bool:
             self._world.loop.apply_requests()

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.requests import Delete, DriveRobot
-from physsim_ros.model.shapes import Box, Chain, contains, Disc, Polygon
+from physsim_ros.model.shapes import Box, Chain, Compound, contains, Disc, Polygon
 import pytest
 
 from .scenes import DT, G, NOWHERE, simulation, spawn, steps, turned
@@ -381,6 +381,10 @@ def _polygon(points):
     return Polygon(outline=tuple(map(tuple, points)))
 
 
+def _disc(points):
+    return Compound(element=Disc(radius=0.7), centers=tuple(map(tuple, points)))
+
+
 def _chain(points):
     return Chain(points=tuple(map(tuple, points)), thickness=0.3)
 
@@ -392,6 +396,7 @@ def _chain(points):
     [
         (_polygon, ((-0.9, -0.6), (0.9, -0.6), (0.2, 0.1), (-0.5, 0.8))),
         (_chain, ((-0.9, -0.5), (0.1, 0.4), (0.9, 0.2))),
+        (_disc, ((0.0, 0.0),)),
     ],
 )
 def test_a_conveyor_carries_what_has_its_centre_on_it(shape_of, points, middle, held):

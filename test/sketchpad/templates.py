@@ -28,7 +28,6 @@ _DECLARED: dict[str, set[str]] = {
     'state': set(RunState),
     'noun': {'body', 'joint'},
     'said': {'pose', 'velocity', 'force', 'nothing'},
-    'self.whole': {'chain'},
     'self.OBJECT': {each.OBJECT for each in _PHRASED} - {''},
     "f'{verb} {{thing}}'": {
         f'{each.VERB or each.__name__.lower()} {{thing}}' for each in _PHRASED

@@ -26,6 +26,7 @@ from physsim_ros.model import errors
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.settings import check_limit, WorldSettings
 from physsim_ros.model.shapes import Disc
+from physsim_ros.model.translation import Text
 from physsim_ros.sketchpad.message import text_content
 from physsim_ros.sketchpad.messages.fields import person
 from physsim_ros.sketchpad.server.page_handlers import PAGE, PageFiles
@@ -426,6 +427,28 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(open_sheet: OpenShe
         texts.append(text_content(caught.value.text))
     sheet = open_sheet(locale='de-DE')
     assert sheet.page.evaluate(SAID, texts) == [*refused]
+
+
+# The sentences of a page for refusals, each a code and a text.
+REFUSED = """async (refusals) => {
+    const {refusalText, told} = await import('/page/strings.js');
+    return refusals.map(([code, text]) => refusalText(code, told(text), text[0]));
+}"""
+
+
+def test_a_refusal_has_its_own_sentence_where_that_is_translated(open_sheet: OpenSheet) -> None:
+    robot = Text('{body} is a robot, a part of one or an actor, which no knife cuts', body='a/0')
+    refused = {
+        'Roboter und Akteure schneidet kein Messer': errors.NothingThere(robot),
+        'Hier ist kein Körper': errors.NothingThere('it has no translation'),
+        'Ungültige Angabe: ein Name hat 1 bis 9 Zeichen': errors.Malformed(
+            Text('a name has at most {most} characters', most='9')
+        ),
+        'Die Welt ist voll: it has no translation': errors.WorldFull('it has no translation'),
+    }
+    texts = [[each.code, text_content(each.text)] for each in refused.values()]
+    sheet = open_sheet(locale='de-DE')
+    assert sheet.page.evaluate(REFUSED, texts) == [*refused]
 
 
 # The body of a wrong world file, and what a German page says of it.

@@ -114,9 +114,12 @@ def test_a_world_that_is_not_discovered_leaves_no_nodes(monkeypatch: pytest.Monk
         destroyed.append(node.get_name())
         destroy(node)
 
-    def fail(*_: object) -> None:
-        raise TimeoutError('the world was not discovered')
+    def fail(executor: SettlingExecutor, until: Any, complaint: str, *timeout: float) -> None:
+        if complaint == 'the world was not discovered':
+            raise TimeoutError(complaint)
+        spin_until(executor, until, complaint, *timeout)
 
+    spin_until = SettlingExecutor.spin_until
     monkeypatch.setattr(Node, 'destroy_node', note)
     monkeypatch.setattr(SettlingExecutor, 'spin_until', fail)
     with own_context(monkeypatch) as context, pytest.raises(TimeoutError):

@@ -26,6 +26,7 @@ from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed
 from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import norms
+from physsim_ros.model.translation import Text
 
 # Strokes of fewer samples than half of `COUNT` have more put between them, on arcs; the only turn
 # of three makes no arc.
@@ -68,7 +69,8 @@ def _checked(samples: Floats) -> Floats:
     if not np.isfinite(places).all():
         raise Malformed('a sample of the stroke is not finite', field='poses')
     if np.abs(places).max() > FARTHEST:
-        raise BadSize(f'the stroke reaches further than {FARTHEST:g} m', field='poses')
+        message = Text('the stroke reaches further than {most:g} m', most=FARTHEST)
+        raise BadSize(message, field='poses')
     if samples.shape[1] == 2:
         return places
     return places[np.argsort(samples[:, 2], kind='stable')]

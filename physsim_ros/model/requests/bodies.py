@@ -60,12 +60,15 @@ def _unset(value: object, name: str) -> tuple[str, ...]:
     return names
 
 
+# What several bodies may be together.
+_WHOLES = {'chain': Text('chain')}
+
+
 def _duration(value: object, name: str) -> float:
     (seconds,) = check_finite((value,), 1, name)
     if not 0.0 <= seconds <= LONGEST:
-        raise BadProperty(
-            f'{name} is {seconds:g}; it must lie between 0 and {LONGEST:g} s', field=name
-        )
+        template = '{key} is {value:g}; it must lie between 0 and {most:g} s'
+        raise BadProperty(Text(template, key=name, value=seconds, most=LONGEST), field=name)
     return seconds
 
 
@@ -111,7 +114,7 @@ class Spawn(Request):
 
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with what it is a part of."""
-        return Request.phrase(self, Text(self.whole) or subject)
+        return Request.phrase(self, _WHOLES.get(self.whole, subject))
 
     @property
     def is_whole_gesture(self) -> bool:

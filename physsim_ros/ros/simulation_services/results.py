@@ -24,7 +24,9 @@ class CodedRefusal(BadProperty):
     """
 
     def __init__(self, refusal: Refusal, result: int) -> None:
-        super().__init__(str(refusal), field=refusal.field, values=refusal.values)
+        super().__init__(
+            refusal.text, field=refusal.field, values=refusal.values, body=refusal.body
+        )
         self.code, self.result = refusal.code, result
 
 

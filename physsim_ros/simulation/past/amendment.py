@@ -58,7 +58,7 @@ def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Re
         changed
     """
     if not past.cursor.is_newest:
-        raise InPast('the past is shown; go to its end first', field='history')
+        raise InPast(Text('the past is shown; go to its end first'), field='history')
     first = past.line.last_gesture_of(author)
     if first is None:
         message = Text('there is nothing by {person} to undo', person=author.strip())
@@ -126,7 +126,8 @@ class _Amendment:
         """
         past, tree = self._past, self._past.tree
         if self._end - self._step > past.steps_in(LONGEST_AGAIN):
-            raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
+            template = 'that was more than {time:g} s ago; delete it instead'
+            raise NotAlone(Text(template, time=LONGEST_AGAIN))
         before, told = tree.line_left_at(self._cursor.moment), len(past.reports)
         try:
             for _ in self._simulate():

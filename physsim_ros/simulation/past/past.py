@@ -427,7 +427,8 @@ class Past:
         frames = self.frames.drop_from(cursor.follow(line.tip, line.head, moment))
         reached = cursor.moment.step
         if reached != moment[0]:
-            message = f'{reached / self.physics_rate:.3f} s is the oldest that is kept'
+            time = f'{reached / self.physics_rate:.3f} s'
+            message = Text('{time} is the oldest that is kept{more}', time=time, more='')
             self.reports.append(Answer(topic='history', message=message))
         for frame in line.frames:
             self.frames.add_frame(frame)

@@ -153,7 +153,7 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
         added = [past.added_by(author_of(person, role)) for role in (Role.DRAW, Role.TEACH)]
         bodies, joints = (tuple(itertools.chain(*each)) for each in zip(*added, strict=True))
         if not bodies and not joints:
-            raise NothingThere(f'there is nothing of {person}', field='person')
+            raise NothingThere(Text('there is nothing of {person}', person=person), field='person')
         return DeleteBodies(names=bodies, joints=joints)
 
     # Requests that wait may add some.

@@ -200,7 +200,8 @@ form.addEventListener('submit', async (event) => {
   event.preventDefault();
   const response = await ask('/join', {name: name.value, key: localStorage.getItem(KEY) ?? ''});
   if (!response?.ok) {
-    elementOf('refused').textContent = response ? capital(told((await response.json()).text)) : t('The class is not reachable: try again.');
+    const answer = await response?.json().catch(() => null);
+    elementOf('refused').textContent = answer?.text ? capital(told(answer.text)) : t('The class is not reachable: try again.');
     return;
   }
   const {address, key} = await response.json();

@@ -23,7 +23,8 @@ export const language = [localStorage.getItem(KEY), ...navigator.languages.map((
  * Translations by English text, by template of the server, and by the code of a refusal, where `{message}` is the server's own one.
  * @type {{texts: Record<string, string>, server: Record<string, string>, refusals: Record<string, string>}}
  */
-const table = await fetch(`/page/languages/${language}.json`).then((response) => response.json());
+const table = await fetch(`/page/languages/${language}.json`).then((response) => response.json())
+  .catch(() => ({texts: {}, server: {}, refusals: {}}));
 
 const PLACE = /\{(\w+)[^{}]*\}/g; // of a value, with its format where the server writes it
 const SIGN = (1.5).toLocaleString(language)[1];
@@ -64,11 +65,13 @@ export function told([template, values], word = (value) => value) {
 
 /**
  * @param {string} code of a refusal
- * @param {string} message of the server, in English
- * @returns {string} what the refusal says; in English, and for a code without a translation, the message
+ * @param {string} message of the server, translated if its template is
+ * @param {string} template
+ * @returns {string} what the refusal says: the sentence of its code, with the message, or in its place where that is translated
  */
-export function refusalText(code, message) {
-  return filled(table.refusals[code] ?? '{message}', {message});
+export function refusalText(code, message, template) {
+  const sentence = table.refusals[code] ?? '{message}';
+  return template in table.server && !sentence.includes('{message}') ? message : filled(sentence, {message});
 }
 
 /** @param {string} chosen one of the languages */

@@ -89,7 +89,13 @@ export class Words {
    */
   tell({text, code = '', ok = true}) {
     const words = this.say(text), said = /^\S+\/\d/.test(words) ? words : capital(words); // a name stays as it is
-    return ok ? said : refusalText(code, said);
+    return ok ? said : refusalText(code, said, text[0]);
+  }
+
+  /** @param {string} name of a body, or another value of a text */
+  #named(name) {
+    const word = this.#word(name);
+    return word ? t('the {thing}', {thing: word}) : shorten(name);
   }
 
   /** @param {Text} text with names of bodies and worlds, in whose place it has words for those that nobody chose */
@@ -97,8 +103,7 @@ export class Words {
     return told(text, (value, place) => {
       if (place === 'world') return this.titles.get(value) ?? value;
       if (place === capital(place)) return this.title(value);
-      const word = this.#word(value);
-      return word ? t('the {thing}', {thing: word}) : shorten(value);
+      return this.#word(value) ? this.#named(value) : value.split(', ').map((name) => this.#named(name)).join(', ');
     }).replace(/\d\.\d/g, localized);
   }
 }
