@@ -34,8 +34,11 @@ static Twist steady_lead(const World *world, const Body *body) {
 }
 
 void turn_leads(World *world) {
+    if (!has_stage(world, STAGE_HALF_STEP)) {
+        return;
+    }
     const Body *last = NULL;
-    for (int number = 0; has_stage(world, STAGE_HALF_STEP) && number < world->force_count; number++) {
+    for (int number = 0; number < world->force_count; number++) {
         const AppliedForce *applied = world->forces + number;
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
@@ -50,7 +53,10 @@ void turn_leads(World *world) {
 }
 
 void find_leads(World *world) {
-    for (int number = 0; has_stage(world, STAGE_HALF_STEP) && number < active_count(world); number++) {
+    if (!has_stage(world, STAGE_HALF_STEP)) {
+        return;
+    }
+    for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
         body->scratch.lead = steady_lead(world, body);
     }

@@ -373,7 +373,8 @@ typedef struct Chipmunk {
     void (*remove_shape)(cpSpace *, cpShape *);
 } Chipmunk;
 
-// The stages that can be left out, to measure what fails without each (`make ablate`).
+// The stages that can be left out, to measure what fails without each (`make ablate`). The first two are parts of
+// `begin_half_step`, and tested where these are.
 enum {
     STAGE_HALF_STEP = 1,
     STAGE_SUPPORT = 2,

@@ -131,7 +131,7 @@ void begin_half_step(World *world) {
             forget_impulses(body);
         }
         if (!is_zero(body->wrench)) {
-            // Chipmunk clears forces after each step.
+            // Of a command; Chipmunk clears forces after each step.
             world->chipmunk.body_activate(body->engine);
             body->engine->f = body->wrench.v;
             body->engine->t = body->wrench.w;

@@ -76,7 +76,7 @@ static void run(World *world, const Stage *stages) {
 static const Stage contact_stages[] = {
     {find_passing, 0},                             // which bodies pass one-way bodies
     {ignore_false_contacts, STAGE_FALSE_CONTACTS}, // contacts that are none
-    {find_begun, 0},                               // the list of contacts that begin
+    {find_begun, 0},                               // the list of contacts that begin; others that are none
     {move_to_impacts, STAGE_IMPACT},               // in it: normals and points
     {slide_over_edges, STAGE_EDGES},               // in it: normals at seams; hidden contacts leave it
     {prepare_begun, 0},                            // contacts, by that list
