@@ -249,11 +249,12 @@ class SceneQuery:
 
     def new_bodies(self) -> Iterator[str]:
         """Return names for the next drawn bodies, numbered above all drawn before."""
-        return _new_names(self.names, self._first)
+        return (f'{DRAWN}/{each}' for each in count(number_above(self.names, self._first)))
 
     def new_joints(self) -> Iterator[str]:
         """Return names for the next drawn joints, numbered above all drawn before."""
-        return _new_names((joint.name for joint in self.joints), self._first_joint)
+        first = number_above((joint.name for joint in self.joints), self._first_joint)
+        return (f'{DRAWN}/{each}' for each in count(first))
 
     def next_body(self) -> str:
         """Return the name of the next drawn body."""
@@ -268,13 +269,13 @@ class SceneQuery:
         return {name: row for row, name in enumerate(self.names)}
 
 
-def _new_names(names: Iterable[str], first: int) -> Iterator[str]:
+def number_above(names: Iterable[str], first: int) -> int:
     """
-    Return drawn names, numbered above all drawn ones among others.
+    Return the lowest number above those of all drawn names among others.
 
-    :param first: the lowest number
+    :param first: the least that it is
     """
     # Of thousands of names, few are drawn.
     numbers = (split_name(name) for name in names if name.startswith(DRAWN))
     drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _NUMBER_LIMIT)
-    return (f'{DRAWN}/{number}' for number in count(max(first, 1 + max(drawn, default=-1))))
+    return max(first, 1 + max(drawn, default=-1))

@@ -16,7 +16,7 @@ import numpy as np
 from physsim_ros.drawing import copies
 from physsim_ros.drawing.click import ClickResult, Tool
 from physsim_ros.drawing.gesture import Gesture
-from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
+from physsim_ros.drawing.scene_query import number_above, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.choice import not_recognised
 from physsim_ros.drawing.strokes.figure import Figure
@@ -27,9 +27,9 @@ from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal
-from physsim_ros.model.names import split_name
+from physsim_ros.model.names import ADDED, BODY, JOINT
 from physsim_ros.model.preview import NO_PREVIEW, Preview
-from physsim_ros.model.requests import Cut, Join, Request, Spawn
+from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import as_tuples
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, rotated_each
@@ -204,13 +204,8 @@ class DrawingSession:
     def _reserve_names(self, requests: Iterable[Request]) -> None:
         """Reserve the names of new bodies and joints, even if the requests are refused later."""
         for request in requests:
-            match request:
-                case Spawn(name=name) if split_name(name)[0] == DRAWN:
-                    self._next_body = max(self._next_body, 1 + split_name(name)[1])
-                case Cut(pieces=pieces):
-                    self._reserve_names(pieces)
-                case Join(name=name) if split_name(name)[0] == DRAWN:
-                    self._next_joint = max(self._next_joint, 1 + split_name(name)[1])
+            self._next_body = number_above(request.noted(BODY, ADDED), self._next_body)
+            self._next_joint = number_above(request.noted(JOINT, ADDED), self._next_joint)
 
 
 def _in_world(samples: Floats, frame: str, scene: SceneQuery) -> Floats:

@@ -115,6 +115,14 @@ class Checked:
         pairs = ((name, getattr(self, name)) for name in self.FIELDS)
         return {name: value for name, value in pairs if value is not None}
 
+    def noted(self, *notes: object) -> Iterator[Any]:
+        """Yield the values at fields with some notes; of a list of `Checked`, those within."""
+        for each in self.FIELDS.values():
+            if all(note in each.notes for note in notes):
+                value = getattr(self, each.name)
+                for part in value if isinstance(value, tuple) else (value,):
+                    yield from part.noted(*notes) if isinstance(part, Checked) else (part,)
+
     def entry(self) -> Any:
         """Return the mapping that `from_mapping` makes it of, without what has no value."""
         values = {name: entry_of(value) for name, value in self.explicit().items()}

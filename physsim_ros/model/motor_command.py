@@ -12,6 +12,7 @@ from typing import Annotated, NamedTuple
 from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, OneOf, shown, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.names import JOINT
 
 # In the order of `COMMAND_POSITION` ... of `engine/core/core.h`.
 MODES = ('position', 'velocity', 'effort')
@@ -77,7 +78,7 @@ class MotorCommand(Checked):
     :raises BadProperty: there is no such mode, or a value or time is out of range
     """
 
-    joint: Annotated[str, text, 'name of the joint']
+    joint: Annotated[str, text, 'name of the joint', JOINT]
     mode: Annotated[str, OneOf(MODES), 'of the values']
     points: Annotated[
         tuple[CommandPoint, ...], points_from, 'time [s], value, rate; the last value stays'

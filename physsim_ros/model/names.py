@@ -15,6 +15,8 @@ from physsim_ros.model.translation import Text
 
 # Name of the background in joints, contacts and frames.
 WORLD = 'world'
+# Notes at fields of requests: their values name bodies, joints, or what the request adds.
+BODY, JOINT, ADDED = 'body', 'joint', 'added'
 # Characters of a name; names are frames and strings of messages too.
 LONGEST_NAME = 1000
 # Between the two names of a contact.

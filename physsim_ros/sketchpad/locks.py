@@ -19,7 +19,7 @@ import re
 from physsim_ros.drawing import SceneQuery
 from physsim_ros.model import requests
 from physsim_ros.model.errors import BadProperty, Frozen
-from physsim_ros.model.names import shown_name, WORLD
+from physsim_ros.model.names import BODY, JOINT, shown_name, WORLD
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.translation import Text
@@ -27,8 +27,6 @@ from physsim_ros.simulation.past import Node
 from physsim_ros.sketchpad.rights import check_right, Right, Role
 from physsim_ros.sketchpad.world_control import WorldControl
 
-# Requests that concern no body: settings of the world; a hand may let go anywhere.
-_OF_NONE = (requests.Configure, requests.LetGo)
 # Names with wildcards: each is compiled, and compared with each name of a request.
 MOST_PATTERNS = 50
 
@@ -150,19 +148,11 @@ def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:
 
     :param snapshot: of now; the points of the request may lie on other bodies now
     """
-    request = node.request
-    match request:
-        case (
-            requests.Join()
-            | requests.Rejoin()
-            | requests.Unjoin()
-            | requests.Pin()
-            | requests.Axle()
-        ):
-            return tuple(node.joined)
-        case requests.Grab() | requests.Anchor() | requests.Release():
-            return (node.subject,)
-    return (*_bodies_of(request, snapshot), *node.joined)
+    if node.request.FOUND == JOINT:
+        return tuple(node.joined)
+    if node.request.FOUND == BODY:
+        return (node.subject,)
+    return (*_bodies_of(node.request, snapshot), *node.joined)
 
 
 def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
@@ -172,88 +162,4 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
     :param snapshot: in which points are looked up
     """
     query = SceneQuery(snapshot)
-    return tuple(each for name in _named(request, query) for each in query.machine(name))
-
-
-def _deleted(
-    request: requests.Delete | requests.DeleteBodies, query: SceneQuery
-) -> tuple[str, ...]:
-    """Return the bodies that are deleted, and those that lose a joint by that."""
-    if isinstance(request, requests.Delete):
-        request = requests.DeleteBodies(names=(request.name,))
-    names, joints = request.names, request.joints
-    gone = {each for name in names for each in query.machine(name)}
-    removed = (
-        joint
-        for joint in query.joints
-        if joint.name in joints or not gone.isdisjoint(joint.bodies)
-    )
-    return (*names, *(each for joint in removed for each in joint.bodies))
-
-
-def _of_joint(name: str, query: SceneQuery) -> tuple[str, ...]:
-    """Return the bodies of a joint; of one that is not there, none."""
-    return next((each.bodies for each in query.joints if each.name == name), ())
-
-
-def _joints_of(request: requests.Unjoin | requests.CommandMotors) -> tuple[str, ...]:
-    """Return the names of the joints that a request is about."""
-    if isinstance(request, requests.Unjoin):
-        return (request.name,)
-    return tuple(each.joint for each in request.commands)
-
-
-def _joined(request: requests.Join | requests.Rejoin, query: SceneQuery) -> tuple[str, ...]:
-    """Return the bodies that a joint has, or will have."""
-    if isinstance(request, requests.Rejoin):
-        return (request.a, request.b, *_of_joint(request.name, query))
-    points, properties = request.points, request.properties
-    names = (request.a, *(properties.over or ('',) * (len(points) - 2)), request.b)
-    # One point is that of both ends.
-    places = points if len(points) > 1 else points * 2
-    joined = (
-        each
-        for name, point in zip(names, places, strict=True)
-        for each in ((name,) if name else query.bodies_at(point)[:1])
-    )
-    carrier = () if properties.carrier is None else (properties.carrier,)
-    return (*joined, *carrier, *_of_joint(request.name, query))
-
-
-def _in_hand(
-    request: requests.Grab | requests.MoveHand | requests.KeepHand, query: SceneQuery
-) -> tuple[str, ...]:
-    """Return the body that a hand grabs, or holds."""
-    if isinstance(request, requests.Grab):
-        under = query.bodies_at(request.point)
-        return tuple(each for each in under if query.body(each).dynamic)[:1] or under[:1]
-    return tuple(grip.body for grip in query.snapshot.grips if grip.hand == request.hand)
-
-
-def _named(request: Request, query: SceneQuery) -> tuple[str, ...]:
-    """
-    Return the bodies that a request or its joints name, or that lie at its points.
-
-    What is not named here concerns all.
-    """
-    match request:
-        case requests.MoveBodies() | requests.Command():
-            return request.names
-        case requests.Delete() | requests.DeleteBodies():
-            return _deleted(request, query)
-        case requests.Spawn() | requests.ChangeBody() | requests.DriveRobot():
-            return (request.name,)
-        case requests.Join() | requests.Rejoin():
-            return _joined(request, query)
-        case requests.Cut(pieces=pieces, joints=moved, severed=severed):
-            parts = (_named(each, query) for each in (*pieces, *moved, *severed))
-            return tuple(name for names in parts for name in names)
-        case requests.Unjoin() | requests.CommandMotors():
-            return tuple(name for each in _joints_of(request) for name in _of_joint(each, query))
-        case requests.Grab() | requests.MoveHand() | requests.KeepHand():
-            return _in_hand(request, query)
-        case requests.Anchor(point=point) | requests.Release(point=point):
-            return query.bodies_at(point)[:1]
-        case requests.Pin(point=point) | requests.Axle(point=point):
-            return query.bodies_at(point)[:2]
-    return () if isinstance(request, _OF_NONE) else query.names
+    return tuple(each for name in request.concerned(query) for each in query.machine(name))

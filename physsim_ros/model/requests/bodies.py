@@ -3,7 +3,9 @@
 
 """Requests for bodies: spawned, changed, moved, commanded, anchored, deleted, driven."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import chain
 import sys
 from typing import Annotated
 
@@ -25,11 +27,12 @@ from physsim_ros.model.checks import (
 from physsim_ros.model.colors import check_color, Color
 from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.names import check_body_name
+from physsim_ros.model.names import ADDED, BODY, check_body_name, JOINT
 from physsim_ros.model.requests.request import (
     as_field,
     AtPoint,
     OfNamespace,
+    Query,
     Request,
     several,
     UNSET,
@@ -92,7 +95,7 @@ class Spawn(Request):
     :raises BadProperty: a pose, colour or lifetime is out of range
     """
 
-    name: Annotated[str, check_body_name, 'name of the body']
+    name: Annotated[str, check_body_name, 'name of the body', BODY, ADDED]
     shape: Annotated[Shape, OfClass(Shape), "geometry in the body's frame"]
     pose: Annotated[Pose, check_pose, "pose of the body's origin: x, y [m], yaw [rad]"] = ORIGIN
     frame: Annotated[str, text, "'' for the world, or a body's name"] = ''
@@ -133,7 +136,7 @@ class ChangeBody(Request):
 
     VERB = 'change'
 
-    name: Annotated[str, text, 'name of the body']
+    name: Annotated[str, text, 'name of the body', BODY]
     shape: Annotated[
         Shape | None, OfClass(Shape), 'geometry in the frame of the body; None keeps it'
     ] = None
@@ -162,7 +165,7 @@ class MoveBodies(Request):
     VERB = 'move'
     OBJECT = 'several bodies'
 
-    names: Annotated[tuple[str, ...], _names, 'the bodies, each once']
+    names: Annotated[tuple[str, ...], _names, 'the bodies, each once', BODY]
     by: Annotated[Point, check_point, 'vector of the world [m]']
 
 
@@ -180,7 +183,11 @@ class Release(AtPoint):
 class Delete(Request):
     """Remove the body of that name, and its joints."""
 
-    name: Annotated[str, text, 'name of the body']
+    name: Annotated[str, text, 'name of the body', BODY]
+
+    def concerned(self, world: Query) -> Iterable[str]:
+        """Return the body, and those that lose a joint with it."""
+        return DeleteBodies(names=(self.name,)).concerned(world)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -195,8 +202,8 @@ class DeleteBodies(Request):
 
     VERB = 'delete'
 
-    names: Annotated[tuple[str, ...], _each_once, 'the bodies']
-    joints: Annotated[tuple[str, ...], _each_once, 'the joints'] = ()
+    names: Annotated[tuple[str, ...], _each_once, 'the bodies', BODY]
+    joints: Annotated[tuple[str, ...], _each_once, 'the joints', JOINT] = ()
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -206,6 +213,16 @@ class DeleteBodies(Request):
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with what is deleted."""
         return Request.phrase(self, subject or several(self.names, self.joints))
+
+    def concerned(self, world: Query) -> Iterable[str]:
+        """Return the bodies, and those that lose a joint."""
+        gone = {each for name in self.names for each in world.machine(name)}
+        removed = (
+            joint.bodies
+            for joint in world.snapshot.scene.joints
+            if joint.name in self.joints or not gone.isdisjoint(joint.bodies)
+        )
+        return chain(self.names, *removed)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -230,7 +247,9 @@ class Command(Request):
     VERB = 'set motion of'
     OBJECT = 'several bodies'
 
-    names: Annotated[tuple[str, ...], as_field('joint_names', _names), 'the bodies, each once']
+    names: Annotated[
+        tuple[str, ...], as_field('joint_names', _names), 'the bodies, each once', BODY
+    ]
     poses: Annotated[Floats, '(n, 3) float64: x, y [m], yaw [rad] of each, or empty'] = field(
         default_factory=no_rows
     )
@@ -299,7 +318,7 @@ class DriveRobot(Request):
 
     VERB = 'drive'
 
-    name: Annotated[str, text, 'of the body of the robot']
+    name: Annotated[str, text, 'of the body of the robot', BODY]
     velocity: Annotated[
         Twist,
         _driven,

@@ -3,12 +3,13 @@
 
 """Requests of hands, which drag a body, or place it in a paused world."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Annotated
 
 from physsim_ros.model.checks import check_point, check_yaw, OfClass, text
-from physsim_ros.model.names import check_hand_name
-from physsim_ros.model.requests.request import as_field, Request
+from physsim_ros.model.names import BODY, check_hand_name
+from physsim_ros.model.requests.request import as_field, Query, Request
 from physsim_ros.model.transform import Point
 from physsim_ros.model.translation import Text
 
@@ -32,6 +33,10 @@ class HandRequest(Request):
         """Return True: all moves of a hand are one drag."""
         return True
 
+    def concerned(self, world: Query) -> Iterable[str]:
+        """Return the body that the hand holds."""
+        return (grip.body for grip in world.snapshot.grips if grip.hand == self.hand)
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grab(HandRequest):
@@ -41,6 +46,8 @@ class Grab(HandRequest):
     In a paused world, where no dynamic body is under the point, it grabs any body.
     """
 
+    FOUND = BODY
+
     point: Annotated[Point, as_field('mouse_point', check_point), 'position of the hand [m]']
     frame: Annotated[str, text, "frame of the point: '' for the world, or a body's name"] = ''
     paused: Annotated[bool, OfClass(bool), 'whether the world is paused'] = False
@@ -48,6 +55,12 @@ class Grab(HandRequest):
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, by what the hand does with the body."""
         return Text('place {thing}' if self.paused else 'drag {thing}', thing=subject)
+
+    def concerned(self, world: Query) -> Iterable[str]:
+        """Return the topmost dynamic body at the point, or else the topmost one."""
+        under, bodies = world.bodies_at(self.point), world.snapshot.scene.bodies
+        dynamic = {body.name for body in bodies if body.dynamic}
+        return tuple(name for name in under if name in dynamic)[:1] or under[:1]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,3 +89,7 @@ class KeepHand(HandRequest):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LetGo(HandRequest):
     """Have a hand let go of its body, which flies on."""
+
+    def concerned(self, _: Query) -> Iterable[str]:
+        """Return no body: a hand may let go anywhere."""
+        return ()

@@ -19,9 +19,9 @@ from physsim_ros.model.joints import (
     MOST_STOPS,
 )
 from physsim_ros.model.motor_command import MotorCommand
-from physsim_ros.model.names import check_name, WORLD
+from physsim_ros.model.names import ADDED, BODY, check_name, JOINT, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
-from physsim_ros.model.requests.request import AtPoint, OfNamespace, Request, several, UNSET
+from physsim_ros.model.requests.request import AtPoint, OfNamespace, Query, Request, several, UNSET
 from physsim_ros.model.transform import Point
 from physsim_ros.model.translation import counted, Text
 
@@ -55,7 +55,9 @@ class Join(Request):
     :raises UnknownProperty: the kind of joint does not have a property
     """
 
-    name: Annotated[str, check_name, 'name of the joint']
+    FOUND = JOINT
+
+    name: Annotated[str, check_name, 'name of the joint', JOINT, ADDED]
     kind: Annotated[JointKind, lambda value, name: kind_from(text(value, name)), 'kind of joint']
     points: Annotated[
         tuple[Point, ...],
@@ -105,12 +107,28 @@ class Join(Request):
         """Return the phrase for it, with its kind."""
         return Text('join {kind} {joint}', kind=Text(self.kind), joint=subject)
 
+    def concerned(self, world: Query) -> Iterable[str]:
+        """Return the bodies that the joint will have, and those that it has."""
+        points, properties = self.points, self.properties
+        names = (self.a, *(properties.over or ('',) * (len(points) - 2)), self.b)
+        # One point is that of both ends.
+        places = points if len(points) > 1 else points * 2
+        joined = (
+            each
+            for name, point in zip(names, places, strict=True)
+            for each in ((name,) if name else world.bodies_at(point)[:1])
+        )
+        carrier = () if properties.carrier is None else (properties.carrier,)
+        return (*joined, *carrier, *Request.concerned(self, world))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pin(AtPoint):
     """Weld the two topmost bodies at a point, or the only one to the background."""
 
     VERB = 'join pin'
+    FOUND = JOINT
+    TOPMOST = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,15 +136,19 @@ class Axle(AtPoint):
     """Join the two topmost bodies at a point by an axle, or the only one to the background."""
 
     VERB = 'join axle'
+    FOUND = JOINT
+    TOPMOST = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rejoin(Request):
     """Put a joint on pieces of its bodies: its points stay, and its limits count as before."""
 
-    name: Annotated[str, text, 'name of the joint']
-    a: Annotated[str, text, 'name of the piece of its body a']
-    b: Annotated[str, text, "the same of b; 'world' for the background"]
+    FOUND = JOINT
+
+    name: Annotated[str, text, 'name of the joint', JOINT]
+    a: Annotated[str, text, 'name of the piece of its body a', BODY]
+    b: Annotated[str, text, "the same of b; 'world' for the background", BODY]
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -154,7 +176,7 @@ class CommandMotors(Request):
     VERB = 'command'
     OBJECT = 'motors'
 
-    commands: Annotated[tuple[MotorCommand, ...], _commands, 'of the motors, each once']
+    commands: Annotated[tuple[MotorCommand, ...], _commands, 'of the motors, each once', JOINT]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -162,8 +184,9 @@ class Unjoin(Request):
     """Remove the joint of that name."""
 
     VERB = 'delete joint'
+    FOUND = JOINT
 
-    name: Annotated[str, text, 'name of the joint']
+    name: Annotated[str, text, 'name of the joint', JOINT]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -193,12 +216,14 @@ class Cut(Request):
         tuple[ChangeBody | Spawn, ...],
         _parts(ChangeBody, Spawn),
         'a change of each body into its largest piece, and the other pieces',
+        BODY,
+        ADDED,
     ]
     joints: Annotated[
-        tuple[Rejoin, ...], _parts(Rejoin), 'joints that are then on another piece'
+        tuple[Rejoin, ...], _parts(Rejoin), 'joints that are then on another piece', BODY, JOINT
     ] = ()
     severed: Annotated[
-        tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
+        tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through', JOINT
     ] = ()
 
     def phrase(self, subject: str) -> str:

@@ -3,19 +3,33 @@
 
 """The base of requests, what several kinds have in common, and requests for the whole world."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Protocol
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import check_point, OfClass, shown, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import Malformed
+from physsim_ros.model.names import BODY, JOINT
 from physsim_ros.model.settings import check_setting, WorldSettings
+from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
 from physsim_ros.model.translation import Text
 
 UNSET = 'names of properties to reset to their defaults'
+
+
+class Query(Protocol):
+    """Queries on the bodies of a snapshot."""
+
+    snapshot: Snapshot
+
+    def bodies_at(self, point: Point) -> tuple[str, ...]:
+        """Return the names of the bodies that cover a point of the world [m], topmost first."""
+
+    def machine(self, name: str) -> tuple[str, ...]:
+        """Return the names of a robot and its links for each of them; of another body its own."""
 
 
 class Request(Checked):
@@ -24,11 +38,14 @@ class Request(Checked):
 
     :cvar VERB: verb of the phrase by which undo and redo name it; '' is the name of its class
     :cvar OBJECT: object of that phrase where the request concerns no single body or joint
+    :cvar FOUND: BODY or JOINT, where the world alone knows which one it is about: the subject of
+        its answer
     """
 
     __slots__ = ()
     VERB: ClassVar[str] = ''
     OBJECT: ClassVar[str] = ''
+    FOUND: ClassVar[str] = ''
 
     @property
     def subject(self) -> str:
@@ -52,6 +69,19 @@ class Request(Checked):
         """Return whether its phrase names all requests of a gesture that begins with it."""
         return False
 
+    def concerned(self, world: Query) -> Iterable[str]:
+        """
+        Return the names of the bodies that it changes, and of those of the joints that it changes.
+
+        Unless a field has the note BODY or JOINT, it concerns all.
+        """
+        scene = world.snapshot.scene
+        if not any({BODY, JOINT} & {*each.notes} for each in self.FIELDS.values()):
+            return scene.names
+        bodies = {each.name: each.bodies for each in scene.joints}
+        joined = (name for joint in self.noted(JOINT) for name in bodies.get(joint, ()))
+        return (*self.noted(BODY), *joined)
+
 
 def as_field(field: str, check: Callable[[Any, str], Any]) -> Callable[[object, str], Any]:
     """Return a check that names another field in its refusal: that of the message."""
@@ -67,10 +97,21 @@ def several(bodies: Collection[object], joints: Collection[object]) -> Text:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AtPoint(Request):
-    """A request for the topmost bodies, or joints, at a point [m]."""
+    """
+    A request for the topmost bodies, or joints, at a point [m].
+
+    :cvar TOPMOST: number of the bodies at the point that it concerns
+    """
+
+    FOUND = BODY
+    TOPMOST: ClassVar[int] = 1
 
     point: Annotated[Point, check_point, 'the point [m]']
     frame: Annotated[str, text, "frame of the point: '' for the world, or a body's name"] = ''
+
+    def concerned(self, world: Query) -> Iterable[str]:
+        """Return the topmost bodies at the point."""
+        return world.bodies_at(self.point)[: self.TOPMOST]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,6 +159,10 @@ class Configure(Request):
         """Return the phrase for it, with the setting if it is one."""
         names = list(self.changes)
         return Request.phrase(self, Text(names[0]) if len(names) == 1 else subject)
+
+    def concerned(self, _: Query) -> Iterable[str]:
+        """Return no body: settings are those of the world."""
+        return ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -20,7 +20,8 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Axle, Cut, Join, Pin, Request, Restore, Spawn
+from physsim_ros.model.names import ADDED, BODY, JOINT
+from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.sizes import request_size
@@ -413,14 +414,9 @@ class LineInForce:
         bodies: dict[str, str] = {}
         joints: dict[str, str] = {}
         for node in (each for each in self.nodes[1:] if each.adds):
-            match node.request:
-                case Spawn(name=name):
-                    bodies[name] = node.author
-                case Cut(pieces=pieces):
-                    new = (each.name for each in pieces if isinstance(each, Spawn))
-                    bodies |= dict.fromkeys(new, node.author)
-                case Join() | Pin() | Axle():
-                    joints[node.subject] = node.author
+            bodies |= dict.fromkeys(node.request.noted(BODY, ADDED), node.author)
+            if node.request.FOUND == JOINT:
+                joints[node.subject] = node.author
         return (
             tuple(name for name in scene.names if bodies.get(name) == author),
             tuple(joint.name for joint in scene.joints if joints.get(joint.name) == author),
