@@ -82,7 +82,7 @@ class SceneQuery:
         return next((each.name for each in motors if {each.a, each.b} == {a, b}), None)
 
     def pivot(self, axle: Joint) -> Point:
-        """Return the place of an axle [m]."""
+        """Return the place of a weld or an axle [m]."""
         return self.in_world(axle.a, (axle.seat.ax, axle.seat.ay))
 
     def axles_at(self, point: Point, slack: float) -> list[Joint]:

@@ -50,7 +50,7 @@ SKIN = 1e-11
 # The filter of shapes that touch nothing.
 NOTHING = pymunk.ShapeFilter(categories=0, mask=0)
 # Properties whose change needs no new engine objects and wakes nobody. Any other, such as a belt,
-# has the body rebuilt, which wakes what sleeps on it and has its contacts pass one-way bodies anew.
+# has the body rebuilt, which wakes what sleeps on it and begins its contacts anew.
 _OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
 # The state of a body that has not been in a table: in free flight, its lead by fields to be found.
 BODY_STATE = dtype_of('BodyState')

@@ -38,6 +38,10 @@ from physsim_ros.model.transform import (
     world_to_local,
 )
 
+# A click means a weld or an axle within this share of the body's inner radius [1], and within at
+# least this distance [m].
+_NEAR_SHARE, _NEAR = 0.35, 0.1
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Body:
@@ -86,6 +90,11 @@ class Body:
     def dynamic(self) -> bool:
         """Whether forces move it: it is neither anchored nor kinematic."""
         return not (self.anchored or self.kinematic)
+
+    @property
+    def click_reach(self) -> float:
+        """Return the distance from a click within which it means a weld or axle of it [m]."""
+        return max(_NEAR, _NEAR_SHARE * self.shape.form.inner)
 
     @property
     def wheels(self) -> Drive | Towed | None:

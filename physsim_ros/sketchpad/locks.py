@@ -148,11 +148,9 @@ def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:
 
     :param snapshot: of now; the points of the request may lie on other bodies now
     """
-    if node.request.FOUND == JOINT:
-        return tuple(node.joined)
-    if node.request.FOUND == BODY:
-        return (node.subject,)
-    return (*_bodies_of(node.request, snapshot), *node.joined)
+    found = {JOINT: (), BODY: (node.subject,)}.get(node.request.FOUND)
+    bodies = _bodies_of(node.request, snapshot) if found is None else found
+    return (*bodies, *node.joined)
 
 
 def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:

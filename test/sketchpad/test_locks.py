@@ -348,6 +348,26 @@ def test_a_machine_is_locked_with_any_of_its_bodies(
             check_locked(Role.DRAW, [request], control)
 
 
+def test_a_pupil_loosens_no_joint_of_a_locked_body(browser: Browser, tmp_path: Path) -> None:
+    load_world(browser, tmp_path)
+    pupil, boss = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
+    simulation = browser.physsim.node.simulation
+    for name in ('below/0', 'top/0'):
+        at = (40.0, 0.0, 0.0)
+        simulation.perform(requests.Spawn(name=name, shape=Disc(radius=0.5), pose=at))
+    simulation.perform(requests.Pin(point=(39.6, 0.0)))
+    release = {'tool': 'release', 'point': [39.6, 0.0]}
+    assert pupil.ask('click', **release)['ok']
+    assert boss.ask('lock', names=['below/0'])['ok']
+    assert pupil.ask('take_back')['code'] == 'frozen'
+    assert boss.ask('lock', names=[])['ok']
+    assert pupil.ask('take_back')['ok']
+    assert boss.ask('lock', names=['below/0'])['ok']
+    assert pupil.ask('click', **release)['code'] == 'frozen'
+    # Away from the pin, it concerns the topmost body alone.
+    check_locked(Role.DRAW, [requests.Release(point=(40.0, 0.45))], browser.physsim.node.control)
+
+
 def test_a_hand_lets_go_of_what_is_locked_meanwhile(
     browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

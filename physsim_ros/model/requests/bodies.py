@@ -6,6 +6,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import chain
+import math
 import sys
 from typing import Annotated
 
@@ -27,6 +28,7 @@ from physsim_ros.model.checks import (
 from physsim_ros.model.colors import check_color, Color
 from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import ADDED, BODY, check_body_name, JOINT
 from physsim_ros.model.requests.request import (
     as_field,
@@ -177,6 +179,19 @@ class Anchor(AtPoint):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Release(AtPoint):
     """Undo the anchoring of the topmost body at a point, and remove pins and axles there."""
+
+    def concerned(self, world: Query) -> Iterable[str]:
+        """Return the topmost body, and those that lose a pin or an axle."""
+        top, scene = world.bodies_at(self.point)[:1], world.snapshot.scene
+        reach = max((each.click_reach for each in scene.bodies if each.name in top), default=0.0)
+        removed = (
+            joint.bodies
+            for joint in scene.joints
+            if joint.kind in (JointKind.PIN, JointKind.AXLE)
+            and not {*top}.isdisjoint(joint.bodies)
+            and math.dist(world.pivot(joint), self.point) <= reach
+        )
+        return chain(top, *removed)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

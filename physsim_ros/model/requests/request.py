@@ -12,6 +12,7 @@ from physsim_ros.model.checks import check_point, OfClass, shown, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.names import BODY, JOINT
+from physsim_ros.model.scene import Joint
 from physsim_ros.model.settings import check_setting, WorldSettings
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
@@ -27,6 +28,9 @@ class Query(Protocol):
 
     def bodies_at(self, point: Point) -> tuple[str, ...]:
         """Return the names of the bodies that cover a point of the world [m], topmost first."""
+
+    def pivot(self, axle: Joint) -> Point:
+        """Return the place of a weld or an axle [m]."""
 
     def machine(self, name: str) -> tuple[str, ...]:
         """Return the names of a robot and its links for each of them; of another body its own."""

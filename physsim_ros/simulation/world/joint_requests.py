@@ -36,10 +36,6 @@ from physsim_ros.model.translation import counted, Text
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import are_same, body_of_name, points_in_world
 
-# A click means a weld or an axle within this share of the body's inner radius [1], and within at
-# least this distance [m].
-_NEAR_SHARE, _NEAR = 0.35, 0.1
-
 
 def join(live: LiveSpace, request: Join) -> Answer:
     """Make a joint, or change the one of that name."""
@@ -183,7 +179,7 @@ def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Answer:
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:
     """Remove the welds and axles of a body at a point of the world [m]; return their names."""
-    reach = max(_NEAR, _NEAR_SHARE * space.bodies.by_name[body].body.shape.form.inner)
+    reach = space.bodies.by_name[body].body.click_reach
     names = [
         name
         for name in space.joints.names_on(body)
