@@ -33,7 +33,7 @@ class Text(str):
     values: dict[str, Any]
 
     def __new__(cls, template: str, /, **values: Any) -> Self:
-        """Make it of a template and its values."""
+        """Return the text of a template and its values."""
         return cls._of(template.format(**values), template, values)
 
     @classmethod

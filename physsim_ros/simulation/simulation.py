@@ -95,7 +95,7 @@ class Simulation:
     :ivar playback: the moment that is shown
     :ivar requests: queue of the requests that wait for the next frame, and what applies them
     :ivar frames: makes the frames of that moment
-    :ivar ticks: have its time go on
+    :ivar ticks: advances its time
     """
 
     def __init__(

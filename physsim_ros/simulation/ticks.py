@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The time of a world: it goes on by a steady time, in calls that end in time, or by publish periods.
+The time of a world: it advances by a steady time, in calls that end in time, or by frames.
 
 Laws: requests are applied in the order of their arrival and only between frames, in a paused world
 too. While a seek or an amendment is under way, no frame is made. A frame without a step shows what
@@ -68,7 +68,7 @@ NO_LIMITS = TickLimits()
 
 class Ticks:
     """
-    Has the time of a world go on.
+    Advances the time of a world.
 
     :param past: of the world
     :param playback: the moment that is shown
