@@ -6,10 +6,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
-import functools
 import io
 from pathlib import Path
-import posixpath
 import re
 
 from physsim_ros.sketchpad.results import read_results
@@ -22,8 +20,6 @@ from tornado.web import HTTPError, StaticFileHandler
 _SCALE, _QUIET = 8, 4
 # The files that a browser runs.
 PAGE = Path(__file__).parents[1] / 'page'
-# An import by which a script is loaded with the one that has it, and not later, by a call.
-_IMPORT = re.compile(r"^import .* from '(.*)'", re.MULTILINE)
 # Parts of files that browsers do not need, by their suffix: descriptions, types of editors,
 # comments, but for the licence and after code those with quotes, which may be the end of a text;
 # and indentation, since no text has several lines.
@@ -34,38 +30,6 @@ _FOR_READERS = {
         '.css': rb'/\*(?! SPDX).*?\*/|^[ \t]+',
     }.items()
 }
-
-
-def scripts_of(page: str) -> list[str]:
-    """
-    Return the scripts that a page loads, each before those that it imports.
-
-    :param page: name of its file
-    :return: paths below the folder of the page
-    """
-    found = re.findall(r'<script .*src="/page/(.*)"', (PAGE / page).read_text(encoding='utf-8'))
-    # The list grows while it is read.
-    for script in found:
-        for name in _IMPORT.findall((PAGE / script).read_text(encoding='utf-8')):
-            imported = posixpath.normpath(posixpath.join(posixpath.dirname(script), name))
-            if imported not in found:
-                found.append(imported)
-    return found
-
-
-@functools.cache
-def _with_preloads(page: str) -> bytes:
-    """
-    Return a page that names all of its scripts, so that a browser loads them at once.
-
-    Without that, a browser learns of a script when it has read the one that imports it: on a slow
-    connection, each level of imports costs a round trip.
-    """
-    links = ''.join(
-        f'<link rel="modulepreload" href="/page/{script}">\n' for script in scripts_of(page)
-    )
-    text = (PAGE / page).read_text(encoding='utf-8')
-    return text.replace('</head>', links + '</head>').encode()
 
 
 class _CookieSetting(Guarded):
@@ -111,7 +75,7 @@ class Page(_CookieSetting):
             # The time of the cookie begins anew at each visit.
             self.set_cookie_for(self.role)
         self.set_header('Content-Type', TYPES['.html'])
-        self.finish(_with_preloads(self._file))
+        self.finish((PAGE / self._file).read_bytes())
 
 
 class CookieCheck(Guarded):
