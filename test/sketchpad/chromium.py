@@ -33,6 +33,8 @@ PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').get
     x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
 # Called by a promise that settles when what was told has been drawn.
 DRAWN = '(done) => requestAnimationFrame(() => setTimeout(done))'
+# Called with the error of what needs a page that is loaded.
+LOADING = '(error) => { if (!(error instanceof ReferenceError)) throw error; }'
 MILLISECONDS = 1000.0 * PATIENCE
 # Notes what a page is told: people, with the last message of its welcome; topics of its requests
 # that are answered, and of those after whose answer a frame has come; speeds of time; texts of
@@ -223,11 +225,11 @@ class Sheet:
         Wait for an expression on the page, or a function of an argument, to become true.
 
         It is evaluated when a picture has been drawn, so that buttons and fields show what it
-        knows. The browser's own waiting evaluates text in the page, which the page's policy
-        forbids.
+        knows; a page that is loading does not have `physsim` yet. The browser's own waiting
+        evaluates text in the page, which the page's policy forbids.
         """
         value = predicate if argument is None else f'({predicate})(argument)'
-        drawn = f'argument => new Promise({DRAWN}).then(() => {value})'
+        drawn = f'argument => new Promise({DRAWN}).then(() => {value}).catch({LOADING})'
         self.until(lambda: self.page.evaluate(drawn, argument), predicate)
 
     def until(self, predicate: Callable[[], object], what: str) -> None:

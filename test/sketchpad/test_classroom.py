@@ -359,6 +359,8 @@ def test_driving_is_one_gesture_though_others_draw_meanwhile(browser: Browser) -
     anna.ask('person', name='Anna')
     anna.spawn('r/0', y=0.0, robot='turtlebot4')
     anna.send('drive', name='r/0', velocity=[0.2, 0, 0])
+    # Messages are handled in their order.
+    anna.ask('drop')
     browser.physsim.run(0.1)
     ben.spawn('b/0', 5.0)
     anna.send('drive', name='r/0', velocity=[0.1, 0, 0])
