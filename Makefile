@@ -130,7 +130,7 @@ mutate: $(TOOLS)  ## change forty constants and operators at random; tell which 
 bench: $(TOOLS)  ## measure what steps, frames, robots and pages cost
 	$(BIN)/python -m tools.bench $(ARGS)
 
-ablate: $(TOOLS)  ## show which laws fail without each stage of a step, and its cost
+ablate: $(TOOLS)  ## show which tests fail without each stage of a step, and its cost
 	$(BIN)/python -m tools.ablation $(ARGS)
 
 evaluate: $(TOOLS)  ## count how many drawn strokes are read correctly

@@ -5,9 +5,10 @@
 The layout of Chipmunk's structs: what Pymunk tells is found where `chipmunk.h` looks for it.
 
 No wheel of Pymunk has Chipmunk's headers, so that `engine/core/chipmunk.h` has the structs once
-more. Some of these Pymunk declares itself. Of the others it builds a small scene whose properties
-all have different values and steps it once; each value is then read through those structs. Every
-other field lies before one of these, so that a field more or less anywhere is noticed.
+more. Some of these Pymunk declares itself. For the others this module builds a small scene, whose
+properties all have different values, and steps it once; each value is then read through those
+structs. Every other field lies before one of these, so that a field that is added or removed
+anywhere is noticed.
 Cost: 5 ms, when the engine is imported.
 """
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What follows from a scene alone, in the tables of the core.
+The fields of the core's tables that follow from a scene alone.
 
 A body, force, medium, attractor, robot or actor has a row each, in spawn order.
 """
@@ -70,7 +70,7 @@ def check_columns(body: Body, settings: WorldSettings, dt: float) -> None:
     """
     Make the columns of one body, so that an error in them refuses its request, and ends no step.
 
-    Those of a body without a role follow from its form, which building it derives.
+    The columns of a body without a role follow from its form, which building it derives.
 
     :param settings: of its world
     :param dt: of a sub-step [s]

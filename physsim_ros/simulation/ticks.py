@@ -34,7 +34,8 @@ class FrameEnd(Enum):
     :cvar DUE: the last step that is due, or that of a publish period where the call is overdue
     :cvar STEP: the last step that is due, or any where the call is overdue; a later call makes the
         other steps
-    :cvar PERIOD: that of a publish period, however many steps are due, since requests answer it
+    :cvar PERIOD: that of a publish period, however many steps are due, since controllers answer
+        each such frame
     """
 
     DUE = 'due'
@@ -62,7 +63,7 @@ class TickLimits:
         return self.frame_end is FrameEnd.PERIOD or self.is_overdue()
 
 
-# Those of a call that does all that is due.
+# The limits of a call that does all that is due.
 NO_LIMITS = TickLimits()
 
 

@@ -314,11 +314,12 @@ class Player:
             return
         gesture = gestures[-min(back, len(gestures))]
         self.sim.requests.submit(Amend((gesture,), tuple(requests)), topic='~/fuzz')
-        frames = [*self._frames_overdue(calls), self.sim.apply_requests()]
+        # While it waits, a frame of steps that were under way shows the line before.
+        frames = [each for each in self._frames_overdue(calls) if not len(self.sim.requests)]
+        frames.append(self.sim.apply_requests())
         later = self._cut(before, gesture)
         self.submitted += requests
-        # One of steps that were under way shows the line before.
-        for frame in itertools.dropwhile(lambda each: each and not each.answers, frames):
+        for frame in frames:
             self.look(frame)
         self._check_done_again(later)
         self.undone.clear()

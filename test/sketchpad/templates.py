@@ -35,7 +35,7 @@ _DECLARED: dict[str, set[str]] = {
     '_COUNTED[limit]': set(_COUNTED.values()),
     **{each: set(WorldSettings.FIELDS) for each in ('names[0]', 'changed[0]')},
 }
-# What only a template says is not translated: names of settings, which files and ROS have, too.
+# Templates that are not translated: names of settings, which files and ROS have, too.
 NAMES = set(WorldSettings.FIELDS)
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The stages of a step, and how each is put out of action in this process.
+The stages of a step, and how each is left out in this process.
 
 The core leaves out the stages of a mask; the rest is done by functions and constants that are
 replaced. The product never leaves out any.

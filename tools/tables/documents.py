@@ -80,8 +80,10 @@ def files() -> dict[Path, str]:
     package = ROOT / 'physsim_ros'
     types, messages = (package / 'testing' / f'{name}.py' for name in ('parameters', 'messages'))
     page = package / 'sketchpad' / 'page'
-    scripts = {page / 'view' / 'joint_view.js': {'symbols': _symbols()}}
-    scripts[page / 'joint_kinds.js'] = {'kinds': _kinds_of_joints()}
+    scripts = {
+        page / 'view' / 'joint_view.js': {'symbols': _symbols()},
+        page / 'joint_kinds.js': {'kinds': _kinds_of_joints()},
+    }
     return {
         **{
             page: with_parts(page, parts, '<!-- {}: made by `make tables` -->')
@@ -346,7 +348,6 @@ def _symbols() -> str:
 
 def _kinds_of_joints() -> str:
     """Return lists of kinds of joints, for the scripts of the page that treat each alike."""
-    schemas = {str(kind): kind.schema for kind in JointKind}
     lists = {
         # A gear couples rotations, wherever its point is.
         'AT_POINT': lambda schema: schema.points == 1 and 'ratio' not in schema.own,
@@ -354,7 +355,7 @@ def _kinds_of_joints() -> str:
         'ALONG_AXIS': lambda schema: schema.has_axis,
     }
     return ''.join(
-        f'export const {name} = {[kind for kind in schemas if is_in(schemas[kind])]};\n'
+        f'export const {name} = {[str(kind) for kind in JointKind if is_in(kind.schema)]};\n'
         for name, is_in in lists.items()
     )
 

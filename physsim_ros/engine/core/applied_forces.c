@@ -60,7 +60,6 @@ void find_leads(World *world) {
         Body *body = active_at(world, number);
         body->scratch.lead = steady_lead(world, body);
     }
-    turn_leads(world);
 }
 
 void apply_forces(World *world) {

@@ -88,7 +88,7 @@ typedef struct Body {
     uint8_t sensor;        // its contacts have no effect
     uint8_t towed;         // it rolls on an axle without a motor
     cpVect offset;         // the engine's origin in the body's frame [m]
-    double reach;          // greatest distance of a point of it from the engine's origin [m]
+    double reach;          // no point of it is farther from the engine's origin [m]
     double half_width;     // of its thinnest piece [m]
     double safe_depth;     // how far it may be entered in a sub-step unseen [m]
     double slop;           // how far it may overlap others at rest [m]
@@ -373,8 +373,8 @@ typedef struct Chipmunk {
     void (*remove_shape)(cpSpace *, cpShape *);
 } Chipmunk;
 
-// The stages that can be left out, to measure what fails without each (`make ablate`). The first two are parts of
-// `begin_half_step`, and tested where these are.
+// The stages that can be left out, to measure what fails without each (`make ablate`). The first two are
+// no rows of the tables in `step.c`: `applied_forces.c` tests the one, `half_step.c` the other.
 enum {
     STAGE_HALF_STEP = 1,
     STAGE_SUPPORT = 2,

@@ -96,6 +96,7 @@ void begin_fields(World *world) {
         return;
     }
     find_leads(world);
+    turn_leads(world);
     Media media = media_of(world, 0.0);
     const Twist *attraction = attracted(world, 0.0);
     for (int place = 0; place < world->body_count; place++) {

@@ -54,9 +54,8 @@ static bool keeps_contact(const Body *body) {
 static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
     if (world->own->all_active) {
         find_leads(world);
-    } else {
-        turn_leads(world);
     }
+    turn_leads(world);
     bool released = false;
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
@@ -131,7 +130,7 @@ void begin_half_step(World *world) {
             forget_impulses(body);
         }
         if (!is_zero(body->wrench)) {
-            // Of a command; Chipmunk clears forces after each step.
+            // The wrench is that of a command; Chipmunk clears forces after each step.
             world->chipmunk.body_activate(body->engine);
             body->engine->f = body->wrench.v;
             body->engine->t = body->wrench.w;

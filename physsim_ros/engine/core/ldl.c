@@ -14,7 +14,6 @@
 // Cost: 12 µs for a chain of fifty axles, 250 unknowns.
 
 #include "ldl.h"
-#include <string.h>
 
 enum { NO_PARENT = -1 };
 

@@ -11,8 +11,8 @@
 // Wrenches of commands, and free flight of bodies that requests have changed (`half_step.c`).
 void begin_half_step(World *world);
 
-// Constant forces on bodies (`applied_forces.c`); the leads of bodies in free flight, of all, and anew where a force
-// turns with its body.
+// Constant forces on bodies, and leads of bodies in free flight (`applied_forces.c`). `find_leads` leaves these forces
+// out; `turn_leads`, which follows it, adds them, and finds leads anew where forces turn with their bodies.
 void apply_forces(World *world);
 void find_leads(World *world);
 void turn_leads(World *world);

@@ -79,7 +79,7 @@ def _slice_of(
     """
     Return the records of some joints, with numbers that count from the first of them.
 
-    :param known: of each joint
+    :param known: fields of each joint
     :param rows: of each joint
     """
     parts = [part for each in joints for part in each.parts]
@@ -275,11 +275,11 @@ def _rows_of(each: EngineJoint, damping: float, dt: float) -> list[_Fields]:
             if not damping:
                 continue
         for component, row in enumerate(part.rows):
-            greatest = force if row.most is None else row.most
+            strongest = force if row.most is None else row.most
             of_table = {
                 'part': number,
                 'component': component,
-                'most': math.inf if greatest is None else greatest * dt * abs(row.above),
+                'most': math.inf if strongest is None else strongest * dt * abs(row.above),
                 'damping': damping if row.law == lib.LAW_SPRING else 0.0,
             }
             rows.append(row._asdict() | of_table)

@@ -65,7 +65,7 @@ def _unset(value: object, name: str) -> tuple[str, ...]:
     return names
 
 
-# What several bodies may be together.
+# Texts for several bodies that form a whole, by the word of `Spawn.whole`.
 _WHOLES = {'chain': Text('chain')}
 
 

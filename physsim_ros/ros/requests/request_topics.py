@@ -40,7 +40,7 @@ MOST_BYTES = {
     OccupancyGrid: 5 * 2**20,
     Path: 2**20,
 }
-# Returns the request of a message, of which the name of the world frame is the second argument.
+# A function of a message and the name of the world frame, which returns the request.
 _Conversion = Callable[[Any, str], Request]
 _TOPICS: dict[str, tuple[type, _Conversion]] = {
     '~/spawn': (Marker, conversions.body_request),

@@ -157,7 +157,7 @@ class Fleet:
         return any(new)
 
     def match_new_publishers(self) -> bool:
-        """Subscribe to commands whose number of publishers has changed, and return the same."""
+        """Subscribe to topics with more or fewer publishers; return whether anything is new."""
         new = [topic.match_new_publishers() for topic in self._drive_topics]
         return any(new)
 

@@ -285,9 +285,9 @@ class RobotTopics:
 
     def reading(self, sensor: Sensor, sensed: StampedFrame, row: int) -> Any:
         """Return the message of a sensor of it."""
-        reading = SENSOR_MESSAGES[type(sensor)]
-        message = reading.message(sensed, row, self._lasers.get(sensor.name, sensor))
-        if reading.stamped:
+        kind = SENSOR_MESSAGES[type(sensor)]
+        message = kind.message(sensed, row, self._lasers.get(sensor.name, sensor))
+        if kind.stamped:
             message.header.stamp = sensed.stamp
             message.header.frame_id = self._frames.name(sensor.name)
         return message

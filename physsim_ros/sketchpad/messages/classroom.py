@@ -124,7 +124,7 @@ def take_back(page: PageSession, origin: Origin) -> None:
         gestures, snapshot = () if last is None else (last.gesture,), simulation.world.snapshot()
         check_taken_back(page.role, gestures, snapshot, page.control)
 
-    # What waits before it may add a gesture of this person, or take one back.
+    # Requests that wait before it may add a gesture of this person, or take one back.
     simulation.requests.submit(TakeBack(), origin._replace(check=check))
 
 

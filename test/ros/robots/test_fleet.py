@@ -132,8 +132,8 @@ def test_what_nobody_reads_is_not_made(flat: PhysSim, monkeypatch: pytest.Monkey
         pytest.fail('nobody reads the scan')
 
     flat.robot('turtlebot3_burger')
-    reading = messages.SENSOR_MESSAGES[messages.Laser]._replace(message=fail)
-    monkeypatch.setitem(messages.SENSOR_MESSAGES, messages.Laser, reading)
+    kind = messages.SENSOR_MESSAGES[messages.Laser]._replace(message=fail)
+    monkeypatch.setitem(messages.SENSOR_MESSAGES, messages.Laser, kind)
     flat.run(1.0)
 
 
