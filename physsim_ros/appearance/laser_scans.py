@@ -17,7 +17,7 @@ import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.sensing import is_due, read_laser, scan_points, Surroundings
+from physsim_ros.sensing import is_due, read_laser, reading_name, scan_points, Surroundings
 
 # Beams after which no further laser is read in a frame: ten lasers of 360 beams take some 3 ms.
 BUDGET = 3600
@@ -109,7 +109,7 @@ def _is_due(name: str, before: _Scan, laser: Laser, now: Snapshot) -> bool:
     if before.snapshot.stamp == now.stamp:
         return not np.array_equal(before.snapshot.poses, now.poses)
     earlier, later = sorted((before.snapshot.stamp, now.stamp))
-    return is_due(f'{name}|{laser.name}', laser.rate, earlier, later)
+    return is_due(reading_name(name, laser.name), laser.rate, earlier, later)
 
 
 def _points(surroundings: Surroundings, row: int, laser: Laser) -> Floats:

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Latency: the time that a command is on its way to a drive or a motor, or a message of a reading.
+Rate and latency: how often messages come, and how long they, or commands, are on their way.
 
-Law: it depends on seed, name and step alone, so that a rewind repeats it.
+Law: a latency depends on seed, name and step alone, so that a rewind repeats it.
 """
 
 from physsim_ros.model.checks import Numbers, Within
@@ -13,6 +13,8 @@ from physsim_ros.model.noise import uniform
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
 
+# Messages in a second of simulation time.
+MESSAGE_RATE = Within(0.01, 1000.0, 'Hz')
 # Longest latency [s]. Commands on their way are part of the state, at most one for each step.
 LONGEST_DELAY = 5.0
 _DELAY = Within(0.0, LONGEST_DELAY, 's')

@@ -17,7 +17,7 @@ from physsim_ros.sensing.motion import (
     read_odometry,
     true_motion,
 )
-from physsim_ros.sensing.sampling import is_due
+from physsim_ros.sensing.sampling import is_due, reading_name
 from physsim_ros.sensing.sensed_frame import read_sensor, SensedFrame
 from physsim_ros.sensing.surroundings import Surroundings
 from physsim_ros.sensing.touch import is_bumped
@@ -34,6 +34,7 @@ __all__ = [
     'read_laser',
     'read_odometry',
     'read_sensor',
+    'reading_name',
     'scan_points',
     'true_motion',
 ]

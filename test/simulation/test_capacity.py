@@ -273,7 +273,7 @@ def test_joints_are_counted(monkeypatch, in_all):
 
 def test_topics_of_robots_are_counted(monkeypatch):
     drive, sensors = {'kind': 'omni'}, [{'kind': 'imu', 'name': f'imu{each}'} for each in range(3)]
-    topics = Properties(robot={'drive': drive}).robot.topics
+    topics = Properties(robot={'drive': drive}).robot.topic_count
     monkeypatch.setattr(capacity, 'MOST_ROBOT_TOPICS', 2 * topics + 2)
     world = row(2, robot={'drive': drive, 'sensors': sensors[:1]})
     more = Properties(robot={'drive': drive, 'sensors': sensors})

@@ -12,6 +12,7 @@ from typing import Annotated
 
 from physsim_ros.model.checks import ListOf, text, Within
 from physsim_ros.model.declarations import Checked
+from physsim_ros.model.latency import MESSAGE_RATE
 
 # Greatest capacity [A h], current [A] and voltage [V]: those of a truck.
 _LARGEST = 1e4
@@ -43,4 +44,4 @@ class Battery(Checked):
         f"names of at most {MOST_DOCKS} bodies that charge it while the robot's centre of mass "
         'is on them, such as sensors on the floor',
     ] = ()
-    rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'messages a second'] = 1.0
+    rate: Annotated[float, MESSAGE_RATE, 'messages a second'] = 1.0

@@ -24,16 +24,16 @@ from physsim_ros.model.checks import (
     MASS_WORDS,
     OfClass,
     point_list,
-    Within,
 )
 from physsim_ros.model.colors import Color, color_value, COLOR_WORDS
 from physsim_ros.model.declarations import check_key, Checked, entry_of
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import JointKind, JointProperties, kind_from
 from physsim_ros.model.names import WORLD
+from physsim_ros.model.robots.drives import LENGTH
 from physsim_ros.model.robots.part_names import BASE, check_part, part_name
 from physsim_ros.model.robots.sensors.sensor import mounting
-from physsim_ros.model.shapes import LARGEST, Shape, shape_in, SHAPE_WORDS, SHAPES, SMALLEST
+from physsim_ros.model.shapes import Shape, shape_in, SHAPE_WORDS, SHAPES
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
@@ -56,9 +56,7 @@ class Towed(Checked):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    track: Annotated[
-        float, Within(SMALLEST, LARGEST, 'm'), 'distance of the left and the right wheel'
-    ] = 0.2
+    track: Annotated[float, LENGTH, 'distance of the left and the right wheel'] = 0.2
     traction: Annotated[float, FRICTION, 'coefficient of friction between wheels and floor'] = 0.8
 
     @property

@@ -15,7 +15,7 @@ from typing import Annotated
 from physsim_ros.model.checks import ListOf, Numbers, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.latency import delays, LATENCY_WORDS
+from physsim_ros.model.latency import delays, LATENCY_WORDS, MESSAGE_RATE
 from physsim_ros.model.motor_command import MODES
 from physsim_ros.model.robots.battery import Battery
 from physsim_ros.model.robots.drives import Drive, drive_from
@@ -36,7 +36,7 @@ class Odometry(Checked):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'messages a second'] = 30.0
+    rate: Annotated[float, MESSAGE_RATE, 'messages a second'] = 30.0
     slip: Annotated[
         Point,
         Numbers((Within(0.0, 1.0),) * 2),
@@ -157,7 +157,7 @@ class Robot(Checked):
                 raise BadProperty(f'a robot has two topics {topic}', field='sensors')
 
     @property
-    def topics(self) -> int:
+    def topic_count(self) -> int:
         """Return the number of its topics."""
         return len(self._topics)
 

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.names import WORLD
+from physsim_ros.model.names import PAIR_SEPARATOR, WORLD
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.ros.encoders.cdr import (
@@ -138,7 +138,7 @@ class ContactsEncoder:
 @lru_cache(maxsize=100_000)
 def _pair_name(a: str, b: str) -> bytes:
     """Return the name of a pair of bodies, serialised with padding."""
-    return padded_string(f'{a}|{b}')
+    return padded_string(f'{a}{PAIR_SEPARATOR}{b}')
 
 
 class PosesEncoder(SceneEncoder):

@@ -44,7 +44,12 @@ from physsim_ros.ros.robots.messages import (
 from physsim_ros.ros.robots.motor_topics import motor_topics
 from physsim_ros.ros.robots.timed_topic import TimedTopic
 from physsim_ros.ros.topics import LATCHED, of_one_type
-from physsim_ros.sensing import odometry_covariances, read_odometry, true_motion
+from physsim_ros.sensing import (
+    odometry_covariances,
+    read_odometry,
+    reading_name,
+    true_motion,
+)
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
@@ -173,7 +178,7 @@ class RobotTopics:
         """Add a topic to those that are published at frames, unless ROS refuses it."""
         publisher = self._publisher(kind, name, **options)
         if publisher is not None:
-            name = f'{self.body}|{name}'
+            name = reading_name(self.body, name)
             self._topics.append(
                 TimedTopic(publisher, message, name, rate=rate, latency=latency, sensor=sensor)
             )

@@ -244,7 +244,7 @@ def _check_on_body(count: int, body: str) -> None:
 
 
 def _check_topics(bodies: Iterable[Body]) -> None:
-    count = sum(body.robot.topics for body in bodies if body.robot is not None)
+    count = sum(body.robot.topic_count for body in bodies if body.robot is not None)
     if count > MOST_ROBOT_TOPICS:
         raise WorldFull(
             f'the robots would have {count} topics; there are at most {MOST_ROBOT_TOPICS}'

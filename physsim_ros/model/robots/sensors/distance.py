@@ -15,9 +15,9 @@ from physsim_ros.model.checks import ListOf, Numbers, OneOf, text, Whole, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.sensor import (
     angles,
+    DISTANCE,
     distances,
     LEAST_INCREMENT,
-    LENGTH,
     Sensor,
 )
 from physsim_ros.model.texts import Words
@@ -54,7 +54,7 @@ class Laser(Sensor):
     range: Annotated[  # noqa: A003 - a word of the interface
         Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
     ] = (0.1, 10.0)
-    noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
+    noise: Annotated[float, DISTANCE, 'standard deviation of a distance'] = 0.0
     blind: Annotated[
         tuple[Point, ...],
         ListOf(angles, 'pairs of angles', _MOST_SECTORS),
@@ -116,7 +116,7 @@ class RangeFinder(Sensor):
     range: Annotated[  # noqa: A003 - a word of the interface
         Point, distances, 'least and greatest distance, as for a laser [m]'
     ] = (0.02, 1.0)
-    noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
+    noise: Annotated[float, DISTANCE, 'standard deviation of a distance'] = 0.0
 
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.
@@ -154,6 +154,6 @@ class Landmarks(Sensor):
     ] = (0.0, 10.0)
     noise: Annotated[
         Point,
-        Numbers((LENGTH, Within(0.0, math.pi, 'rad'))),
+        Numbers((DISTANCE, Within(0.0, math.pi, 'rad'))),
         'standard deviations of range [m] and bearing [rad]',
     ] = (0.0, 0.0)

@@ -12,7 +12,7 @@ import math
 from typing import Annotated, ClassVar
 
 from physsim_ros.model.checks import FASTEST, Numbers, OneOf, Whole, Within
-from physsim_ros.model.robots.sensors.sensor import FULL_TURN, LENGTH, Sensor
+from physsim_ros.model.robots.sensors.sensor import DISTANCE, FULL_TURN, Sensor
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import Point
 
@@ -61,7 +61,7 @@ class Gps(Sensor):
 
     name: str = 'fix'
     rate: float = 5.0
-    noise: Annotated[float, LENGTH, 'standard deviation to the east, and to the north'] = 0.0
+    noise: Annotated[float, DISTANCE, 'standard deviation to the east, and to the north'] = 0.0
     status: Annotated[
         str,
         OneOf(('none', 'fix', 'sbas', 'gbas')),
@@ -99,6 +99,6 @@ class FloorEye(Sensor):
     rate: float = 30.0
     pixels: Annotated[int, Whole(1, _MOST_PIXELS), 'number of photodiodes'] = 8
     width: Annotated[
-        float, LENGTH, 'distance from the first photodiode, on the left, to the last'
+        float, DISTANCE, 'distance from the first photodiode, on the left, to the last'
     ] = 0.1
     noise: Annotated[float, Within(0.0, 1.0), 'standard deviation of a channel, of 0 .. 1'] = 0.0

@@ -12,7 +12,7 @@ from typing import Annotated
 from physsim_ros.model.checks import AT_WORDS, Numbers, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.latency import delays, LATENCY_WORDS
+from physsim_ros.model.latency import delays, LATENCY_WORDS, MESSAGE_RATE
 from physsim_ros.model.robots.part_names import BASE, check_part
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose
@@ -29,7 +29,7 @@ _FARTHEST_ROUND = 2 * math.tau
 # Least angle between two beams [rad]: far above the rounding of angles.
 LEAST_INCREMENT = 1e-6
 FULL_TURN = Within(0.0, math.tau + _TURN_ROUNDING, 'rad')
-LENGTH = Within(0.0, LARGEST, 'm')
+DISTANCE = Within(0.0, LARGEST, 'm')
 _COORDINATE = Within(-LARGEST, LARGEST, 'm')
 _ANGLE = Within(-_FARTHEST_ROUND, _FARTHEST_ROUND, 'rad')
 
@@ -84,7 +84,7 @@ def span(value: object, name: str, limits: Within) -> Point:
 
 def distances(value: object, name: str) -> Point:
     """Return the least and the greatest distance that a sensor measures [m]."""
-    low, high = span(value, name, LENGTH)
+    low, high = span(value, name, DISTANCE)
     if low == high:
         raise BadProperty(f'{name} must be [min, max], min below max', field=name)
     return low, high
@@ -111,9 +111,7 @@ class Sensor(Checked, ABC):
     at: Annotated[Pose, mounting, 'x, y [m], yaw [rad] in the frame of its link', AT_WORDS] = (
         ORIGIN
     )
-    rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'readings a second of simulation time'] = (
-        10.0
-    )
+    rate: Annotated[float, MESSAGE_RATE, 'readings a second of simulation time'] = 10.0
     link: Annotated[str, check_part, 'that it is mounted on; `base` is the body of the robot'] = (
         BASE
     )
