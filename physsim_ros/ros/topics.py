@@ -10,11 +10,11 @@ decode, without a word, and takes seconds for one of megabytes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
@@ -25,6 +25,10 @@ LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPol
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 # Of services, whose calls wait to be read: 50 clients with 20 calls each.
 CALLS = QoSProfile(depth=1000)
+
+
+# Reports that a topic cannot be, or a publisher on it is ignored.
+Refuse = Callable[[Refusal, str], None]
 
 
 class Undecodable(Malformed):
@@ -48,14 +52,14 @@ def decoded(data: bytes, kind: type, most_bytes: int) -> Any:
 
 
 @contextmanager
-def of_one_type(topic: str) -> Iterator[None]:
+def refusing_another_type(topic: str, refuse: Refuse) -> Iterator[None]:
     """
-    Create an end of a topic, which has one type within a process.
+    Create an end of a topic in the block, which ends where the topic has another type already.
 
-    :raises BadProperty: it has another one already
+    A topic has one type within a process.
     """
     try:
         yield
-    except rclpy_implementation.RCLError as error:
+    except rclpy_implementation.RCLError:
         message = f'{topic} is a topic of another type already'
-        raise BadProperty(message, field='name') from error
+        refuse(BadProperty(message, field='name'), topic)

@@ -18,12 +18,12 @@ from functools import partial
 import math
 from typing import Any
 
-from physsim_ros.model.errors import BadProperty, Malformed, no_joint, Refusal
+from physsim_ros.model.errors import Malformed, no_joint
 from physsim_ros.model.motor_command import CommandPoint, MODES, MotorCommand
 from physsim_ros.model.requests import CommandMotors
 from physsim_ros.model.robots import JOINT_TOPICS, part_name, Robot
 from physsim_ros.ros.robots.command_topic import CommandTopic, MOST_BYTES
-from physsim_ros.ros.topics import decoded, of_one_type
+from physsim_ros.ros.topics import decoded, Refuse, refusing_another_type
 from rclpy.duration import Duration
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -75,7 +75,7 @@ class MotorTopic(CommandTopic):
 
 
 def motor_topics(
-    node: Node, below: str, body: str, robot: Robot, refuse: Callable[[Refusal, str], None]
+    node: Node, below: str, body: str, robot: Robot, refuse: Refuse
 ) -> list[MotorTopic]:
     """
     Return the topics of commands of a robot's motors; none where it has none.
@@ -84,7 +84,7 @@ def motor_topics(
     :param below: what their names begin with
     :param body: name of the robot's body
     :param robot: that it is
-    :param refuse: reports a topic that cannot be; takes the refusal and the topic
+    :param refuse: reports a topic that cannot be
     """
     if not robot.motors:
         return []
@@ -97,11 +97,8 @@ def motor_topics(
     topics = []
     for name, (kind, convert) in zip(JOINT_TOPICS, kinds, strict=True):
         topic = f'{below}{name}'
-        try:
-            with of_one_type(topic):
-                topics.append(MotorTopic(node, topic, kind, partial(convert, motors)))
-        except BadProperty as refusal:
-            refuse(refusal, topic)
+        with refusing_another_type(topic, refuse):
+            topics.append(MotorTopic(node, topic, kind, partial(convert, motors)))
     return topics
 
 

@@ -17,7 +17,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
-from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.robots import Battery, BATTERY_TOPIC, part_name, Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body, Scene
@@ -43,7 +43,7 @@ from physsim_ros.ros.robots.messages import (
 )
 from physsim_ros.ros.robots.motor_topics import motor_topics
 from physsim_ros.ros.robots.timed_topic import TimedTopic
-from physsim_ros.ros.topics import LATCHED, of_one_type
+from physsim_ros.ros.topics import LATCHED, Refuse, refusing_another_type
 from physsim_ros.sensing import (
     odometry_covariances,
     read_odometry,
@@ -66,7 +66,7 @@ class RobotTopics:
     :param robot: that it is
     :param robot_tf: where its transforms are published
     :param world_frame: name of the world frame
-    :param refuse: reports a topic that cannot be; takes the refusal and the topic
+    :param refuse: reports a topic that cannot be
     :param lasers: fields of lasers that its messages have in place of its own
     :param expected: type of commands that is subscribed to while nobody publishes; None is none
 
@@ -82,7 +82,7 @@ class RobotTopics:
         *,
         robot_tf: RobotTf,
         world_frame: str,
-        refuse: Callable[[Refusal, str], None],
+        refuse: Refuse,
         lasers: Mapping[str, Any],
         expected: type | None = None,
     ) -> None:
@@ -192,14 +192,11 @@ class RobotTopics:
         qos: QoSProfile | int = 5,
     ) -> Publisher | None:
         topic = (self._below if below is None else below) + topic
-        try:
-            with of_one_type(topic):
-                publisher = self._node.create_publisher(kind, topic, qos)
-        except BadProperty as refusal:
-            self._refuse(refusal, topic)
-            return None
-        self._publishers.append(publisher)
-        return publisher
+        with refusing_another_type(topic, self._refuse):
+            publisher = self._node.create_publisher(kind, topic, qos)
+            self._publishers.append(publisher)
+            return publisher
+        return None
 
     def describe(self, body: Body, scene: Scene) -> None:
         """Publish how the robot looks, if that is new."""

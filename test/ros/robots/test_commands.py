@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 from geometry_msgs.msg import Twist, TwistStamped
 from physsim_ros.ros import topics
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.robots import command_topic, drive_topic
+from physsim_ros.ros.robots import command_topic, type_choice
 from physsim_ros.ros.topics import LOSSLESS
 from physsim_ros.testing import PhysSim, shared_context
 import pytest
@@ -243,7 +243,7 @@ def test_publishers_of_both_types_have_longer_and_longer_to_find_a_subscription(
     monkeypatch.setattr(flat.node, 'get_publishers_info_by_topic', lambda _: publishers)
     changes, kind = [], None
     for look in range(80):
-        monkeypatch.setattr(drive_topic, 'monotonic', lambda look=look: 0.5 * look)
+        monkeypatch.setattr(type_choice, 'monotonic', lambda look=look: 0.5 * look)
         topic.match_publishers()
         flat.settle()
         heard = [each for each in flat.node.subscriptions if each.topic_name == '/robot_0/cmd_vel']
