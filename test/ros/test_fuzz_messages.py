@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from functools import partial
 import math
 import random
 import sys
@@ -16,12 +15,11 @@ import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointProperties
-from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.streams import ContactsEncoder, PosesEncoder, StatesEncoder
 from physsim_ros.ros.publishers.status_publishers import encode_event
-from physsim_ros.ros.requests import conversions
+from physsim_ros.ros.requests.request_topics import TOPICS
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, disc
@@ -92,17 +90,6 @@ def any_message(rng: Choices) -> tuple[str, Any]:
     return told
 
 
-CONVERT = {
-    '~/spawn': conversions.body_request,
-    '~/join': conversions.joint_request,
-    '~/command': conversions.command_request,
-    '~/pin': partial(conversions.point_request, Pin),
-    '~/axle': partial(conversions.point_request, Axle),
-    '~/anchor': partial(conversions.point_request, Anchor),
-    '~/release': partial(conversions.point_request, Release),
-}
-
-
 class Fuzzed:
     """A world and everything that looks at it, as in the node."""
 
@@ -123,9 +110,9 @@ class Fuzzed:
         """Ask as the node does, check that there is one answer, and return its code."""
         before = self.simulation.world.digest()
         try:
-            request = CONVERT[topic](message, frame_id='world')
+            request = TOPICS[topic].convert(message, 'world')
         except Refusal as refusal:
-            subject = conversions.subject_of(message, joint=topic == '~/join')
+            subject = TOPICS[topic].subject(message)
             self.simulation.requests.refuse(refusal, Origin(topic), subject=subject)
         else:
             self.simulation.requests.submit(request, topic=topic)
@@ -184,5 +171,5 @@ def test_any_messages_are_answered_and_leave_a_world_that_goes_on(seeds: range) 
             fuzzed.go()
     # Not all are refused at the door, and none of the reasons is unknown.
     assert codes['ok'] > codes.total() / 4
-    assert done == set(CONVERT)
+    assert done == set(TOPICS) - {'~/drag/feedback'}
     assert codes.keys() <= REASONS

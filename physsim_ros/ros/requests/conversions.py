@@ -10,7 +10,7 @@ ignored, and so are stamps, except those of the poses of a stroke.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import Any, TypeVar
 
 from geometry_msgs.msg import PointStamped
@@ -93,12 +93,9 @@ def joint_name_of(marker: Marker) -> str:
     return f'{marker.ns.removeprefix(JOINT_PREFIX) or JOINT_NAMESPACE}/{marker.id}'
 
 
-def subject_of(message: Any, *, joint: bool = False) -> str:
-    """Return the one body, or with `joint` the joint, that a message names, or ''."""
-    if isinstance(message, Marker):
-        return joint_name_of(message) if joint else name_of(message)
-    names: Sequence[str] = getattr(message, 'joint_names', ())
-    return names[0] if len(names) == 1 else ''
+def only_name_in(message: MultiDOFJointState) -> str:
+    """Return the name of the body that a command is about, or '' if it is about several."""
+    return message.joint_names[0] if len(message.joint_names) == 1 else ''
 
 
 def body_request(marker: Marker, frame_id: str) -> Spawn | Delete | DeleteAll:

@@ -13,13 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid, Path
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
+from physsim_ros.model.requests import Anchor, AtPoint, Axle, Pin, Release, Request
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.topics import decoded, LOSSLESS, Undecodable
 from physsim_ros.runtime.error_boundary import ErrorBoundary
@@ -40,17 +40,39 @@ MOST_BYTES = {
     OccupancyGrid: 5 * 2**20,
     Path: 2**20,
 }
-# A function of a message and the name of the world frame, which returns the request.
-_Conversion = Callable[[Any, str], Request]
-_TOPICS: dict[str, tuple[type, _Conversion]] = {
-    '~/spawn': (Marker, conversions.body_request),
-    '~/join': (Marker, conversions.joint_request),
-    '~/pin': (PointStamped, partial(conversions.point_request, Pin)),
-    '~/axle': (PointStamped, partial(conversions.point_request, Axle)),
-    '~/anchor': (PointStamped, partial(conversions.point_request, Anchor)),
-    '~/release': (PointStamped, partial(conversions.point_request, Release)),
-    '~/command': (MultiDOFJointState, conversions.command_request),
-    '~/drag/feedback': (InteractiveMarkerFeedback, conversions.hand_request),
+
+
+class _RequestTopic(NamedTuple):
+    """
+    A topic of which each message is a request.
+
+    :ivar kind: type of its messages
+    :ivar convert: returns the request of a message, by the name of the world frame
+    :ivar subject: returns the body or joint that a refused message names, or ''
+    :ivar field: the only field of its messages; '' if they have several
+    """
+
+    kind: type
+    convert: Callable[[Any, str], Request]
+    subject: Callable[[Any], str] = lambda _: ''
+    field: str = ''
+
+
+def _of_points(request: type[AtPoint]) -> _RequestTopic:
+    return _RequestTopic(PointStamped, partial(conversions.point_request, request), field='point')
+
+
+TOPICS = {
+    '~/spawn': _RequestTopic(Marker, conversions.body_request, conversions.name_of),
+    '~/join': _RequestTopic(Marker, conversions.joint_request, conversions.joint_name_of),
+    '~/pin': _of_points(Pin),
+    '~/axle': _of_points(Axle),
+    '~/anchor': _of_points(Anchor),
+    '~/release': _of_points(Release),
+    '~/command': _RequestTopic(
+        MultiDOFJointState, conversions.command_request, conversions.only_name_in
+    ),
+    '~/drag/feedback': _RequestTopic(InteractiveMarkerFeedback, conversions.hand_request),
 }
 
 
@@ -74,8 +96,8 @@ class RequestTopics:
         self._requests = requests
         self._boundary = boundary
         self._frame_id = frame_id
-        for topic, (kind, convert) in _TOPICS.items():
-            self.subscribe(kind, topic, partial(self._submit, topic, convert))
+        for name, topic in TOPICS.items():
+            self.subscribe(topic.kind, name, partial(self._submit, name, topic))
         self.subscribe(MarkerArray, '~/spawn_array', self._spawn_array)
         self.subscribe(OccupancyGrid, '~/walls', self._make_walls)
 
@@ -107,14 +129,13 @@ class RequestTopics:
             self.undecodable += 1
             raise
 
-    def _submit(self, topic: str, convert: _Conversion, message: Any) -> None:
+    def _submit(self, name: str, topic: _RequestTopic, message: Any) -> None:
         """Submit the request of a message, or the refusal of the message."""
-        origin = Origin(topic, 'point' if isinstance(message, PointStamped) else '')
+        origin = Origin(name, topic.field)
         try:
-            request = convert(message, self._frame_id)
+            request = topic.convert(message, self._frame_id)
         except Refusal as refusal:
-            subject = conversions.subject_of(message, joint=topic == '~/join')
-            self._requests.refuse(refusal, origin, subject=subject)
+            self._requests.refuse(refusal, origin, subject=topic.subject(message))
         else:
             self._requests.submit(request, origin)
 
