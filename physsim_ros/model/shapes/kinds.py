@@ -7,6 +7,7 @@ The kinds of shapes: one class each, of validated values.
 Each has its key in world files, and its form: convex pieces and mass properties.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 import itertools
@@ -22,7 +23,6 @@ from physsim_ros.model.shapes.form import (
     Convex,
     Form,
     form_of,
-    Piece,
     share_forms,
 )
 from physsim_ros.model.shapes.polygons import (
@@ -52,8 +52,35 @@ def _points(value: Any, name: str) -> tuple[Point, ...]:
     return as_tuples(checked_points(points, name))
 
 
+def _outline(value: Any, name: str) -> tuple[Point, ...]:
+    return distinct_points(_points(value, name), closed=True)
+
+
+def _line(value: Any, name: str) -> tuple[Point, ...]:
+    return distinct_points(_points(value, name), closed=False)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Disc(Checked):
+class _Solid(Checked, ABC):
+    """
+    The base of shapes.
+
+    :ivar form: its convex pieces, mass properties and extent
+    """
+
+    form: Form = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        object.__setattr__(self, 'form', self._form())
+
+    @abstractmethod
+    def _form(self) -> Form:
+        """Return the form, of the fields, which are checked."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Disc(_Solid):
     """
     A disc, about the body's position (Box2D and Pymunk: a circle).
 
@@ -64,15 +91,13 @@ class Disc(Checked):
     KEY: ClassVar = 'circle'
 
     radius: Annotated[float, checked_length, '[m]']
-    form: Form = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
-        Checked.__post_init__(self)
-        object.__setattr__(self, 'form', form_of((Circle((0.0, 0.0), self.radius),)))
+    def _form(self) -> Form:
+        return form_of((Circle((0.0, 0.0), self.radius),))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Box(Checked):
+class Box(_Solid):
     """
     A rectangle about the body's position, its sides along the body's axes.
 
@@ -84,11 +109,9 @@ class Box(Checked):
 
     width: Annotated[float, checked_length, 'along x [m]']
     height: Annotated[float, checked_length, 'along y [m]']
-    form: Form = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
-        Checked.__post_init__(self)
-        object.__setattr__(self, 'form', form_of((Convex(self.corners()),)))
+    def _form(self) -> Form:
+        return form_of((Convex(self.corners()),))
 
     def corners(self, center: Point = (0.0, 0.0)) -> tuple[Point, ...]:
         """Return the four corners about a centre [m], counter-clockwise from lower left."""
@@ -103,7 +126,7 @@ class Box(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Polygon(Checked):
+class Polygon(_Solid):
     """
     A solid with any simple outline.
 
@@ -115,14 +138,11 @@ class Polygon(Checked):
     KEY: ClassVar = 'polygon'
 
     outline: Annotated[
-        tuple[Point, ...], _points, 'vertices in order, either way round, none repeated [m]'
+        tuple[Point, ...], _outline, 'vertices in order, either way round, none repeated [m]'
     ]
-    form: Form = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
-        Checked.__post_init__(self)
-        object.__setattr__(self, 'outline', distinct_points(self.outline, closed=True))
-        object.__setattr__(self, 'form', _form_of_outline(self.outline))
+    def _form(self) -> Form:
+        return _form_of_outline(self.outline)
 
     @classmethod
     def from_value(cls, value: object, name: str) -> Self:
@@ -161,7 +181,7 @@ def _form_of_outline(points: tuple[Point, ...]) -> Form:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Triangles(Checked):
+class Triangles(_Solid):
     """
     A solid made of triangles; where they overlap, the mass of both counts.
 
@@ -175,17 +195,14 @@ class Triangles(Checked):
     vertices: Annotated[
         tuple[Point, ...], _points, 'three for each triangle, either way round [m]'
     ]
-    form: Form = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
-        Checked.__post_init__(self)
+    def _form(self) -> Form:
         if not self.vertices or len(self.vertices) % 3:
             raise BadOutline('triangles need three points each', field='vertices')
         triangles = np.array(self.vertices).reshape(-1, 3, 2)
         turn = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
         triangles = np.where((turn < 0)[:, None, None], triangles[:, ::-1], triangles)
-        pieces = tuple(convex_piece(triangle) for triangle in triangles)
-        object.__setattr__(self, 'form', form_of(pieces))
+        return form_of(tuple(convex_piece(triangle) for triangle in triangles))
 
     @classmethod
     def from_value(cls, value: object, name: str) -> Self:
@@ -198,7 +215,7 @@ class Triangles(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Chain(Checked):
+class Chain(_Solid):
     """
     A chain of segments with round ends, for walls and terrain (Box2D: a chain shape).
 
@@ -209,20 +226,14 @@ class Chain(Checked):
 
     KEY: ClassVar = 'chain'
 
-    points: Annotated[tuple[Point, ...], _points, 'at least two, in order [m]']
+    points: Annotated[tuple[Point, ...], _line, 'at least two, in order [m]']
     thickness: Annotated[float, checked_length, 'of the segments [m]']
-    form: Form = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
-        Checked.__post_init__(self)
-        object.__setattr__(self, 'points', distinct_points(self.points, closed=False))
+    def _form(self) -> Form:
         if len(self.points) < 2:
             raise BadOutline('a chain needs two different points', field='points')
-        pieces = tuple(
-            Capsule(start, end, self.thickness / 2)
-            for start, end in itertools.pairwise(self.points)
-        )
-        object.__setattr__(self, 'form', form_of(pieces))
+        ends = itertools.pairwise(self.points)
+        return form_of(tuple(Capsule(start, end, self.thickness / 2) for start, end in ends))
 
 
 # Shapes that a compound can have as its elements, by their keys.
@@ -230,7 +241,7 @@ _ELEMENTS: dict[str, type[Disc | Box]] = {each.KEY: each for each in (Disc, Box)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Compound(Checked):
+class Compound(_Solid):
     """
     A compound: the same disc or box at several positions, not rotated, as one rigid body.
 
@@ -242,18 +253,14 @@ class Compound(Checked):
 
     element: Annotated[Disc | Box, OfClass(Disc | Box), 'the disc or box']
     centers: Annotated[tuple[Point, ...], _points, 'its positions [m]']
-    form: Form = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self) -> None:
-        Checked.__post_init__(self)
+    def _form(self) -> Form:
         if not self.centers:
             raise BadOutline('a compound needs at least one element', field='centers')
-        pieces: tuple[Piece, ...]
-        if isinstance(self.element, Disc):
-            pieces = tuple(Circle(center, self.element.radius) for center in self.centers)
-        else:
-            pieces = tuple(Convex(self.element.corners(center)) for center in self.centers)
-        object.__setattr__(self, 'form', form_of(pieces))
+        element, centers = self.element, self.centers
+        if isinstance(element, Disc):
+            return form_of(tuple(Circle(center, element.radius) for center in centers))
+        return form_of(tuple(Convex(element.corners(center)) for center in centers))
 
     @classmethod
     def from_value(cls, value: object, name: str) -> Self:
