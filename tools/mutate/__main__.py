@@ -20,9 +20,11 @@ import subprocess
 import sys
 from tempfile import TemporaryDirectory
 from test.source_tree import compile_core, copy_source, ROOT
+import time
 
 import pytest
 
+from .likeness import by_likeness
 from .mutations import Mutation, mutations_of
 
 PACKAGE = Path('physsim_ros')
@@ -33,8 +35,8 @@ FURTHER = {
     'model': ('laws', 'simulation'),
     'sensing': ('simulation',),
 }
-# Number of files that are run first, the likeliest, which notice most mutations.
-FIRST = 10
+# The files of tests are run in parts that end here, because pytest first collects all of a part.
+PARTS = (3, 12)
 # Survivors that forty mutations may have.
 MOST_SURVIVORS = 8
 # Many times what the fast tests of a folder take [s].
@@ -64,42 +66,35 @@ def choice(every: list[Mutation], count: int, seed: int) -> list[Mutation]:
     return random.sample(core, half) + random.sample(other, min(count - half, len(other)))
 
 
-def tests_of(path: Path) -> list[str]:
-    """Return the files whose tests have to notice a mutation of a file, the likeliest first."""
-    folder = path.parts[1]
+def tests_of(mutation: Mutation) -> list[str]:
+    """Return the files whose tests have to notice a mutation, the likeliest first."""
+    folder = mutation.path.parts[1]
     folders = [folder] if (ROOT / 'test' / folder).is_dir() else ['.']
     folders += FURTHER.get(folder, ())
-    # The stems of words, so that `measures` is like `measuring`.
-    words = [word[:6] for part in path.with_suffix('').parts[2:] for word in part.split('_')]
-
-    def unlikeness(test: Path) -> tuple[int, int, Path]:
-        named = sum(word in test.stem for word in words)
-        text = test.read_text(encoding='utf-8')
-        return -named, -sum(len(re.findall(rf'\b{word}', text)) for word in words), test
-
     # Limits are promised by documents, whatever folder they are of.
     found = {
         ROOT / 'test/test_limits.py',
         *itertools.chain(*((ROOT / 'test' / each).rglob('test_*.py') for each in folders)),
     }
-    return [str(each.relative_to(ROOT)) for each in sorted(found, key=unlikeness)]
+    return [str(each.relative_to(ROOT)) for each in by_likeness(sorted(found), mutation)]
 
 
-def is_noticed(tree: Path, path: Path) -> bool:
-    """Return whether the core does not compile any more, or not soon, or a test fails."""
-    if path.suffix == '.c':
+def who_notices(tree: Path, mutation: Mutation) -> str:
+    """Return the compiler, or the first test that fails, or an empty text."""
+    if mutation.path.suffix == '.c':
         try:
             compile_core(tree)
         except (AssertionError, subprocess.TimeoutExpired):
-            return True
-    tests = tests_of(path)
-    # The page runs in a browser only, whose tests are all slow.
-    words = [] if path.suffix == '.js' else ['-m', 'not slow']
-    return any(fails(tree, [*each, *words]) for each in (tests[:FIRST], tests[FIRST:]) if each)
+            return 'the compiler'
+    tests = tests_of(mutation)
+    # The page runs only in a browser, whose tests are slow, but for those of what everybody does.
+    marks = 'slow or everyday' if mutation.path.suffix == '.js' else 'not slow'
+    parts = (tests[begin:end] for begin, end in itertools.pairwise((0, *PARTS, len(tests))))
+    return next(filter(None, (failed(tree, ['-m', marks, *part]) for part in parts if part)), '')
 
 
-def fails(tree: Path, words: list[str]) -> bool:
-    """Return whether a test of those that words of pytest choose fails, or does not end."""
+def failed(tree: Path, words: list[str]) -> str:
+    """Return the first test that fails of those that words of pytest choose, or an empty text."""
     # In their order, a few to each worker.
     command = [sys.executable, '-m', 'pytest', '--exitfirst', '--quiet', '--numprocesses=auto']
     command += ['--maxprocesses=8', '--maxschedchunk=8', '--max-worker-restart=0', *words]
@@ -111,10 +106,14 @@ def fails(tree: Path, words: list[str]) -> bool:
             capture_output=True,
             check=False,
             timeout=LONGEST,
+            text=True,
         )
     except subprocess.TimeoutExpired:
-        return True
-    return done.returncode not in {0, pytest.ExitCode.NO_TESTS_COLLECTED}
+        return 'tests that do not end'
+    if done.returncode in {0, pytest.ExitCode.NO_TESTS_COLLECTED}:
+        return ''
+    found = re.search(r'^(?:FAILED|ERROR) (\S+)', done.stdout, re.MULTILINE)
+    return found[1] if found else 'pytest'
 
 
 def main(words: list[str]) -> int:
@@ -132,9 +131,11 @@ def main(words: list[str]) -> int:
         for mutation in chosen:
             text = (ROOT / mutation.path).read_bytes()
             (tree / mutation.path).write_bytes(mutation.applied(text))
-            noticed = is_noticed(tree, mutation.path)
-            print(f'{"noticed " if noticed else "SURVIVES"} {mutation.told(text)}', flush=True)
-            survivors += not noticed
+            begun = time.monotonic()
+            who = who_notices(tree, mutation)
+            print(f'{"noticed " if who else "SURVIVES"} {mutation.told(text)}')
+            print(f'  {who or "no test"}, {time.monotonic() - begun:.0f} s', flush=True)
+            survivors += not who
             (tree / mutation.path).write_bytes(text)
             # A library that somebody has loaded is not written over.
             library.unlink(missing_ok=True)
