@@ -25,6 +25,7 @@ import numpy as np
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.domain import own_domain
 import rclpy
+from rclpy.context import Context
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
 
@@ -66,12 +67,11 @@ def open_pages(node: PhysSimNode, count: int, strokes: int = 0) -> Iterator[Call
         process.wait()
 
 
-def served_node() -> PhysSimNode:
+def served_node(context: Context | None = None) -> PhysSimNode:
     """Return a paused node of an empty world, whose pages are served."""
     values = {'viewer': 'none', 'sketchpad': 'serve', 'sketchpad_port': 0, 'speed': 0.0}
-    node = PhysSimNode(
-        parameter_overrides=[Parameter(name, value=value) for name, value in values.items()]
-    )
+    overrides = [Parameter(name, value=value) for name, value in values.items()]
+    node = PhysSimNode(context=context, parameter_overrides=overrides)
     node.get_logger().set_level(LoggingSeverity.WARN)
     return node
 

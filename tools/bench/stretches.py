@@ -27,7 +27,8 @@ from physsim_ros.ros.programs.collector import Collector
 from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.world_control import open_content
-import rclpy
+from physsim_ros.testing import own_context
+import pytest
 from tools.bench.full_files import KindOfFile, KINDS
 from tools.bench.full_files import text_of as text_full_of
 from tools.bench.pages import open_pages, run_until, served_node
@@ -169,15 +170,16 @@ OPERATIONS: Mapping[str, Operation] = {
 @contextmanager
 def watched_node() -> Iterator[Watched]:
     """Give a paused node with a page in another process, which reads all frames."""
-    node = served_node()
-    node.loop.started = True
-    try:
-        with open_pages(node, 1) as read_line:
-            run_until((node,), read_line)
-            yield Watched(node)
-    finally:
-        node.destroy_node()
-        gc.collect()
+    with pytest.MonkeyPatch.context() as patch, own_context(patch) as context:
+        node = served_node(context)
+        node.loop.started = True
+        try:
+            with open_pages(node, 1) as read_line:
+                run_until((node,), read_line)
+                yield Watched(node)
+        finally:
+            node.destroy_node()
+            gc.collect()
 
 
 def stretches_of(kind: KindOfFile) -> dict[str, float]:
@@ -209,7 +211,6 @@ def main(kinds: Sequence[str]) -> None:
     part, _, _ = part.partition(COMMENT.format('end'))
     rows = {line.split('|')[1].strip(): line for line in part.split('\n') if line[:2] == '| '}
     head = ('full of', *OPERATIONS)
-    rclpy.init()
     for kind in kinds or KINDS:
         costs = stretches_of(KINDS[kind]).values()
         rows[kind] = f'| {kind} | {" | ".join(f"{1e3 * cost:.0f}" for cost in costs)} |'
@@ -217,7 +218,6 @@ def main(kinds: Sequence[str]) -> None:
         kept = [rows[each] for each in KINDS if each in rows]
         text = '\n'.join(('', f'| {" | ".join(head)} |', '|---' * len(head) + '|', *kept, '', ''))
         DOCUMENT.write_text(with_parts(DOCUMENT, {PART: text}, COMMENT), encoding='utf-8')
-    rclpy.shutdown()
 
 
 if __name__ == '__main__':
