@@ -9,7 +9,7 @@ import math
 import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import ChangeBody, Command, Delete, DriveRobot
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Chain, Disc
 import pytest
 
 from .scenes import DT, NOWHERE, simulation, spawn
@@ -284,14 +284,27 @@ def test_a_pedestrian_finds_the_way_where_walls_leave_one(walls, start, kind):
     assert math.dist(sim.world.snapshot().poses[row, :2], goal) < 0.3
 
 
-@pytest.mark.parametrize(('shift', 'side'), [(0.0, -1.0), (-3e-8, 1.0), (3e-8, -1.0)])
-def test_a_pedestrian_takes_the_shorter_way_around_a_wall_or_of_equal_ways_the_right(shift, side):
+@pytest.mark.parametrize(
+    ('shift', 'tilt', 'side'),
+    [
+        (0.0, 0.0, -1.0),
+        (-3e-8, 0.0, 1.0),
+        (3e-8, 0.0, -1.0),
+        # Both ways are equal, and one begins with less of a turn.
+        (0.0, 0.5, -1.0),
+        (0.0, -0.5, 1.0),
+    ],
+)
+def test_a_pedestrian_takes_the_shorter_way_of_equal_ways_that_of_less_turn_or_the_right(
+    shift, tilt, side
+):
     sim = _floor()
-    _walls(sim, (0.2, 4.0, 0.0, shift))
+    wall = Chain(points=((0.0, -2.0), (0.0, 2.0)), thickness=0.2)
+    spawn(sim, 'wall/0', wall, (0.0, shift, tilt), anchored=True)
     walks = {'kind': 'orca', 'points': [[3.0, 0.0]]}
     row = spawn(sim, 'person/0', PERSON, (-3.0, 0.0, 0.0), kinematic=True, actor=walks)
     sim.world.step(1)
-    assert sim.world.snapshot().twists[row, 1] * side > 0.5
+    assert sim.world.snapshot().twists[row, 1] * side > 0.3
 
 
 @pytest.mark.parametrize('kind', ['social_force', 'orca'])
