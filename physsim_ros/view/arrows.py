@@ -65,7 +65,7 @@ class ContactArrows:
         rows = [_contact_forces(batch, index) for index in chosen]
         forces = [each for _, each in rows]
         rescaled = self._fit(batch.recorded[chosen].tolist(), forces)
-        if change.scene or rescaled:
+        if change.resends_scene or rescaled:
             self._legend.send(batch, self._force)
         if not rows:
             return

@@ -24,7 +24,7 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.view.body_mesh import body_mesh, opacity
 from physsim_ros.view.frame_batch import Change, FrameBatch, sampling_period
-from physsim_ros.view.mesh import MeshGroup, MeshTrack, Path
+from physsim_ros.view.mesh import EntityPath, MeshGroup, MeshTrack
 from physsim_ros.view.scenery import DEPTH, LABELS, TEXTS
 import rerun as rr
 
@@ -74,7 +74,9 @@ class BodyGeometry:
             self._by_key[key] = self._group(rows, kept.get(key), taken)
         self.groups = list(self._by_key.values())
 
-    def _group(self, rows: list[int], before: BodyGroup | None, taken: set[Path]) -> BodyGroup:
+    def _group(
+        self, rows: list[int], before: BodyGroup | None, taken: set[EntityPath]
+    ) -> BodyGroup:
         """
         Return the group of some bodies, by their rows.
 
@@ -115,9 +117,9 @@ class Bodies:
         if known is None or known.scene is not batch.scene or known.unit != change.unit:
             self._geometry = known = BodyGeometry(batch.scene, change.unit, known)
         self._meshes.send_poses(known.groups, batch.poses, batch.times, change.moved)
-        if change.scene:
+        if change.resends_scene:
             times = batch.times_at([0])
-            self._meshes.send_meshes(known.groups, times, everything=change.everything)
+            self._meshes.send_meshes(known.groups, times, everything=change.resends_all)
 
 
 class BodyTexts:
@@ -141,7 +143,7 @@ class BodyTexts:
 
     def send(self, batch: FrameBatch, change: Change) -> None:
         """Send the texts of a scene, and their places if a body that has one has moved."""
-        if change.scene:
+        if change.resends_scene:
             self._send_texts(batch)
         rows, count = self._rows, len(self._rows)
         if not change.moved[rows].any():
@@ -197,7 +199,7 @@ def _scale(body: Body, first: Body) -> tuple[float, float, float]:
     return 1.0, 1.0, 1.0
 
 
-def _new_path(name: str, taken: set[Path]) -> Path:
+def _new_path(name: str, taken: set[EntityPath]) -> EntityPath:
     """Return the path of an entity that is called like a body, and take it."""
     path = (*ROOT.split('/'), *name.rsplit('/', 1))
     while path in taken:

@@ -40,14 +40,14 @@ class Change(NamedTuple):
     What is to be sent with a batch.
 
     :ivar unit: length of a unit of the view [m]
-    :ivar scene: whether components that change only with the scene are to be sent
-    :ivar everything: whether those that did not change are to be sent, too
+    :ivar resends_scene: whether components that change only with the scene are to be sent
+    :ivar resends_all: whether those of them that did not change are to be sent, too
     :ivar moved: (n,) bool: whether each body has moved since it was sent last
     """
 
     unit: float
-    scene: bool
-    everything: bool
+    resends_scene: bool
+    resends_all: bool
     moved: NDArray[np.bool_]
 
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from physsim_ros.appearance import JointGlyphs, Symbol
 from physsim_ros.model.arrays import Floats, Singles
 from physsim_ros.view.frame_batch import Change, FrameBatch
-from physsim_ros.view.mesh import Mesh, MeshBuilder, MeshGroup, MeshTrack, Path
+from physsim_ros.view.mesh import EntityPath, Mesh, MeshBuilder, MeshGroup, MeshTrack
 from physsim_ros.view.scenery import JOINTS
 from physsim_ros.view.strips import strip_column
 import rerun as rr
@@ -45,15 +45,15 @@ class Joints:
         self._glyphs: JointGlyphs | None = None
         self._groups: list[MeshGroup] = []
         self._unit = 0.0
-        # Path and mesh of each symbol of the scene, for one unit of the view.
-        self._meshes: dict[Symbol, tuple[Path, Mesh]] = {}
+        # EntityPath and mesh of each symbol of the scene, for one unit of the view.
+        self._meshes: dict[Symbol, tuple[EntityPath, Mesh]] = {}
         self._numbers = count()
         self._filled: set[str] = set()
         recording.log(DOTS, rr.Points3D.from_fields(point_shading='flat'), static=True)
 
     def send(self, batch: FrameBatch, change: Change) -> None:
         """Send the joints of a batch, if they are others or one of their bodies has moved."""
-        if change.scene:
+        if change.resends_scene:
             self._change_scene(batch, change)
         glyphs = self._glyphs
         if glyphs is None or not np.append(change.moved, False)[glyphs.scene.joint_rows].any():
@@ -125,7 +125,7 @@ class Joints:
         if scene.joints:
             self._glyphs = JointGlyphs(scene, least=_LEAST * change.unit, with_symbols=True)
         self._groups = [] if self._glyphs is None else self._symbol_groups(self._glyphs)
-        self._track.send_meshes(self._groups, times, everything=change.everything)
+        self._track.send_meshes(self._groups, times, everything=change.resends_all)
         for path in self._filled:
             self._recording.send_columns(path, times, rr.Clear.columns(is_recursive=[False]))
         self._filled.clear()
@@ -149,7 +149,7 @@ class Joints:
             )
         return groups
 
-    def _new(self, symbol: Symbol) -> tuple[Path, Mesh]:
+    def _new(self, symbol: Symbol) -> tuple[EntityPath, Mesh]:
         """Return path and mesh of a symbol."""
         builder = MeshBuilder()
         for line in symbol:

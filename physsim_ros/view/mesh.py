@@ -31,7 +31,8 @@ SIDES = 64
 _END_SIDES = 12
 # Greatest length of a mitre, in widths of the band: sharper corners are cut off.
 _MITRE = 4.0
-Path = tuple[str, ...]
+# The path of an entity in a recording, by its parts.
+EntityPath = tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -157,7 +158,7 @@ class MeshGroup:
     :param opacity: of the mesh, 0 .. 1
     """
 
-    path: Path
+    path: EntityPath
     names: tuple[str, ...]
     mesh: Mesh
     rows: NDArray[np.intp]
@@ -197,7 +198,7 @@ class MeshTrack:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        self._sent: dict[Path, MeshGroup] = {}
+        self._sent: dict[EntityPath, MeshGroup] = {}
 
     def send_meshes(self, groups: Sequence[MeshGroup], times: Times, *, everything: bool) -> None:
         """

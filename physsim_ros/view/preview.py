@@ -51,7 +51,7 @@ class PreviewLines:
                 self._current, self._since = preview, recorded
             if not preview.points and recorded - self._since >= LINGER * 1e9:
                 preview = NO_PREVIEW
-            again = change.everything and index == 0 and preview != NO_PREVIEW
+            again = change.resends_all and index == 0 and preview != NO_PREVIEW
             if preview == self._sent and not again:
                 continue
             self._sent = preview

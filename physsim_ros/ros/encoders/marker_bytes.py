@@ -14,8 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import struct
 
+from physsim_ros.ros.encoders.bare_markers import BareMarker, Key
 from physsim_ros.ros.encoders.cdr import CdrWriter, START
-from physsim_ros.ros.encoders.marker_symbols import Key, Symbol
 
 # A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.
 _POSED = struct.Struct('<7d3d4f8xx3xi')
@@ -47,24 +47,24 @@ class MarkerBytes:
     size_of_rest: int
 
 
-def serialised(symbol: Symbol, frame_id: str) -> MarkerBytes:
-    """Return the marker of a symbol, without its time and pose, which each frame has."""
+def serialised(marker: BareMarker, frame_id: str) -> MarkerBytes:
+    """Return the bytes of a marker without its time and pose, which each frame has."""
     head = CdrWriter()
     head.header(frame_id)
-    head.text(symbol.key[0])
-    head.ints(symbol.key[1], symbol.kind, symbol.action)
-    count = len(symbol.points)
-    rest = CdrWriter(_POSED.pack(*_IDENTITY, *symbol.scale, *symbol.color, count))
-    rest.doubles(*(number for x, y in symbol.points for number in (x, y, symbol.height)))
+    head.text(marker.key[0])
+    head.ints(marker.key[1], marker.kind, marker.action)
+    count = len(marker.points)
+    rest = CdrWriter(_POSED.pack(*_IDENTITY, *marker.scale, *marker.color, count))
+    rest.doubles(*(number for x, y in marker.points for number in (x, y, marker.height)))
     rest.data += _UNTEXTURED
-    rest.text(symbol.text)
+    rest.text(marker.text)
     rest.align(4)
     rest.data += _UNMESHED
     rest.data += bytes(_PADDING)
     head.align(4)
     gap = -len(head.data) % 8
     return MarkerBytes(
-        key=symbol.key,
+        key=marker.key,
         at_8=bytes(head.data + bytes(gap) + rest.data),
         at_4=bytes(head.data + bytes(4 - gap) + rest.data),
         size_of_rest=len(rest.data),

@@ -24,6 +24,14 @@ from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import frames_in
 from physsim_ros.model.transform import rotated_each
+from physsim_ros.ros.encoders.bare_markers import (
+    BareMarker,
+    body_markers,
+    hands_marker,
+    joint_markers,
+    Key,
+    wall_marker,
+)
 from physsim_ros.ros.encoders.cdr import MessageTemplate
 from physsim_ros.ros.encoders.marker_bytes import (
     COLOR_OFFSET,
@@ -31,14 +39,6 @@ from physsim_ros.ros.encoders.marker_bytes import (
     MarkerBytes,
     POINTS_OFFSET,
     serialised,
-)
-from physsim_ros.ros.encoders.marker_symbols import (
-    body_symbols,
-    hands_symbol,
-    joint_symbols,
-    Key,
-    Symbol,
-    wall_symbol,
 )
 from physsim_ros.ros.encoders.streams import pose_columns
 from physsim_ros.runtime.garbage_collection import suspended_collection
@@ -105,8 +105,8 @@ class MarkersEncoder:
         for body in scene.bodies:
             known = self._bodies.get(body.name)
             if known is None or (known[0] is not body and known[0] != body):
-                symbols = body_symbols(body)
-                markers = tuple(serialised(each, self._frame_id) for each in symbols)
+                bare = body_markers(body)
+                markers = tuple(serialised(each, self._frame_id) for each in bare)
                 self._bodies[body.name] = body, markers
                 yield
 
@@ -121,7 +121,7 @@ class MarkersEncoder:
         for joint, *look in zip(scene.joints, self._glyphs.sizes, counts, strict=True):
             drawn = self._joints.get(joint.name)
             if drawn is None or drawn[0] != (joint, *look):
-                points, lines = joint_symbols(joint, *look)
+                points, lines = joint_markers(joint, *look)
                 pair = serialised(points, self._frame_id), serialised(lines, self._frame_id)
                 self._joints[joint.name] = (joint, *look), pair
                 yield
@@ -138,13 +138,13 @@ class MarkersEncoder:
         self._joints = {joint.name: self._joints[joint.name] for joint in scene.joints}
         each = enumerate(self._bodies.values())
         bodies = [(row, marker) for row, (_, own) in each for marker in own]
-        symbols = []
+        bare = []
         if scene.settings.bounds is not None:
-            symbols.append(wall_symbol(scene.settings.bounds))
+            bare.append(wall_marker(scene.settings.bounds))
         if hands:
-            symbols.append(hands_symbol(hands))
+            bare.append(hands_marker(hands))
         # That of the hands is the last one before those of joints.
-        others = [serialised(symbol, self._frame_id) for symbol in symbols]
+        others = [serialised(each, self._frame_id) for each in bare]
         joints = [marker for _, pair in self._joints.values() for marker in pair]
         drawn = [*(marker for _, marker in bodies), *others, *joints]
         deletions = self._deletions.begin({marker.key: None for marker in drawn})
@@ -206,7 +206,7 @@ class _Deletions:
         known = self._serialised.get(key)
         if known is not None:
             return known
-        return serialised(Symbol(key, action=Marker.DELETE), self._frame_id)
+        return serialised(BareMarker(key, action=Marker.DELETE), self._frame_id)
 
 
 class _Message:

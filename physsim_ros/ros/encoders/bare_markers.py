@@ -44,7 +44,7 @@ _KEY = re.compile(r'"(\w+)": ')
 
 
 @dataclass(frozen=True, slots=True)
-class Symbol:
+class BareMarker:
     """
     A marker without its pose.
 
@@ -63,17 +63,17 @@ class Symbol:
     action: int = Marker.ADD
 
 
-def body_symbols(body: Body) -> list[Symbol]:
+def body_markers(body: Body) -> list[BareMarker]:
     """Return the markers of a body: the body, and the x of an anchored one."""
     key = split_name(body.name)
     kind, scale, points = geometry_of(body.shape)
-    symbols = [Symbol(key, kind, scale, points, color=body.color, text=_text(body.entry()))]
+    markers = [BareMarker(key, kind, scale, points, color=body.color, text=_text(body.entry()))]
     if body.anchored:
-        symbols.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
-    return symbols
+        markers.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
+    return markers
 
 
-def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symbol]:
+def joint_markers(joint: Joint, size: float, corners: int) -> tuple[BareMarker, BareMarker]:
     """
     Return the markers of a joint: its points, which make an equal joint, and its lines.
 
@@ -89,7 +89,7 @@ def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symb
         kind, scale = Marker.LINE_STRIP, (size / 10, 0.0, 0.0)
     origin = ((0.0, 0.0),)
     return (
-        Symbol(
+        BareMarker(
             (f'{JOINT_PREFIX}{namespace}', number),
             kind,
             scale,
@@ -97,7 +97,7 @@ def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symb
             _RAISED,
             text=_terms(joint),
         ),
-        Symbol(
+        BareMarker(
             (f'{LINES_PREFIX}{namespace}', number),
             Marker.LINE_LIST,
             (size / 4, 0.0, 0.0),
@@ -120,7 +120,7 @@ def _text(properties: Mapping[str, Any]) -> str:
     return _KEY.sub(r'\1: ', yaml_line(properties))
 
 
-def _cross(body: Body, key: Key) -> Symbol:
+def _cross(body: Body, key: Key) -> BareMarker:
     """Return the small x at the centre of mass of an anchored body."""
     form = body.shape.form
     # About a third of the smaller side: area / outer radius is about 1.5 of it.
@@ -133,19 +133,19 @@ def _cross(body: Body, key: Key) -> Symbol:
         (x + reach, y - reach),
     )
     color = _DARK if is_bright(body.color) else _LIGHT
-    return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
+    return BareMarker(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
 
 
-def hands_symbol(count: int) -> Symbol:
+def hands_marker(count: int) -> BareMarker:
     """Return the marker of hands: a line from each dragged body; a frame writes the points."""
     points = ((0.0, 0.0),) * (2 * count)
     key = (HANDS, 0)
-    return Symbol(key, Marker.LINE_LIST, (_HAND_WIDTH, 0.0, 0.0), points, _RAISED, _HAND)
+    return BareMarker(key, Marker.LINE_LIST, (_HAND_WIDTH, 0.0, 0.0), points, _RAISED, _HAND)
 
 
-def wall_symbol(bounds: Bounds) -> Symbol:
+def wall_marker(bounds: Bounds) -> BareMarker:
     """Return the marker of the walls around the world."""
     left, bottom, right, top = bounds
     corners = ((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
     key = (WALLS, 0)
-    return Symbol(key, Marker.LINE_STRIP, (THIN, 0.0, 0.0), corners, color=_GREY)
+    return BareMarker(key, Marker.LINE_STRIP, (THIN, 0.0, 0.0), corners, color=_GREY)
