@@ -10,13 +10,7 @@ takes the scans. `picture` draws a world by Pillow, for a program without a wind
 Rerun is imported here. Start with `joint_strips`, which has the lines of each kind.
 """
 
-from physsim_ros.appearance.joint_colors import (
-    full_scale_force,
-    nice_number,
-    PULL,
-    PUSH,
-    SLATE,
-)
+from physsim_ros.appearance.joint_colors import full_scale_force, nice_number, PULL, PUSH, SLATE
 from physsim_ros.appearance.joint_glyphs import JointGlyphs, segment_corners, Symbol
 from physsim_ros.appearance.laser_scans import LaserScans
 from physsim_ros.appearance.picture import picture_of

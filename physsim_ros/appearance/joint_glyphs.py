@@ -222,10 +222,7 @@ def _with_background(poses: Floats) -> Floats:
 
 
 def _corner_columns(
-    scene: Scene,
-    corners: Sequence[Corner],
-    places: NDArray[np.intp],
-    joints: NDArray[np.intp],
+    scene: Scene, corners: Sequence[Corner], places: NDArray[np.intp], joints: NDArray[np.intp]
 ) -> _Corners:
     """
     Return corners as columns.

@@ -9,20 +9,7 @@ The anchored bodies of a world become a grid; a grid becomes a few anchored boxe
 `occupancy_grid`.
 """
 
-from physsim_ros.maps.occupancy_grid import (
-    anchored_grid,
-    Grid,
-    is_on_map,
-    MOST_CELLS,
-    walls_of,
-)
+from physsim_ros.maps.occupancy_grid import anchored_grid, Grid, is_on_map, MOST_CELLS, walls_of
 from physsim_ros.maps.rectangle_partition import rectangles_of
 
-__all__ = [
-    'MOST_CELLS',
-    'Grid',
-    'anchored_grid',
-    'is_on_map',
-    'rectangles_of',
-    'walls_of',
-]
+__all__ = ['MOST_CELLS', 'Grid', 'anchored_grid', 'is_on_map', 'rectangles_of', 'walls_of']

@@ -53,9 +53,7 @@ class Medium(Checked):
         'η of linear drag: 3 η v for each metre of outline, which is 6π η r v for a disc (Stokes)',
     ] = 0.0
     drag: Annotated[
-        float,
-        DRAG,
-        'coefficient c of quadratic drag, ½ c ρ v² times the width across the flow',
+        float, DRAG, 'coefficient c of quadratic drag, ½ c ρ v² times the width across the flow'
     ] = 1.0
     flow: Annotated[
         Point, VELOCITY, 'velocity of a current or wind, in the axes of the region'

@@ -14,14 +14,7 @@ import json
 from typing import Any, TypedDict, Unpack
 
 from builtin_interfaces.msg import Duration
-from geometry_msgs.msg import (
-    Point,
-    PointStamped,
-    Transform,
-    Twist,
-    Vector3,
-    Wrench,
-)
+from geometry_msgs.msg import Point, PointStamped, Transform, Twist, Vector3, Wrench
 from physsim_ros.model.colors import color_from
 from physsim_ros.ros.planar import pose_message, rotation_of
 from sensor_msgs.msg import MultiDOFJointState
@@ -84,10 +77,7 @@ def disc(name: str = 'body/0', *, diameter: float = 1.0, **more: Unpack[MarkerOp
 
 
 def box(
-    name: str = 'body/0',
-    *,
-    size: tuple[float, float] = (1.0, 1.0),
-    **more: Unpack[MarkerOptions],
+    name: str = 'body/0', *, size: tuple[float, float] = (1.0, 1.0), **more: Unpack[MarkerOptions]
 ) -> Marker:
     """Return the marker of a box, whose size is width and height [m]."""
     return marker(Marker.CUBE, name, scale=(*size, 0.1), **more)

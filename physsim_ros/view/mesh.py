@@ -222,11 +222,7 @@ class MeshTrack:
         self._sent = by_path
 
     def send_poses(
-        self,
-        groups: Sequence[MeshGroup],
-        poses: Floats,
-        times: Times,
-        moved: NDArray[np.bool_],
+        self, groups: Sequence[MeshGroup], poses: Floats, times: Times, moved: NDArray[np.bool_]
     ) -> None:
         """
         Send the poses of the groups in which an instance has moved.

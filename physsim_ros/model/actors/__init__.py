@@ -11,11 +11,7 @@ moves them (`engine/core/actors.c`). Start with `actor`; a new kind is a class a
 
 from __future__ import annotations
 
-from physsim_ros.model.actors.actor import (
-    Actor,
-    Path,
-    Start,
-)
+from physsim_ros.model.actors.actor import Actor, Path, Start
 from physsim_ros.model.actors.pedestrians import Orca, Pedestrian, SocialForce
 from physsim_ros.model.declarations import OfKind
 
@@ -26,13 +22,4 @@ ACTORS: dict[str, type[Actor]] = {each.KIND: each for each in (Path, SocialForce
 # The check of an actor.
 actor_from = OfKind('actor', ACTORS)
 
-__all__ = [
-    'ACTORS',
-    'Actor',
-    'Orca',
-    'Path',
-    'Pedestrian',
-    'SocialForce',
-    'Start',
-    'actor_from',
-]
+__all__ = ['ACTORS', 'Actor', 'Orca', 'Path', 'Pedestrian', 'SocialForce', 'Start', 'actor_from']

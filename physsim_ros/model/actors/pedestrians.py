@@ -105,9 +105,7 @@ class Orca(Pedestrian):
     KIND_WORDS: ClassVar = Words('rvo', 'rvo2', 'velocity_obstacle')
 
     horizon: Annotated[
-        float,
-        _TIME,
-        'time for which its velocity is free of collisions with bodies that move: τ',
+        float, _TIME, 'time for which its velocity is free of collisions with bodies that move: τ'
     ] = 2.0
     wall_horizon: Annotated[float, _TIME, 'the same for anchored bodies and walls'] = 0.5
 

@@ -24,13 +24,7 @@ from physsim_ros.model.requests.bodies import (
     Release,
     Spawn,
 )
-from physsim_ros.model.requests.hands import (
-    Grab,
-    HandRequest,
-    KeepHand,
-    LetGo,
-    MoveHand,
-)
+from physsim_ros.model.requests.hands import Grab, HandRequest, KeepHand, LetGo, MoveHand
 from physsim_ros.model.requests.joints import (
     Axle,
     CommandMotors,
@@ -43,13 +37,7 @@ from physsim_ros.model.requests.joints import (
     UnjoinAll,
 )
 from physsim_ros.model.requests.parts import parts_of
-from physsim_ros.model.requests.request import (
-    AtPoint,
-    Configure,
-    OfNamespace,
-    Request,
-    Restore,
-)
+from physsim_ros.model.requests.request import AtPoint, Configure, OfNamespace, Request, Restore
 
 __all__ = [
     'Anchor',

@@ -285,8 +285,7 @@ class _JointColumns:
         )
         self._color_offsets = (np.array(starts, np.intp) + COLOR_OFFSET) // 4
         self._sliders = np.array(
-            [row for row, joint in enumerate(scene.joints) if joint.kind.schema.has_axis],
-            np.intp,
+            [row for row, joint in enumerate(scene.joints) if joint.kind.schema.has_axis], np.intp
         )
 
     def fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:

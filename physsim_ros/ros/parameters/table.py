@@ -58,12 +58,7 @@ def _laser_angle(value: object, name: str) -> Point | None:
 class NodeSettings(Checked):
     """The parameters that are no settings of the world or of drawing."""
 
-    frame_id: Annotated[
-        str,
-        text,
-        'name of the world frame',
-        READ_ONLY,
-    ] = 'world'
+    frame_id: Annotated[str, text, 'name of the world frame', READ_ONLY] = 'world'
     world_file: Annotated[
         str,
         text,
@@ -80,10 +75,7 @@ class NodeSettings(Checked):
         READ_ONLY,
     ] = ''
     lesson_dir: Annotated[
-        str,
-        text,
-        'directory of your own lessons; empty means `lessons` in `world_dir`',
-        READ_ONLY,
+        str, text, 'directory of your own lessons; empty means `lessons` in `world_dir`', READ_ONLY
     ] = ''
     physics_rate: Annotated[
         float,
@@ -98,14 +90,10 @@ class NodeSettings(Checked):
         READ_ONLY,
     ] = 60.0
     speed: Annotated[
-        float,
-        SPEED,
-        'simulated seconds per second; 0 is paused, negative goes back',
+        float, SPEED, 'simulated seconds per second; 0 is paused, negative goes back'
     ] = 1.0
     fast_speed: Annotated[
-        float,
-        Within(0.0, 64.0),
-        'speed of `~/fast_forward` and, backward, of `~/fast_rewind`',
+        float, Within(0.0, 64.0), 'speed of `~/fast_forward` and, backward, of `~/fast_rewind`'
     ] = 4.0
     tool: Annotated[
         str,
@@ -123,22 +111,14 @@ class NodeSettings(Checked):
         'memory of the past: requests, checkpoints, frames, other courses, undone requests; '
         'when it is full, the oldest data is dropped, and the event `history` says so',
     ] = DEFAULT_MEMORY
-    publish_clock: Annotated[
-        bool,
-        flag,
-        'whether the clock is published',
-    ] = True
+    publish_clock: Annotated[bool, flag, 'whether the clock is published'] = True
     publish_tf: Annotated[
         bool,
         flag,
         'whether the pose of every body is published on `/tf` as well; needs tf2_msgs',
         READ_ONLY,
     ] = False
-    map_resolution: Annotated[
-        float,
-        Within(0.001, 10.0, 'm'),
-        'side of a cell of `~/map`',
-    ] = 0.05
+    map_resolution: Annotated[float, Within(0.001, 10.0, 'm'), 'side of a cell of `~/map`'] = 0.05
     robot_tf: Annotated[
         str,
         OneOf(tuple(mode.value for mode in RobotTf)),
@@ -196,11 +176,9 @@ class NodeSettings(Checked):
         'an older recording of that name, but no other file',
         READ_ONLY,
     ] = ''
-    sketchpad: Annotated[
-        str,
-        OneOf(('none', 'serve')),
-        '`serve` serves the page to browsers',
-    ] = 'none'
+    sketchpad: Annotated[str, OneOf(('none', 'serve')), '`serve` serves the page to browsers'] = (
+        'none'
+    )
     sketchpad_address: Annotated[
         str,
         text,
@@ -214,9 +192,7 @@ class NodeSettings(Checked):
         READ_ONLY,
     ] = 8765
     sketchpad_frozen: Annotated[
-        bool,
-        flag,
-        "pupils' pages cannot change anything; a teacher's can",
+        bool, flag, "pupils' pages cannot change anything; a teacher's can"
     ] = False
     sketchpad_locked: Annotated[
         str,
@@ -283,9 +259,7 @@ class Spec:
     def descriptor(self) -> ParameterDescriptor:
         """Return the descriptor for `ros2 param describe`."""
         descriptor = ParameterDescriptor(
-            description=self.meaning,
-            read_only=self.read_only,
-            type=int(self.kind.value),
+            description=self.meaning, read_only=self.read_only, type=int(self.kind.value)
         )
         if self.choices:
             descriptor.additional_constraints = 'one of ' + ', '.join(self.choices)

@@ -109,10 +109,7 @@ def _serve(
     :raises PhysSimError: it cannot listen
     """
     server = ClassServer(
-        worlds,
-        address=options.address,
-        port=options.port,
-        seats_of_machine=options.seats,
+        worlds, address=options.address, port=options.port, seats_of_machine=options.seats
     )
     sys.stdout.write(
         f'\n  {len(worlds)} worlds in {len(processes)} processes. The page of the class:\n\n'

@@ -144,9 +144,7 @@ class InteractiveMarkers:
         return rows
 
     def _tell(
-        self,
-        _: GetInteractiveMarkers.Request,
-        response: GetInteractiveMarkers.Response,
+        self, _: GetInteractiveMarkers.Request, response: GetInteractiveMarkers.Response
     ) -> GetInteractiveMarkers.Response:
         """Tell markers, as others have them now; updates repeat the others for all."""
         if self._frame is not None:

@@ -214,8 +214,6 @@ def _name(wanted: SpawnEntity, entry: Mapping[str, Any], names: NewNames) -> str
         return name
     if not wanted.allow_renaming:
         raise coded(
-            f'there is an entity {name!r} already',
-            SpawnResult.NAME_NOT_UNIQUE,
-            field='name',
+            f'there is an entity {name!r} already', SpawnResult.NAME_NOT_UNIQUE, field='name'
         )
     return names.free_name(name.rpartition('/')[0])

@@ -21,12 +21,7 @@ from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.entities import passes_tags
 from physsim_ros.ros.simulation_services.results import coded, CodedRefusal
 from simulation_interfaces.msg import Resource, Result, WorldResource
-from simulation_interfaces.srv import (
-    GetAvailableWorlds,
-    GetCurrentWorld,
-    LoadWorld,
-    UnloadWorld,
-)
+from simulation_interfaces.srv import GetAvailableWorlds, GetCurrentWorld, LoadWorld, UnloadWorld
 
 
 class Worlds:

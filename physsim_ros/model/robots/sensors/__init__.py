@@ -11,12 +11,7 @@ new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distan
 from __future__ import annotations
 
 from physsim_ros.model.declarations import OfKind
-from physsim_ros.model.robots.sensors.distance import (
-    Landmarks,
-    Laser,
-    MOST_BEAMS,
-    RangeFinder,
-)
+from physsim_ros.model.robots.sensors.distance import Landmarks, Laser, MOST_BEAMS, RangeFinder
 from physsim_ros.model.robots.sensors.motion import Bumper, FloorEye, Gps, Imu, WheelEncoders
 from physsim_ros.model.robots.sensors.sensor import angles, LEAST_INCREMENT, Sensor, topic_name
 
