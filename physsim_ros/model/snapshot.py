@@ -267,3 +267,14 @@ class Frame:
     def passing(self) -> bool:
         """Return whether time runs here, so that the next frame comes of itself."""
         return self.stepped and self.speed != 0.0
+
+    def has_passed(self, seconds: float, *, since: Frame) -> bool:
+        """
+        Return whether a time has passed since another frame, or back to this one in a rewind.
+
+        :param seconds: simulation time [s] at speed 1 and below; of faster time it is as many
+            times as long
+        """
+        elapsed = abs(self.snapshot.stamp - since.snapshot.stamp) * 1e-9
+        # Stamps are rounded.
+        return elapsed > seconds * max(1.0, abs(self.speed)) - 1e-6

@@ -8,15 +8,15 @@ from __future__ import annotations
 from typing import Any
 
 from physsim_ros.model.answer import Answer
-from physsim_ros.ros.publishers import status_publishers
-from physsim_ros.ros.publishers.publishers import Publishers
-from physsim_ros.ros.publishers.status_publishers import (
+from physsim_ros.ros.publishers import event_publisher
+from physsim_ros.ros.publishers.event_publisher import (
     ACK_TIMEOUT,
     EVENTS_DEPTH,
     MOST_WAITING,
     STOPPED_ANSWERS,
     STOPPED_PERIOD,
 )
+from physsim_ros.ros.publishers.publishers import Publishers
 from physsim_ros.testing import PhysSim
 import pytest
 
@@ -57,7 +57,7 @@ class Bench:
 @pytest.fixture
 def bench(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> Bench:
     bench = Bench(physsim.node.outputs.publishers)
-    monkeypatch.setattr(status_publishers.time, 'monotonic', lambda: bench.now)
+    monkeypatch.setattr(event_publisher.time, 'monotonic', lambda: bench.now)
     return bench
 
 

@@ -23,8 +23,8 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.ros import parameters, world_files
 from physsim_ros.ros.encoders.preview import PreviewEncoder
 from physsim_ros.ros.encoders.streams import PosesEncoder
-from physsim_ros.ros.publishers import interactive_markers, status_publishers
-from physsim_ros.ros.publishers.status_publishers import TimelinePublisher
+from physsim_ros.ros.publishers import event_publisher, interactive_markers
+from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
 from physsim_ros.ros.robots.drive_topic import DriveTopic
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.ros.time_control import NodeTimeControl
@@ -211,7 +211,7 @@ def test_a_command_of_a_robot(doors: NodeDoors) -> None:
 
 OUTPUTS: dict[str, tuple[object, str]] = {
     '/physsim/preview': (PreviewEncoder, 'encode'),
-    '~/events': (status_publishers, 'encode_event'),
+    '~/events': (event_publisher, 'encode_event'),
     '/physsim/poses': (PosesEncoder, 'encode'),
     '~/timeline': (TimelinePublisher, 'show'),
     '~/drag/update': (interactive_markers.InteractiveMarkers, 'show'),

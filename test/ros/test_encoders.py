@@ -37,7 +37,7 @@ from physsim_ros.ros.encoders.streams import (
     PosesEncoder,
     StatesEncoder,
 )
-from physsim_ros.ros.publishers.status_publishers import encode_event
+from physsim_ros.ros.publishers.event_publisher import encode_event
 from physsim_ros.ros.requests.conversions import body_request
 from physsim_ros.simulation.world import World
 import pytest

@@ -18,7 +18,7 @@ from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.streams import ContactsEncoder, PosesEncoder, StatesEncoder
-from physsim_ros.ros.publishers.status_publishers import encode_event
+from physsim_ros.ros.publishers.event_publisher import encode_event
 from physsim_ros.ros.requests.request_topics import TOPICS
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.simulation import Simulation

@@ -18,7 +18,7 @@ from physsim_ros.ros.encoders.streams import (
     PosesEncoder,
     StatesEncoder,
 )
-from physsim_ros.ros.publishers import status_publishers
+from physsim_ros.ros.publishers import event_publisher
 from physsim_ros.ros.publishers.streams import LATCH_PERIOD
 from physsim_ros.testing import box, disc, PhysSim
 import pytest
@@ -63,7 +63,7 @@ def encoded(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     spy(ContactsEncoder, 'encode', 'contacts')
     spy(MarkersEncoder, 'encode', 'markers')
     spy(ClockEncoder, 'encode', 'clock')
-    spy(status_publishers, 'encode_event', 'event')
+    spy(event_publisher, 'encode_event', 'event')
     return calls
 
 

@@ -22,9 +22,10 @@ from physsim_ros.ros.encoders.streams import (
     StatesEncoder,
     TransformsEncoder,
 )
+from physsim_ros.ros.publishers.event_publisher import EventPublisher
 from physsim_ros.ros.publishers.interactive_markers import InteractiveMarkers
-from physsim_ros.ros.publishers.status_publishers import EventPublisher, TimelinePublisher
 from physsim_ros.ros.publishers.streams import ClockStream, LatchedStream, Stream
+from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
 from physsim_ros.ros.robots.frames import TF_DEPTH, tf_message_type
 from physsim_ros.ros.topics import LATCHED
 from rclpy.node import Node

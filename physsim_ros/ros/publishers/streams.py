@@ -18,7 +18,6 @@ from typing import Any, Protocol
 
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.ros.encoders.streams import ClockEncoder
-from physsim_ros.ros.publishers.status_publishers import is_later
 from physsim_ros.ros.topics import LATCHED
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -138,7 +137,7 @@ class LatchedStream(Stream):
         last = self._latched
         if last is None or last.snapshot.scene is not frame.snapshot.scene:
             return True
-        return is_later(frame, last, LATCH_PERIOD)
+        return frame.has_passed(LATCH_PERIOD, since=last)
 
     def show_late(self, frame: Frame) -> None:
         """Publish the last frame again if it is not the latched one, or for new subscriptions."""
