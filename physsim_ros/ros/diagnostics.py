@@ -85,7 +85,7 @@ class Diagnostics:
             return
         self._due = now_ns + _PERIOD
         outputs, boundary = self._outputs, self._boundary
-        with boundary.output('/diagnostics'):
+        with boundary.containing('/diagnostics'):
             self._longest = boundary.take_longest()
             events = *outputs.viewer.poll(), *self._new_namesakes(), *boundary.take_events()
             outputs.report_answers(events)

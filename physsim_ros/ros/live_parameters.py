@@ -120,7 +120,7 @@ class LiveParameters:
 
     def _check(self, changed: list[Parameter]) -> SetParametersResult:
         try:
-            with self._boundary.reading('parameters'):
+            with self._boundary.refusing('parameters'):
                 self._check_and_prepare(changed)
         except Refusal as refusal:
             self._refusal = refusal
@@ -145,7 +145,7 @@ class LiveParameters:
                 prepare(values[name])
 
     def _note_set(self, changed: list[Parameter]) -> None:
-        with self._boundary.output('parameters'):
+        with self._boundary.containing('parameters'):
             self._apply(changed)
 
     def _apply(self, changed: list[Parameter]) -> None:

@@ -136,7 +136,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         )
         self.world_files = WorldFiles(self.simulation, values)
         if values['world_file']:
-            with self.boundary.reading('world_file'):
+            with self.boundary.refusing('world_file'):
                 self.world_files.begin_with()
 
     def _create_outputs(self) -> None:
@@ -206,7 +206,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         kind, topic, callback, *others = args
 
         def receive(message: Any) -> None:
-            with self.boundary.output(topic):
+            with self.boundary.containing(topic):
                 callback(message)
 
         return super().create_subscription(kind, topic, receive, *others, **options)
@@ -216,7 +216,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         kind, name, callback, *others = args
 
         def respond(request: Any, response: Any) -> Any:
-            with self.boundary.output(name):
+            with self.boundary.containing(name):
                 return callback(request, response)
             return response
 

@@ -105,7 +105,7 @@ class Outputs:
             frame = replace(frame, preview=self._session.preview)
         self.frame = frame
         for output in outputs:
-            with self._boundary.output(output.name):
+            with self._boundary.containing(output.name):
                 output.show(frame)
 
     def show_late(self) -> None:
@@ -113,19 +113,19 @@ class Outputs:
         if self.frame is None:
             return
         for output in self.publishers.late:
-            with self._boundary.output(output.name):
+            with self._boundary.containing(output.name):
                 output.show_late(self.frame)
 
     def report_answers(self, answers: tuple[Answer, ...]) -> None:
         """Publish and log answers that no frame carries."""
         if answers and self.sketchpad is not None:
-            with self._boundary.output('page'):
+            with self._boundary.containing('page'):
                 self.sketchpad.report(answers)
         for answer in answers:
-            with self._boundary.output('~/events'):
+            with self._boundary.containing('~/events'):
                 self.publishers.events.publish(answer)
             self._log.add(answer)
-        with self._boundary.output('~/events'):
+        with self._boundary.containing('~/events'):
             self.publishers.events.flush()
 
     def show_preview(self) -> None:

@@ -111,7 +111,7 @@ class Pages:
             return
         from physsim_ros.sketchpad import Role  # noqa: PLC0415 - see `open_for`
 
-        with self._control.boundary.output('sketchpad'):
+        with self._control.boundary.containing('sketchpad'):
             sys.stdout.write(
                 '\n'
                 '  The page is at\n\n'

@@ -69,7 +69,7 @@ class ErrorBoundary:
         """
         began = self._clock()
         try:
-            with self.reading(name):
+            with self.refusing(name):
                 yield
         finally:
             took = self._clock() - began
@@ -91,11 +91,12 @@ class ErrorBoundary:
             yield awaited
 
     @contextmanager
-    def reading(self, name: str) -> Iterator[None]:
+    def refusing(self, name: str) -> Iterator[None]:
         """
-        Read in the block what others have written, on any thread.
+        Refuse in place of an unexpected error in the block, on any thread.
 
-        :raises Failed: in place of an unexpected error
+        :param name: of the topic, service, parameter or file that is refused
+        :raises Failed: in place of that error
         """
         try:
             yield
@@ -104,13 +105,13 @@ class ErrorBoundary:
         except Exception as error:
             raise self.failed(name, error) from error
 
-    def output(self, name: str) -> AbstractContextManager[None, bool]:
-        """Make an output in the block; an unexpected error ends the block, and is an event."""
+    def containing(self, name: str) -> AbstractContextManager[None, bool]:
+        """Contain an unexpected error in the block: it ends the block alone, and is an event."""
         # A dozen a frame: a generator takes five times as long.
-        return _Output(self, name)
+        return _Containing(self, name)
 
-    def note_output(self, name: str, error: Exception) -> None:
-        """Note an unexpected error in an output."""
+    def note_contained(self, name: str, error: Exception) -> None:
+        """Note an unexpected error that has ended its block alone."""
         number, is_new = self._note(name, error)
         if is_new:
             self._events.append(Answer.refused(_failed(number), topic=name))
@@ -121,7 +122,7 @@ class ErrorBoundary:
         return _failed(number)
 
     def take_events(self) -> tuple[Answer, ...]:
-        """Return the events about outputs since the last call."""
+        """Return the events about contained errors since the last call."""
         return tuple(self._events.popleft() for _ in range(len(self._events)))
 
     def take_longest(self) -> tuple[str, float]:
@@ -146,9 +147,9 @@ class ErrorBoundary:
         return number, number == current
 
 
-class _Output:
+class _Containing:
     """
-    The block of an output.
+    A block that contains its unexpected error.
 
     :param boundary: of it
     :param name: by which an error is told
@@ -168,7 +169,7 @@ class _Output:
     ) -> bool:
         if not isinstance(error, Exception):
             return False
-        self._boundary.note_output(self._name, error)
+        self._boundary.note_contained(self._name, error)
         return True
 
 

@@ -338,7 +338,7 @@ class RequestQueue:
         past, author = self._past, entry.origin.author
         results: list[Answer | Refusal]
         try:
-            with past.boundary.reading(entry.origin.topic):
+            with past.boundary.refusing(entry.origin.topic):
                 if isinstance(change, Amend):
                     results = yield from amend(past, change.gestures, change.requests, author)
                 else:

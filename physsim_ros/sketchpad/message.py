@@ -131,7 +131,7 @@ def read_message(text: str, role: Role, boundary: ErrorBoundary) -> tuple[str, M
     """
     request = ''
     try:
-        with boundary.reading('page'):
+        with boundary.refusing('page'):
             fields = json_object(text)
             request = _request_from(fields.pop('id', ''))
             return request, _checked(request, fields.pop('type', None), fields, role)

@@ -145,21 +145,21 @@ class Sketchpad:
     def handle_messages(self) -> None:
         """Carry out messages of pages for a bounded time, between the periodic work and sends."""
         now = time.monotonic()
-        with self._boundary.output('page'):
+        with self._boundary.containing('page'):
             self._simulation.requests.continue_calls()
             self._keep_hands(now)
             self._send_pasts(now)
-            with self._boundary.output('autosave'):
+            with self._boundary.containing('autosave'):
                 self._save_if_due(now)
             self._send_recording_address()
         self._handle_until(now + BUDGET)
-        with self._boundary.output('page'):
+        with self._boundary.containing('page'):
             self._send_class()
 
     def _handle_until(self, end: float) -> None:
         """Carry out messages until a steady time [s]."""
         while (entry := self._inbox.take()) is not None:
-            with self._boundary.output('page'):
+            with self._boundary.containing('page'):
                 self._handle(*entry)
             if time.monotonic() > end:
                 return

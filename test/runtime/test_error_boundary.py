@@ -32,10 +32,10 @@ def test_the_errors_of_a_place_are_counted_and_logged_once():
     boundary = ErrorBoundary(log.append)
     messages = set()
     for depth in range(9):
-        with pytest.raises(Failed) as refused, boundary.reading('~/it'):
+        with pytest.raises(Failed) as refused, boundary.refusing('~/it'):
             fail(f'number {depth}', depth)
         messages.add(str(refused.value))
-    with pytest.raises(Failed, match='failure 10'), boundary.reading('~/it'):
+    with pytest.raises(Failed, match='failure 10'), boundary.refusing('~/it'):
         raise ZeroDivisionError
     # In `fail` an error comes by two lines or by one.
     assert len(messages) == 2
@@ -53,7 +53,7 @@ def test_what_is_expected_passes(error):
 def test_an_output_that_fails_is_an_event_once():
     boundary = ErrorBoundary(lambda _: None)
     for _ in range(3):
-        with boundary.output('~/poses'):
+        with boundary.containing('~/poses'):
             fail()
     (event,) = boundary.take_events()
     assert (event.topic, event.code) == ('~/poses', 'failed')
@@ -63,19 +63,20 @@ def test_an_output_that_fails_is_an_event_once():
 
 def test_an_error_inside_of_a_step_passes_an_output_too():
     boundary = ErrorBoundary(pytest.fail)
-    with pytest.raises(StepFailed), boundary.output('~/poses'):
+    with pytest.raises(StepFailed), boundary.containing('~/poses'):
         raise StepFailed
 
 
 def test_without_a_log_errors_pass():
-    for door in (ErrorBoundary().message, ErrorBoundary().reading, ErrorBoundary().output):
-        with pytest.raises(KeyError), door('~/it'):
+    boundary = ErrorBoundary()
+    for block in (boundary.message, boundary.refusing, boundary.containing):
+        with pytest.raises(KeyError), block('~/it'):
             fail()
 
 
 def test_a_log_shows_no_control_character_of_a_stranger():
     log: list[str] = []
-    with ErrorBoundary(log.append).output('~/it'):
+    with ErrorBoundary(log.append).containing('~/it'):
         raise ValueError('\x1b[2J' + 'x' * 10_000)
     assert all(line.isprintable() for line in log[0].splitlines())
     assert len(log[0]) < 2000

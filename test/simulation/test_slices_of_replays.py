@@ -115,7 +115,7 @@ def test_a_copy_that_fails_is_an_error_and_not_the_end_of_the_world(
     digest = simulation.world.digest()
     boundary = ErrorBoundary(log=failures.append)
 
-    with monkeypatch.context() as patch, boundary.output('page'):
+    with monkeypatch.context() as patch, boundary.containing('page'):
         patch.setattr(Space, 'step', lambda *_, **__: 1 / 0)
         copy(simulation)
 

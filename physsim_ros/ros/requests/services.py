@@ -95,7 +95,7 @@ class ServiceCalls:
             reply.set_result(call.response)
 
         try:
-            with self._boundary.reading(call.topic):
+            with self._boundary.refusing(call.topic):
                 self._make_call(partial(self._carry_out, call), call.wait, send)
         except (Busy, Failed) as refusal:
             for answer in call.refuse(refusal):
@@ -113,7 +113,7 @@ class ServiceCalls:
                 return
 
             def send_now(_: Future) -> None:
-                with self._boundary.output(service.srv_name):
+                with self._boundary.containing(service.srv_name):
                     send(reply.result(), header)
 
             reply.add_done_callback(send_now)

@@ -165,7 +165,7 @@ class Fleet:
         now = time.monotonic()
         if now >= self._look_due:
             self._look_due = now + LOOK_PERIOD
-            with self._boundary.output('cmd_vel'):
+            with self._boundary.containing('cmd_vel'):
                 self.match_publishers()
 
     def _refuse(self, body: str, refusal: Refusal, topic: str) -> None:
@@ -196,7 +196,7 @@ class Fleet:
         self.lockstep.note_frame()
         for row in snapshot.scene.robot_rows.tolist():
             robot = self.robots.get(snapshot.scene.names[row])
-            with self._boundary.output('robots'):
+            with self._boundary.containing('robots'):
                 if robot is None:
                     continue
                 scanned = robot.publish(sensed, row)
@@ -218,7 +218,7 @@ class Fleet:
             for row in snapshot.scene.robot_rows.tolist():
                 seen.get(snapshot.scene.names[row], []).append((sensed, row))
         for name, robot in self.robots.items():
-            with self._boundary.output('robots'):
+            with self._boundary.containing('robots'):
                 robot.send_again(seen[name], last.stamp)
 
     def _tell_timeout(self, answer: Answer) -> None:
@@ -249,11 +249,11 @@ class Fleet:
         there = {body.name: body.robot for body in bodies}
         for name, topics in [*self.robots.items()]:
             if (topics.robot, topics.lasers) != (there.get(name), self._lasers):
-                with self._boundary.output('robots'):
+                with self._boundary.containing('robots'):
                     self.robots.pop(name).close()
                 yield
         for body, robot in zip(bodies, scene.robots, strict=True):
-            with self._boundary.output('robots'):
+            with self._boundary.containing('robots'):
                 if body.name not in self.robots:
                     self.robots[body.name] = self._make(body.name, robot)
                 self.robots[body.name].describe(body, scene)

@@ -137,7 +137,7 @@ class SimulationServices:
 
         def execute(_: Future) -> None:
             # Of what a callback of a future raises, rclpy 7.1 only warns.
-            with self._control.boundary.output(_STEPS):
+            with self._control.boundary.containing(_STEPS):
                 goal.execute(end)
 
         # A callback that waits is a task, which rclpy 7.1 asks at each spin.

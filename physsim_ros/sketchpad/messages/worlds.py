@@ -227,7 +227,7 @@ def _text_content(
 ) -> dict[str, Any]:
     """Return the answer with the text of a world, or with its refusal."""
     try:
-        with boundary.reading(origin.topic):
+        with boundary.refusing(origin.topic):
             text = text_of(saved(), physics_rate, longest=MOST_SHARED)
     except Refusal as refusal:
         answer = Answer.refused(refusal, topic='page')

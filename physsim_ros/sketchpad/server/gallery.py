@@ -85,7 +85,7 @@ class Gallery:
     async def _answer(self) -> None:
         while self._asking:
             asking, self._asking = self._asking, {}
-            with self._boundary.output('page'):
+            with self._boundary.containing('page'):
                 content = await asyncio.to_thread(self._read)
                 for page in asking:
                     self._send(content, page)
@@ -163,7 +163,7 @@ def _read(
 ) -> dict[str, Any]:
     """Return number, title and question of a lesson."""
     try:
-        with boundary.reading('lesson'):
+        with boundary.refusing('lesson'):
             lesson = load_world(path).lesson
     except PhysSimError:
         lesson = None

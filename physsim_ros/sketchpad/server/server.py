@@ -195,7 +195,7 @@ class Server:
         await server.close_all_connections()
 
     def _carry_out(self, call: Callable[[], None]) -> None:
-        with self._boundary.output('page'):
+        with self._boundary.containing('page'):
             call()
 
     def _show(self, frame: Frame, ghost: Snapshot | None, timeline: Content | None) -> None:
