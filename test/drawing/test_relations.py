@@ -323,6 +323,16 @@ def test_clicks_of_a_tool_do_the_same_elsewhere(tool: Tool, relation: str) -> No
     assert there == pytest.approx(expected[:, :2], abs=1e-5)
 
 
+@pytest.mark.parametrize('tool', [Tool.SPRING, Tool.ROD, Tool.ROPE, Tool.PULLEY])
+def test_a_joint_to_the_background_is_clicked_from_either_end(tool: Tool) -> None:
+    over = [(1.2, 3.1)] if tool == Tool.PULLEY else []
+    way, gravity = [HERE, *over, (3.0, 4.0)], np.array([(0.0, 0.0), (3.0, -9.0)])
+    # The end of a rope past wheels is clicked twice.
+    ways = [np.array(each + each[-1:] * len(over)) for each in (way, way[::-1])]
+    here, there = (clicked((CLICKED, [clicks, gravity]), tool) for clicks in ways)
+    assert (here == there).all()
+
+
 def at(x: float, y: float, way: Floats) -> Floats:
     return way + np.array((x, y))
 
