@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
 from .chromium import circle, NOTE_TEXTS, OpenSheet, started_world, WORLD
@@ -84,6 +85,28 @@ ROOM = """async () => {
         {shape: {kind: 'polygon', outline}, color: [1, 0, 0, 1], centroid: [0.99, 0]}).inner;
 }"""
 
+# Both ends of the ticks of walls, which are 0.1 m away from them and 0.5 m apart [m].
+TICKS = """async walls => {
+    const {groundTicks} = await import('/page/view/body_view.js');
+    return walls.map(([a, b]) => {
+        const starts = [], ends = [];
+        const moveTo = (...point) => starts.push(point), lineTo = (...point) => ends.push(point);
+        groundTicks({moveTo, lineTo}, a, b, 0, 0.1, 0.5);
+        return [starts, ends];
+    });
+}"""
+
+# The angle to which the line of a round arrow goes, and that which its head is long [rad].
+ROUND = """async sweep => {
+    const {SceneView} = await import('/page/view/scene_view.js'), angles = [], points = [];
+    const ctx = {beginPath() {}, stroke() {}, fill() {}, lineTo: (...point) => points.push(point),
+        arc: (x, y, radius, begin, end) => angles.push(begin - end)};
+    const view = {ctx, onRim: (color, width, draw) => draw(0)};
+    const {tip} = SceneView.prototype.roundArrow.call(view, [0, 0], 30, sweep, '');
+    const [across] = points.map(([x, y]) => Math.hypot(x - tip[0], y - tip[1]));
+    return [angles[0], across / 30];
+}"""
+
 # The box that is framed of a world in which a rod hangs just below the upper bound [m].
 HUNG = """async () => {
     const {WorldState} = await import('/page/world_state.js'), world = new WorldState({on() {}});
@@ -105,6 +128,28 @@ def test_a_label_that_is_larger_than_its_body_is_on_no_other_and_is_measured_onc
 def test_the_mark_of_a_body_has_the_room_within_its_outline(open_sheet: OpenSheet) -> None:
     sheet = open_sheet()
     assert sheet.page.evaluate(ROOM) == pytest.approx(0.9 * math.hypot(0.01, 0.5))
+
+
+def test_the_ticks_of_a_wall_are_on_its_lower_side_and_slant_alike(open_sheet: OpenSheet) -> None:
+    sheet = open_sheet()
+    for angle in (-1.2, -0.4, 0.0, 0.6, 1.5):
+        along = np.array((math.cos(angle), math.sin(angle)))
+        down = along[1], -along[0]
+        wall = [[0.0, 0.0], (2.0 * along).tolist()]
+        # Whichever end it is drawn from.
+        for starts, ends in np.array(sheet.page.evaluate(TICKS, [wall, wall[::-1]])):
+            assert starts @ down == pytest.approx(0.1)
+            assert (ends - starts) @ down == pytest.approx(0.3)
+            assert (ends - starts) @ along == pytest.approx(-0.3)
+
+
+@pytest.mark.parametrize('sweep', [4.0, -4.0])
+def test_the_line_of_a_round_arrow_ends_within_its_head(
+    sweep: float, open_sheet: OpenSheet
+) -> None:
+    end, head = open_sheet().page.evaluate(ROUND, sweep)
+    assert abs(sweep) - head < abs(end) < abs(sweep)
+    assert end * sweep > 0.0
 
 
 def test_the_hinge_of_a_rod_is_framed_with_its_world(open_sheet: OpenSheet) -> None:

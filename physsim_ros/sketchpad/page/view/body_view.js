@@ -319,7 +319,7 @@ function innerRadius({shape, centroid}, radius) {
  * @param {number} away from the segment [m]
  * @param {number} size [m]
  */
-function groundTicks(ctx, a, b, yaw, away, size) {
+export function groundTicks(ctx, a, b, yaw, away, size) {
   const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
   const flip = (b[0] - a[0]) * Math.cos(yaw) < (b[1] - a[1]) * Math.sin(yaw) ? -1 : 1;
   const ux = flip * (b[0] - a[0]) / length, uy = flip * (b[1] - a[1]) / length;

@@ -175,12 +175,12 @@ export class JointView {
    * @param {number} rate counter-clockwise where it is positive [rad/s]
    */
   #arc([x, y], radius, rate) {
-    const turn = -Math.sign(rate) || -1, end = turn * 1.5 * Math.PI, s = radius / 2.5;
+    const turn = -Math.sign(rate) || -1, s = radius / 2.5;
     this.ctx.beginPath();
-    this.ctx.arc(x, y, radius, 0, end, turn < 0);
+    this.ctx.arc(x, y, radius, 0, turn * 1.5 * Math.PI, turn < 0);
     this.ctx.stroke();
-    const [tx, ty] = [x, y + radius * Math.sin(end)];
-    this.view.polyline([[tx - s, ty - s], [tx, ty], [tx - s, ty + s]]);
+    const tip = y - turn * radius;
+    this.view.polyline([[x - s, tip - s], [x, tip], [x - s, tip + s]]);
   }
 
   /**
