@@ -307,6 +307,19 @@ def test_a_pedestrian_takes_the_shorter_way_of_equal_ways_that_of_less_turn_or_t
     assert sim.world.snapshot().twists[row, 1] * side > 0.3
 
 
+@pytest.mark.parametrize('thickness', [0.2, 0.6])
+def test_a_pedestrian_walks_along_the_tangent_to_the_end_of_a_wall(thickness):
+    sim = _floor()
+    wall = Chain(points=((0.0, -2.0), (0.0, 2.0)), thickness=thickness)
+    spawn(sim, 'wall/0', wall, (0.0, 0.3, 0.0), anchored=True)
+    walks = {'kind': 'orca', 'points': [[3.0, 0.0]]}
+    row = spawn(sim, 'person/0', PERSON, (-3.0, 0.0, 0.0), kinematic=True, actor=walks)
+    sim.world.step(1)
+    vx, vy, _ = sim.world.snapshot().twists[row]
+    away = math.asin((PERSON.radius + thickness / 2.0) / math.hypot(3.0, 1.7))
+    assert math.atan2(vy, vx) == pytest.approx(math.atan2(-1.7, 3.0) - away)
+
+
 @pytest.mark.parametrize('kind', ['social_force', 'orca'])
 def test_a_crowd_goes_through_a_door_both_ways(kind):
     sim = _floor()
