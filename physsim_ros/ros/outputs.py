@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from functools import lru_cache
 from pathlib import Path
 import time
 from typing import Any, TYPE_CHECKING
@@ -161,7 +160,7 @@ class Outputs:
         """Return the facts about the program that the viewer shows."""
         return FrameContext(
             real_time_factor=self.statistics.real_time_factor,
-            title=_title_of(self._values['world_file']),
+            title=Path(self._values['world_file']).stem or 'empty world',
         )
 
 
@@ -197,9 +196,3 @@ class _Log:
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)
-
-
-@lru_cache(maxsize=1)
-def _title_of(world_file: str) -> str:
-    """Return the title of a world for a viewer."""
-    return Path(world_file).stem or 'empty world'

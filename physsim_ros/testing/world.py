@@ -16,7 +16,7 @@ from geometry_msgs.msg import PointStamped
 from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
-from physsim_ros.ros.robots.fleet import LOOK_PERIOD
+from physsim_ros.ros.robots.fleet import MATCH_PERIOD
 from physsim_ros.runtime.slices import finish
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
 from physsim_ros.testing.context import own_context
@@ -66,8 +66,8 @@ class PhysSim(ObservedWorld):
         self.context = context
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]
-        # Frames until the next check of all publishers of commands.
-        self._frames_to_look = 0
+        # Frames until the next match of all publishers of commands.
+        self._frames_to_match = 0
 
     # Requests
 
@@ -212,17 +212,17 @@ class PhysSim(ObservedWorld):
         # Messages of the test's own publishers come first.
         self.settle()
         while frames > 0:
-            if self._frames_to_look > 0:
+            if self._frames_to_match > 0:
                 self._match_new_publishers()
             else:
                 self._match_publishers()
             # The test itself reads the last frame.
-            made = self.node.loop.pass_frames(min(frames - 1, self._frames_to_look))
+            made = self.node.loop.pass_frames(min(frames - 1, self._frames_to_match))
             if not made:
                 self.node.loop.advance_frame()
                 made = 1
             frames -= made
-            self._frames_to_look -= made
+            self._frames_to_match -= made
             self.settle()
             if self.node.fleet.lockstep.waits():
                 self._executor.spin_until(
@@ -335,7 +335,7 @@ class PhysSim(ObservedWorld):
 
     def _match_publishers(self) -> None:
         """Connect robots with the publishers of their commands, as the node does by the clock."""
-        self._frames_to_look = self._frames(LOOK_PERIOD)
+        self._frames_to_match = self._frames(MATCH_PERIOD)
         if self.node.fleet.match_publishers():
             self.settle()
 

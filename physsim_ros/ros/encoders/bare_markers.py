@@ -87,23 +87,11 @@ def joint_markers(joint: Joint, size: float, corners: int) -> tuple[BareMarker, 
         kind, scale = Marker.SPHERE_LIST, (size, size, size)
     else:
         kind, scale = Marker.LINE_STRIP, (size / 10, 0.0, 0.0)
-    origin = ((0.0, 0.0),)
+    key, lines_key = (f'{JOINT_PREFIX}{namespace}', number), (f'{LINES_PREFIX}{namespace}', number)
+    points, lines = ((0.0, 0.0),) * joint.kind.points, ((0.0, 0.0),) * corners
     return (
-        BareMarker(
-            (f'{JOINT_PREFIX}{namespace}', number),
-            kind,
-            scale,
-            origin * joint.kind.points,
-            _RAISED,
-            text=_terms(joint),
-        ),
-        BareMarker(
-            (f'{LINES_PREFIX}{namespace}', number),
-            Marker.LINE_LIST,
-            (size / 4, 0.0, 0.0),
-            origin * corners,
-            _RAISED,
-        ),
+        BareMarker(key, kind, scale, points, _RAISED, text=_terms(joint)),
+        BareMarker(lines_key, Marker.LINE_LIST, (size / 4, 0.0, 0.0), lines, _RAISED),
     )
 
 

@@ -75,7 +75,8 @@ def _add_body(element: ET.Element, body: Body, origin: Point, material: str) -> 
 
     :param origin: of the frame of the link in that of the body [m]
     """
-    for x, y, yaw, geometry in _geometries(body):
+    geometries = (each for piece in body.shape.form.pieces for each in _geometries_of(piece))
+    for x, y, yaw, geometry in geometries:
         for kind in ('visual', 'collision'):
             part = ET.SubElement(element, kind)
             place = f'{x - origin[0]:.9g} {y - origin[1]:.9g} {_HEIGHT / 2:g}'
@@ -135,13 +136,8 @@ def _join_link(urdf: ET.Element, frames: RobotFrames, robot: Robot, link: Link) 
         ET.SubElement(joint, 'limit', {key: f'{value:.9g}' for key, value in values.items()})
 
 
-def _geometries(body: Body) -> Iterator[tuple[float, float, float, ET.Element]]:
-    """Yield the place x, y [m] and yaw [rad] of each geometry, and the geometry."""
-    for piece in body.shape.form.pieces:
-        yield from _geometries_of(piece)
-
-
 def _geometries_of(piece: Piece) -> Iterator[tuple[float, float, float, ET.Element]]:
+    """Yield the place x, y [m] and yaw [rad] of each geometry, and the geometry."""
     match piece:
         case Circle((x, y), radius):
             yield x, y, 0.0, _cylinder(radius)
@@ -180,13 +176,7 @@ def _add_inertia(link: ET.Element, body: Body, origin: Point) -> None:
     ET.SubElement(inertial, 'inertia', values)
 
 
-def _join(
-    urdf: ET.Element,
-    frames: RobotFrames,
-    parent: str,
-    child: str,
-    pose: tuple[float, float, float],
-) -> None:
+def _join(urdf: ET.Element, frames: RobotFrames, parent: str, child: str, pose: Pose) -> None:
     ends = frames.name(parent), frames.name(child)
     _add_joint(urdf, f'{frames.name(child)}_joint', 'fixed', ends, pose)
 

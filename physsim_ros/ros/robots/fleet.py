@@ -41,8 +41,8 @@ from rclpy.node import Node
 # Time that a frame has for the topics of robots that have come or gone [ns]: four have theirs with
 # their first frame.
 _MOST_UPDATE_NS = 20_000_000
-# Least time from one look at the types of publishers on the graph to the next [s].
-LOOK_PERIOD = 0.25
+# Least time from one match of the publishers on the graph to the next [s].
+MATCH_PERIOD = 0.25
 _IN_PAST = 'the past is shown, with the commands of that time; new commands count again at its end'
 
 
@@ -91,8 +91,8 @@ class Fleet:
         self._updating: Iterator[None] = iter(())
         # Beams and angles that the parameters set for all lasers.
         self._lasers: dict[str, Any] = {}
-        # Steady time of the next look at the graph [s].
-        self._look_due = 0.0
+        # Steady time of the next match [s].
+        self._match_due = 0.0
         # Whether time went back at the last frame: messages are on their way that are of before.
         self._went_back = False
         self._timeout_notice = TimeoutNotice(values, self._tell_timeout)
@@ -120,7 +120,7 @@ class Fleet:
         """
         if not self.robots:
             return
-        self._look_at_graph()
+        self._match_when_due()
         for body, robot in self.robots.items():
             for topic in robot.command_topics:
                 self._submit_command(body, topic, in_past=in_past)
@@ -161,10 +161,10 @@ class Fleet:
         new = [topic.match_new_publishers() for topic in self._drive_topics]
         return any(new)
 
-    def _look_at_graph(self) -> None:
+    def _match_when_due(self) -> None:
         now = time.monotonic()
-        if now >= self._look_due:
-            self._look_due = now + LOOK_PERIOD
+        if now >= self._match_due:
+            self._match_due = now + MATCH_PERIOD
             with self._boundary.containing('cmd_vel'):
                 self.match_publishers()
 

@@ -219,12 +219,11 @@ def battery_message(sensed: StampedFrame, row: int, battery: Battery) -> Battery
     """Return the state of a battery."""
     reading = read_battery(sensed.snapshot, row)
     assert reading is not None  # noqa: S101 - it has one
+    status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
     if reading.is_docked:
-        is_full = reading.level >= 1.0
+        status = BatteryState.POWER_SUPPLY_STATUS_CHARGING
+    if reading.is_docked and reading.level >= 1.0:
         status = BatteryState.POWER_SUPPLY_STATUS_FULL
-        status = status if is_full else BatteryState.POWER_SUPPLY_STATUS_CHARGING
-    else:
-        status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
     return BatteryState(
         header=Header(stamp=sensed.stamp),
         voltage=battery.voltage,

@@ -38,39 +38,15 @@ _ALL = (
     ResetSimulation.Request.SCOPE_ALL,
     ResetSimulation.Request.SCOPE_TIME | _STATE | _SPAWNED,
 )
-FEATURES = [
-    getattr(SimulatorFeatures, name)
-    for name in (
-        'SPAWNING',
-        'DELETING',
-        'NAMED_POSES',
-        'POSE_BOUNDS',
-        'ENTITY_TAGS',
-        'ENTITY_BOUNDS',
-        'ENTITY_BOUNDS_BOX',
-        'ENTITY_CATEGORIES',
-        'SPAWNING_RESOURCE_STRING',
-        'ENTITY_STATE_GETTING',
-        'ENTITY_STATE_SETTING',
-        'ENTITY_INFO_GETTING',
-        'ENTITY_INFO_SETTING',
-        'SPAWNABLES',
-        'SIMULATION_RESET',
-        'SIMULATION_RESET_SPAWNED',
-        'SIMULATION_STATE_GETTING',
-        'SIMULATION_STATE_SETTING',
-        'SIMULATION_STATE_PAUSE',
-        'STEP_SIMULATION_SINGLE',
-        'STEP_SIMULATION_MULTIPLE',
-        'STEP_SIMULATION_ACTION',
-        'WORLD_LOADING',
-        'WORLD_TAGS',
-        'WORLD_UNLOADING',
-        'WORLD_INFO_GETTING',
-        'AVAILABLE_WORLDS',
-        'SPAWNING_ENTITIES',
-    )
-]
+_FEATURES = (
+    'SPAWNING', 'DELETING', 'NAMED_POSES', 'POSE_BOUNDS', 'ENTITY_TAGS', 'ENTITY_BOUNDS',
+    'ENTITY_BOUNDS_BOX', 'ENTITY_CATEGORIES', 'SPAWNING_RESOURCE_STRING', 'ENTITY_STATE_GETTING',
+    'ENTITY_STATE_SETTING', 'ENTITY_INFO_GETTING', 'ENTITY_INFO_SETTING', 'SPAWNABLES',
+    'SIMULATION_RESET', 'SIMULATION_RESET_SPAWNED', 'SIMULATION_STATE_GETTING',
+    'SIMULATION_STATE_SETTING', 'SIMULATION_STATE_PAUSE', 'STEP_SIMULATION_SINGLE',
+    'STEP_SIMULATION_MULTIPLE', 'STEP_SIMULATION_ACTION', 'WORLD_LOADING', 'WORLD_TAGS',
+    'WORLD_UNLOADING', 'WORLD_INFO_GETTING', 'AVAILABLE_WORLDS', 'SPAWNING_ENTITIES',
+)  # fmt: skip
 
 
 class SimulationStates:
@@ -91,7 +67,7 @@ class SimulationStates:
     def features(self, _: Any, response: Any) -> str:
         """Tell what of the standard there is."""
         response.features = SimulatorFeatures(
-            features=FEATURES,
+            features=[getattr(SimulatorFeatures, name) for name in _FEATURES],
             spawn_formats=['yaml'],
             custom_info='physsim: resource_string is a body of a world file, in YAML',
         )
