@@ -73,7 +73,7 @@ class Robot:
             raise UnknownName(
                 f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, sensors)}'
             )
-        return topics.reading(sensors[sensor], sensed, row)
+        return topics.messages.reading(sensors[sensor], sensed, row)
 
     def odom(self) -> Odometry:
         """
@@ -82,7 +82,7 @@ class Robot:
         :raises UnknownName: the robot is not there
         """
         topics, sensed, row = self._now()
-        return topics.odometry(sensed, row)
+        return topics.messages.odometry(sensed, row)
 
     def truth(self) -> Odometry:
         """
@@ -91,7 +91,7 @@ class Robot:
         :raises UnknownName: the robot is not there
         """
         topics, sensed, row = self._now()
-        return topics.truth(sensed, row)
+        return topics.messages.truth(sensed, row)
 
     @property
     def bumped(self) -> bool:

@@ -4,8 +4,7 @@
 """
 The topics of one robot, below its namespace.
 
-Laws: a reading of a moment is the same whoever subscribes; a topic that ROS refuses, as another
-type has it, is refused, and the others are there.
+Law: a topic that ROS refuses, as another type has it, is refused, and the others are there.
 """
 
 from __future__ import annotations
@@ -18,38 +17,20 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.robots import Battery, BATTERY_TOPIC, part_name, Robot, Sensor
+from physsim_ros.model.robots import BATTERY_TOPIC, part_name, Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body, Scene
-from physsim_ros.model.states import SPAWNED
 from physsim_ros.model.transform import Point
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.description import urdf_of
 from physsim_ros.ros.robots.drive_topic import DriveTopic
-from physsim_ros.ros.robots.frames import (
-    BASE,
-    FOOTPRINT,
-    ODOM,
-    RobotFrames,
-    RobotTf,
-    TF_DEPTH,
-    tf_message_type,
-)
-from physsim_ros.ros.robots.messages import (
-    battery_message,
-    odometry_message,
-    SENSOR_MESSAGES,
-    StampedFrame,
-)
+from physsim_ros.ros.robots.frames import RobotFrames, RobotTf, TF_DEPTH, tf_message_type
+from physsim_ros.ros.robots.messages import SENSOR_MESSAGES, StampedFrame
 from physsim_ros.ros.robots.motor_topics import motor_topics
+from physsim_ros.ros.robots.robot_messages import RobotMessages
 from physsim_ros.ros.robots.timed_topic import TimedTopic
 from physsim_ros.ros.topics import LATCHED, Refuse, refusing_another_type
-from physsim_ros.sensing import (
-    odometry_covariances,
-    read_odometry,
-    reading_name,
-    true_motion,
-)
+from physsim_ros.sensing import reading_name
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
@@ -71,6 +52,7 @@ class RobotTopics:
     :param expected: type of commands that is subscribed to while nobody publishes; None is none
 
     :ivar lasers: as given
+    :ivar messages: of the robot
     :ivar drive_topic: of the commands for its drive; None without a drive
     """
 
@@ -89,19 +71,28 @@ class RobotTopics:
         self.body, self.robot, self.lasers = body, robot, lasers
         self._node = node
         self._refuse = refuse
-        self._world_frame = world_frame
         namespace = robot.namespace_of(body)
         self._frames = RobotFrames(namespace, robot_tf)
         root = node.get_namespace().rstrip('/')
         self._below = f'{root}/{namespace}/' if namespace else f'{root}/'
         self._publishers: list[Publisher] = []
         self._topics: list[TimedTopic] = []
+        changed = self._changed_lasers(lasers)
+        self.messages = messages = RobotMessages(
+            body, robot, self._frames, world_frame=world_frame, lasers=changed
+        )
         # Before the readings, which are looked up in them by their stamps.
         self._add_transforms(robot_tf)
         self._add_motion()
-        # Lasers as they are published, by the name of their topic.
-        self._lasers: dict[str, Laser] = {}
-        self._add_readings(lasers)
+        for sensor in robot.sensors:
+            self._add(
+                SENSOR_MESSAGES[type(sensor)].kind,
+                sensor.name,
+                partial(messages.reading, sensor),
+                rate=sensor.rate,
+                latency=sensor.latency,
+                sensor=sensor,
+            )
         self._description = self._publisher(String, 'robot_description', qos=LATCHED)
         # Colour and shape of the last description.
         self._described: object = None
@@ -125,7 +116,7 @@ class RobotTopics:
             return
         below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
         if robot.drive is not None or robot.links:
-            transforms, latency = partial(self._transforms, kind), robot.odometry.latency
+            transforms, latency = partial(self.messages.transforms, kind), robot.odometry.latency
             self._add(kind, 'tf', transforms, latency=latency, below=below, qos=TF_DEPTH)
         fixed = self._publisher(kind, 'tf_static', below=below, qos=LATCHED)
         if fixed is not None:
@@ -133,36 +124,25 @@ class RobotTopics:
 
     def _add_motion(self) -> None:
         """Add ground truth, and odometry and battery if it has them."""
-        self._add(Odometry, 'ground_truth', self.truth)
+        self._add(Odometry, 'ground_truth', self.messages.truth)
         if self.robot.drive is not None:
             odometry = self.robot.odometry
             rate, latency = odometry.rate, odometry.latency
-            self._add(Odometry, 'odom', self.odometry, rate=rate, latency=latency)
+            self._add(Odometry, 'odom', self.messages.odometry, rate=rate, latency=latency)
         if (battery := self.robot.battery) is not None:
-            state = partial(self._battery, battery)
+            state = partial(self.messages.battery, battery)
             self._add(BatteryState, BATTERY_TOPIC, state, rate=battery.rate)
 
-    def _add_readings(self, lasers: Mapping[str, Any]) -> None:
-        """Add the readings of sensors; of lasers with some fields in place of their own."""
-        for sensor in self.robot.sensors:
-            if isinstance(sensor, Laser) and lasers:
-                self._lasers[sensor.name] = self._changed(sensor, lasers)
-            self._add(
-                SENSOR_MESSAGES[type(sensor)].kind,
-                sensor.name,
-                partial(self.reading, sensor),
-                rate=sensor.rate,
-                latency=sensor.latency,
-                sensor=sensor,
-            )
-
-    def _changed(self, laser: Laser, changes: Mapping[str, Any]) -> Laser:
-        """Return a laser with other fields; itself, if that is refused."""
-        try:
-            return replace(laser, **changes)
-        except Refusal as refusal:
-            self._refuse(refusal, f'{self._below}{laser.name}')
-            return laser
+    def _changed_lasers(self, changes: Mapping[str, Any]) -> dict[str, Laser]:
+        """Return its lasers with other fields, by name, but those where that is refused."""
+        changed = {}
+        for laser in self.robot.sensors:
+            if isinstance(laser, Laser) and changes:
+                try:
+                    changed[laser.name] = replace(laser, **changes)
+                except Refusal as refusal:
+                    self._refuse(refusal, f'{self._below}{laser.name}')
+        return changed
 
     def _add(
         self,
@@ -250,49 +230,6 @@ class RobotTopics:
         """
         for topic in self._topics:
             topic.send_again(seen, now)
-
-    def _transforms(self, kind: type, sensed: StampedFrame, row: int) -> Any:
-        """Return the message of the transforms that move."""
-        transforms = self._frames.of_links(sensed.stamp, sensed.snapshot, self.body, self.robot)
-        if self.robot.drive is not None:
-            pose = read_odometry(sensed.snapshot, row).pose
-            transforms = [self._frames.moving(sensed.stamp, pose), *transforms]
-        return kind(transforms=transforms)
-
-    def odometry(self, sensed: StampedFrame, row: int) -> Odometry:
-        """Return where wheels and gyroscope tell that the robot is, and how it moves."""
-        return odometry_message(
-            sensed,
-            read_odometry(sensed.snapshot, row),
-            parent=self._frames.name(ODOM),
-            child=self._frames.name(FOOTPRINT),
-            covariances=odometry_covariances(sensed.snapshot, row),
-        )
-
-    def truth(self, sensed: StampedFrame, row: int) -> Odometry:
-        """Return where the robot is, and how it moves."""
-        return odometry_message(
-            sensed,
-            true_motion(sensed.snapshot, row),
-            parent=self._world_frame,
-            child=self._frames.name(BASE),
-            covariances=(SPAWNED.covariance, SPAWNED.covariance),
-        )
-
-    def _battery(self, battery: Battery, sensed: StampedFrame, row: int) -> BatteryState:
-        """Return the state of the battery."""
-        message = battery_message(sensed, row, battery)
-        message.header.frame_id = self._frames.name(BASE)
-        return message
-
-    def reading(self, sensor: Sensor, sensed: StampedFrame, row: int) -> Any:
-        """Return the message of a sensor of it."""
-        kind = SENSOR_MESSAGES[type(sensor)]
-        message = kind.message(sensed, row, self._lasers.get(sensor.name, sensor))
-        if kind.stamped:
-            message.header.stamp = sensed.stamp
-            message.header.frame_id = self._frames.name(sensor.name)
-        return message
 
     def close(self) -> None:
         """Take the topics back."""
