@@ -50,7 +50,7 @@ class Relation:
     :param tolerance: of the places of points of bodies [m]
     :param reason: of the tolerance
     :param applies: whether it says anything about a state
-    :param plain: plays a scene as that with which the other is compared
+    :param plain: each plays a scene; the other is compared with that which is nearest
     :param keeps_energy: whether the other world has the energy of the scene, by which chaotic ones
         are compared; else their places are
     """
@@ -60,7 +60,7 @@ class Relation:
     tolerance: float
     reason: str
     applies: Callable[[WorldState], bool] = lambda _: True
-    plain: Callable[[Scene], Film] = film
+    plain: tuple[Callable[[Scene], Film], ...] = (film,)
     keeps_energy: bool = True
 
     def is_about(self, scene: Scene) -> bool:
@@ -76,8 +76,9 @@ class Relation:
 
     def off(self, scene: Scene) -> float:
         """Return how far the other world of a scene is off [m]; of a chaotic one in energy [1]."""
-        found = difference(self.plain(scene), self.other(scene))
-        return found.energy if self._is_of_energy(scene) else found.way
+        other = self.other(scene)
+        found = [difference(plain(scene), other) for plain in self.plain]
+        return min(each.energy if self._is_of_energy(scene) else each.way for each in found)
 
 
 def _changed(change):
@@ -343,6 +344,9 @@ ROUNDING = 'rounding: a billionth of a metre after thousands of sub-steps'
 THRESHOLDS = 'overlaps and speeds at which contacts change are in metres (docs/decisions/scale.md)'
 MICROMETRE = 'a mass of a ten-millionth moves the point of contact and the period by as much'
 
+# A rope that is never taut, to each of a few bodies: contacts of jointed bodies are solved with the joints.
+TIED = cache(_changed(partial(changes.tied, kind=JointKind.ROPE, length=1e4)))
+
 RELATIONS = {
     'shaken': Relation(
         law='a body that begins a picometre elsewhere ends up there',
@@ -351,8 +355,9 @@ RELATIONS = {
         reason=ROUNDING,
     ),
     'dust pinned': Relation(
-        law='a ten-millionth of its mass, pinned to a body, changes nothing',
+        law='a ten-millionth of its mass, pinned to a body, does as a slack rope or nothing',
         other=_changed(partial(changes.pinned, share=1e-7)),
+        plain=(film, TIED),
         tolerance=1e-4,
         reason=MICROMETRE,
         applies=_has_plain,
@@ -360,19 +365,20 @@ RELATIONS = {
     'gram pinned': Relation(
         law='a thousandth of its mass, taken from a body and pinned to its middle, changes little',
         other=_changed(partial(changes.pinned, share=1e-3)),
+        plain=(film, TIED),
         tolerance=3e-3,
         reason='the moment of inertia is less by a thousandth',
         applies=_has_plain,
     ),
     'slack rope': Relation(
         law='a rope that is never taut changes nothing',
-        other=_changed(partial(changes.tied, kind=JointKind.ROPE, length=1e4)),
+        other=TIED,
         tolerance=1e-4,
         reason='contacts are solved by another method, to the same law',
         applies=_has_plain,
     ),
     'damper of nothing': Relation(
-        law='a damper of a billionth of a newton second a metre and kilogram changes nothing',
+        law='a damper of a billionth of a newton second a metre and kilogram does as a slack rope',
         other=_changed(
             partial(
                 changes.tied,
@@ -382,6 +388,7 @@ RELATIONS = {
                 rest_length=1.0,
             )
         ),
+        plain=(film, TIED),
         tolerance=1e-4,
         reason='contacts are solved by another method, to the same law',
         applies=_has_plain,
@@ -510,7 +517,7 @@ RELATIONS = {
     'saved and loaded': Relation(
         law='a world that is saved and loaded midway goes on as one that begins with its state',
         other=_loaded,
-        plain=_begun_again,
+        plain=(_begun_again,),
         tolerance=0.0,
         reason='a file has all bits',
     ),
@@ -531,7 +538,7 @@ RELATIONS = {
     'restored': Relation(
         law='a world that is restored midway goes on as that which made the checkpoint',
         other=_restored,
-        plain=_at_checkpoint,
+        plain=(_at_checkpoint,),
         tolerance=0.0,
         reason='a checkpoint has all bits',
     ),
