@@ -11,7 +11,6 @@ is there as soon as it has ended.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import partial
 import itertools
 from pathlib import Path
 from typing import Any, Protocol
@@ -35,9 +34,20 @@ class Map(Protocol):
         """Return the results of a function for each case."""
 
 
-def _run_one_apart(experiment: Experiment, case: _Numbered) -> _Ended:
-    """Run a case in a process of its own."""
-    return next(run_apart(experiment, [case]))
+class _RunApart:
+    """
+    Runs a case of an experiment in a process of its own; it pickles.
+
+    Dask 2026.8 hashes the arguments of a `partial`, and refuses those of a world.
+
+    :param experiment: of the case
+    """
+
+    def __init__(self, experiment: Experiment) -> None:
+        self._experiment = experiment
+
+    def __call__(self, case: _Numbered) -> _Ended:
+        return next(run_apart(self._experiment, [case]))
 
 
 def cases_of(seeds: Iterable[int], **parameters: Sequence[Any]) -> list[Case]:
@@ -99,7 +109,7 @@ def _runs_of(
     if spread is None:
         ended: Iterable[_Ended] = run_apart(experiment, left, processes)
     else:
-        ended = spread(partial(_run_one_apart, experiment), left)
+        ended = spread(_RunApart(experiment), left)
     for number, run in ended:
         if rows is not None:
             rows.add(number, run)
