@@ -344,7 +344,7 @@ ROUNDING = 'rounding: a billionth of a metre after thousands of sub-steps'
 THRESHOLDS = 'overlaps and speeds at which contacts change are in metres (docs/decisions/scale.md)'
 MICROMETRE = 'a mass of a ten-millionth moves the point of contact and the period by as much'
 
-# A rope that is never taut, to each of a few bodies: contacts of jointed bodies are solved with the joints.
+# A rope that is never taut to each of a few bodies, whose contacts are solved with joints then.
 TIED = cache(_changed(partial(changes.tied, kind=JointKind.ROPE, length=1e4)))
 
 RELATIONS = {
