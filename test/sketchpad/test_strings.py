@@ -11,6 +11,7 @@ import json
 from operator import itemgetter
 from pathlib import Path
 import re
+from string import Formatter
 from typing import Any
 
 from physsim_ros.files import (
@@ -278,7 +279,7 @@ CROSSED = """async ([world, attempts, done, after]) => {
             told.add(words.say(message.undo_text));
         }
         if (message.type !== 'answer' || !message.request) return;
-        if (message.ok === done) told.add(words.tell(message));
+        if (message.ok === done) told.add(words.sayAnswer(message));
         waiting.get(message.request)?.();
     };
     await new Promise((resolve) => { socket.onopen = resolve; });
@@ -403,9 +404,28 @@ def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
 
 
 SAID = """async (texts) => {
-    const {told} = await import('/page/strings.js');
-    return texts.map((text) => told(text));
+    const {said} = await import('/page/strings.js');
+    return texts.map((text) => said(text));
 }"""
+SENTENCES = """async (texts) => {
+    const {Words} = await import('/page/words.js'), words = new Words({on() {}});
+    return texts.map((text) => words.say(text));
+}"""
+
+
+def test_numbers_have_the_decimal_sign_of_a_language_and_names_stay(open_sheet: OpenSheet) -> None:
+    texts = []
+    for template, names in server_texts().items():
+        formats = {name: each for _, name, each, _ in Formatter().parse(template) if name}
+        numbers = {name for name in names if formats.get(name) or name == 'time'}
+        values = {name: '2.5 s' if name in numbers else 'v2.5/1' for name in sorted(names)}
+        texts.append([template, values])
+    sheet = open_sheet(locale='de-DE')
+    said = ' '.join(sheet.page.evaluate(SENTENCES, texts))
+    assert {*re.findall(r'v\d.\d/1', said)} == {'v2.5/1'}
+    assert {*re.findall(r'(?<!v)\d[.,]\d', said)} == {'2,5'}
+
+
 CROWDED = WorldSettings(max_bodies=1, max_shapes=1, max_joints=1)
 
 
@@ -414,7 +434,7 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(open_sheet: OpenShe
         'höchstens 1 Körper': lambda: check_limit('max_bodies', 2, CROWDED),
         'höchstens 1 Teile von Körpern': lambda: check_limit('max_shapes', 2, CROWDED),
         'höchstens 1 Verbindungen': lambda: check_limit('max_joints', 2, CROWDED),
-        '1e-06 liegt nicht zwischen 0.001 und 100000': lambda: Disc(radius=1e-6),
+        '1e-06 liegt nicht zwischen 0,001 und 100000': lambda: Disc(radius=1e-6),
         'ein Name hat 1 bis 64 Zeichen': lambda: check_world_name('x' * 65),
         'ein Name hat 1 bis 24 Zeichen': lambda: person('', 'name'),
         'ein Name hat weder „/“ noch „.“': lambda: check_world_name('a/b'),
@@ -431,8 +451,8 @@ def test_details_of_what_a_person_can_do_wrong_are_in_german(open_sheet: OpenShe
 
 # The sentences of a page for refusals, each a code and a text.
 REFUSED = """async (refusals) => {
-    const {refusalText, told} = await import('/page/strings.js');
-    return refusals.map(([code, text]) => refusalText(code, told(text), text[0]));
+    const {refusalText, said} = await import('/page/strings.js');
+    return refusals.map(([code, text]) => refusalText(code, said(text), text[0]));
 }"""
 
 
@@ -455,7 +475,7 @@ def test_a_refusal_has_its_own_sentence_where_that_is_translated(open_sheet: Ope
 WRONG_BODIES = [
     ('circle: {radius: 1}, att: 1', "att: den Schlüssel 'att' gibt es nicht, aber 'at'"),
     ('circle: {radius: 1}, zebra: 1', "zebra: den Schlüssel 'zebra' gibt es nicht"),
-    ('circle: {radius: -1}', 'radius: -1 liegt nicht zwischen 0.001 und 100000'),
+    ('circle: {radius: -1}', 'radius: -1 liegt nicht zwischen 0,001 und 100000'),
     ('box: {width: 1}', 'height: height fehlt'),
     ('friction: 1', 'shape: ihm fehlt eines von circle, box, polygon, chain, triangles, compound'),
     ('circle: {radius: 1}, mass: heavy', "mass: mass ist keine Zahl: 'heavy'"),
@@ -482,10 +502,10 @@ WRONG_FILES = [
 ]
 # The sentences of a page for the refusals of files.
 OF_FILES = """async (files) => {
-    const {told} = await import('/page/strings.js'), texts = [];
+    const {said} = await import('/page/strings.js'), texts = [];
     for (const body of files) {
         const response = await fetch('/world', {method: 'POST', body});
-        texts.push(told((await response.json()).text));
+        texts.push(said((await response.json()).text));
     }
     return texts;
 }"""

@@ -12,9 +12,9 @@ import {Connection} from './connection.js';
 import {Dialog} from './ui/dialog.js';
 import {choice, createElement, elementOf, iconButton, inRow, languageField, showText, soon, textButton} from './dom.js';
 import {SceneView} from './view/scene_view.js';
-import {retold, showResults} from './ui/results.js';
+import {answerText, showResults} from './ui/results.js';
 import {watchTheme} from './view/theme.js';
-import {capital, language, t, told} from './strings.js';
+import {capital, language, said, t} from './strings.js';
 import {Words} from './words.js';
 import {WorldState} from './world_state.js';
 
@@ -125,7 +125,7 @@ class Card {
     showText(this.lesson, lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson'));
     const known = answered && answered.lesson === lesson?.title;
     const unit = lesson?.unit === '1' ? '' : lesson?.unit, verdict = answered?.right ? t('✓ right') : t('✗ not yet');
-    showText(this.answer, known ? `${retold(answered.answer)} ${unit} ${verdict}` : '');
+    showText(this.answer, known ? `${answerText(answered.answer)} ${unit} ${verdict}` : '');
     this.answer.className = known && answered.right ? 'right' : '';
     arrangeSoon();
   }
@@ -201,7 +201,7 @@ form.addEventListener('submit', async (event) => {
   const response = await ask('/join', {name: name.value, key: localStorage.getItem(KEY) ?? ''});
   if (!response?.ok) {
     const answer = await response?.json().catch(() => null);
-    elementOf('refused').textContent = answer?.text ? capital(told(answer.text)) : t('The class is not reachable: try again.');
+    elementOf('refused').textContent = answer?.text ? capital(said(answer.text)) : t('The class is not reachable: try again.');
     return;
   }
   const {address, key} = await response.json();
@@ -211,12 +211,12 @@ form.addEventListener('submit', async (event) => {
 
 async function showSeats() {
   /** @type {?{teacher?: boolean, seats?: {name: string, address: string}[], pupils?: string}} null where there is no answer */
-  const told = await fetch('/seats', {signal: AbortSignal.timeout(PERIOD)}).then((response) => response.ok ? response.json() : {}).catch(() => null);
-  gone.hidden = told !== null || teacher.hidden;
+  const known = await fetch('/seats', {signal: AbortSignal.timeout(PERIOD)}).then((response) => response.ok ? response.json() : {}).catch(() => null);
+  gone.hidden = known !== null || teacher.hidden;
   gone.textContent = t('The class is not reachable. This page comes back with it.');
-  if (told?.teacher) showClass(told.seats ?? [], told.pupils ?? '');
+  if (known?.teacher) showClass(known.seats ?? [], known.pupils ?? '');
   // A pupil's page has nothing to look at.
-  if (told?.teacher || !teacher.hidden) setTimeout(showSeats, PERIOD);
+  if (known?.teacher || !teacher.hidden) setTimeout(showSeats, PERIOD);
 }
 
 /**

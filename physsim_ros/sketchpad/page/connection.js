@@ -18,8 +18,8 @@ const REPLACED = 4000; // code of closing: another tab came with that key
 const ENDS = ['~/load_world', '~/clear'];
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
 const TICK = 500; // ms between two looks whether something has come; a browser has fewer of a hidden page
-/** Ticks of silence after which the server is asked, the page tells it, and it connects anew. */
-const ASKS = 1, TELLS = 6, LEAVES = 15;
+/** Ticks of silence after which the server is asked, the page says so, and it connects anew. */
+const ASKS = 1, WARNS = 6, LEAVES = 15;
 const REACHED = 3000; // ms within which a server that is there answers a request
 /** Messages that mean the same in a while: they wait for a server, and are sent again where they were not received. */
 const AGAIN = ['stroke', 'spawn', 'change', 'change_joint', 'delete', 'unjoin', 'copy_machine', 'move_bodies', 'place', 'answered', 'say'];
@@ -80,7 +80,7 @@ export class Connection extends Emitter {
    */
   send(type, fields = {}) {
     if (!this.#isOpen && !AGAIN.includes(type)) {
-      if (!PASSING.includes(type)) this.#tell('unsent', {type, ...fields});
+      if (!PASSING.includes(type)) this.emit('unsent', {type, ...fields});
       return '';
     }
     const message = {id: String(++this.number), type, ...fields};
@@ -93,7 +93,7 @@ export class Connection extends Emitter {
   /** @param {{id: string, type: string}} message */
   #sendOut(message) {
     this.socket?.send(JSON.stringify(message));
-    this.#tell('sent', message);
+    this.emit('sent', message);
   }
 
   /** Drop what has waited for a server too long. */
@@ -137,7 +137,7 @@ export class Connection extends Emitter {
     if (!this.socket) return;
     this.silence++;
     if (this.silence === ASKS && this.#isOpen) this.send('ping');
-    if (this.silence === TELLS) this.#tell('silent', null);
+    if (this.silence === WARNS) this.emit('silent');
     if (this.silence < LEAVES) return;
     this.#drop();
     this.#retry();
@@ -188,7 +188,7 @@ export class Connection extends Emitter {
 
   /** @param {string | ArrayBuffer} data */
   #receive(data) {
-    if (this.silence >= TELLS) this.#tell('heard', null);
+    if (this.silence >= WARNS) this.emit('heard');
     this.silence = 0;
     if (typeof data !== 'string') {
       // Only a frame tells that the server keeps a socket open: until then the pauses grow.
@@ -196,10 +196,10 @@ export class Connection extends Emitter {
       const frame = decodeFrame(data);
       // Without a frame the bodies of a scene are nowhere.
       if (!frame.ghost && this.scene?.epoch === frame.epoch) {
-        this.#tell('scene', this.scene);
+        this.emit('scene', this.scene);
         this.scene = null;
       }
-      this.#tell(frame.ghost ? 'ghost_frame' : 'frame', frame);
+      this.emit(frame.ghost ? 'ghost_frame' : 'frame', frame);
       return;
     }
     const message = JSON.parse(data);
@@ -210,17 +210,17 @@ export class Connection extends Emitter {
     if (message.type === 'welcome') {
       this.welcomed = true;
       const again = this.#sendAgain(message.received);
-      this.#tell('open', null);
-      if (again.sent + again.lost) this.#tell('again', again);
+      this.emit('open');
+      if (again.sent + again.lost) this.emit('again', again);
     }
     if (message.type === 'answer') {
       this.unanswered.delete(message.request);
       this.waiting.get(message.request)?.(message);
       this.waiting.delete(message.request);
     }
-    this.#tell(message.type, message);
+    this.emit(message.type, message);
     if (message.type === 'timeline') this.#followLine(message);
-    if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.#tell('world', message);
+    if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.emit('world', message);
   }
 
   /** @param {{line: number, parts: number}} timeline */
@@ -229,15 +229,15 @@ export class Connection extends Emitter {
     // Where it missed one, it does not know since when.
     const since = line === this.line + 1 ? parts : 0;
     this.line = line;
-    this.#tell('line', {since});
+    this.emit('line', {since});
   }
 
   /**
    * @param {string} type
    * @param {any} message
    */
-  #tell(type, message) {
-    for (const each of [type, 'any']) this.emit(each, message);
+  emit(type, message = null) {
+    for (const each of [type, 'any']) super.emit(each, message);
   }
 
   /**
@@ -254,7 +254,7 @@ export class Connection extends Emitter {
       this.connect();
       return;
     }
-    this.#tell('closed', {status, opened: this.opened});
+    this.emit('closed', {status, opened: this.opened});
     setTimeout(() => status ? this.connect() : this.#retry(true), this.pause);
     this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
   }

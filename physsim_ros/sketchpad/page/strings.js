@@ -50,16 +50,18 @@ export function server(template) {
 
 /**
  * @param {Text} text of the server
- * @param {(value: string, place: string) => string} word for a value that is no text, by the name in its braces: with a
- *   capital, it begins a sentence
+ * @param {(value: string, place: string) => string} word for a value that is neither text nor number, by the name in its
+ *   braces: with a capital, it begins a sentence
  * @returns {string} what the page says instead
  */
-export function told([template, values], word = (value) => value) {
+export function said([template, values], word = (value) => value) {
   return server(template).replace(PLACE, (braces, place) => {
     const name = place[0].toLowerCase() + place.slice(1), value = values[name];
     if (value === undefined) return braces;
+    // A number has its format in the template, or is a time; a name that looks like one stays as it is.
+    if (name === 'time' || template.includes(`{${name}:`)) return String(value).replace(/\d\.\d/g, localized);
     if (typeof value === 'string') return word(value, place);
-    return name === place ? told(value, word) : capital(told(value, word));
+    return name === place ? said(value, word) : capital(said(value, word));
   });
 }
 

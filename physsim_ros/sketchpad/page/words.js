@@ -4,7 +4,7 @@
  * `spawned drawn/3` is *Circle added* here.
  */
 
-import {capital, localized, refusalText, server, t, told} from './strings.js';
+import {capital, refusalText, said, server, t} from './strings.js';
 
 /** @import {Body, Connection, Text} from './types.js' */
 
@@ -87,9 +87,9 @@ export class Words {
    * @param {{text: Text, code?: string, ok?: boolean}} answer
    * @returns {string} what it says; '' where the clock, the hand or the tool show the same
    */
-  tell({text, code = '', ok = true}) {
-    const words = this.say(text), said = /^\S+\/\d/.test(words) ? words : capital(words); // a name stays as it is
-    return ok ? said : refusalText(code, said, text[0]);
+  sayAnswer({text, code = '', ok = true}) {
+    const words = this.say(text), sentence = /^\S+\/\d/.test(words) ? words : capital(words); // a name stays as it is
+    return ok ? sentence : refusalText(code, sentence, text[0]);
   }
 
   /** @param {string} name of a body, or another value of a text */
@@ -100,11 +100,11 @@ export class Words {
 
   /** @param {Text} text with names of bodies and worlds, in whose place it has words for those that nobody chose */
   say(text) {
-    return told(text, (value, place) => {
+    return said(text, (value, place) => {
       if (place === 'world') return this.titles.get(value) ?? value;
       if (place === capital(place)) return this.title(value);
       return this.#word(value) ? this.#named(value) : value.split(', ').map((name) => this.#named(name)).join(', ');
-    }).replace(/\d\.\d/g, localized);
+    });
   }
 }
 

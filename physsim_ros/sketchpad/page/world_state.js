@@ -18,6 +18,8 @@ export class WorldState {
     this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0,
       density: 1, friction: 0.5, elasticity: 0.5,
       air_density: 0, air_viscosity: 0, wind: [0, 0], gusts: 0, gravitation: 0, coulomb: 0};
+    /** Rows of its bodies, by their names. @type {Map<string, number>} */
+    this.rows = new Map();
     /** @type {Frame} */
     this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
       x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};
@@ -39,7 +41,10 @@ export class WorldState {
       this.ghostScene = {epoch: 0, bodies: []};
       this.ghost = null;
     });
-    connection.on('scene', (scene) => { this.scene = scene; });
+    connection.on('scene', (/** @type {Scene} */ scene) => {
+      this.scene = scene;
+      this.rows = new Map(scene.bodies.map(({name}, row) => [name, row]));
+    });
     connection.on('timeline', (timeline) => { this.timeline = timeline; });
     connection.on('ghost', (ghost) => {
       this.ghostScene = ghost;
@@ -72,7 +77,7 @@ export class WorldState {
    * @returns {Body | undefined} as the scene has it
    */
   body(name) {
-    return this.scene.bodies.find((body) => body.name === name);
+    return this.scene.bodies[this.rows.get(name) ?? -1];
   }
 
   /**
@@ -80,7 +85,7 @@ export class WorldState {
    * @returns {number} its row; -1 where there is none of that name
    */
   row(name) {
-    const row = this.scene.bodies.findIndex((body) => body.name === name);
+    const row = this.rows.get(name) ?? -1;
     return row < this.count ? row : -1;
   }
 

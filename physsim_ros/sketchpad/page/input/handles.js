@@ -171,7 +171,7 @@ export class Handles extends Gesture {
     if (!this.last || this.dragged !== 'turn' && this.dragged !== 'scale') return;
     const {turn, scale} = this.#change(), {world, selection} = this.parts, row = world.row(selection.name);
     view.outline(selection.name, palette.accent, [0, 0], {turn, scale});
-    view.tell(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeText(world.scene.bodies[row], scale), this.last);
+    view.writeBeside(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeText(world.scene.bodies[row], scale), this.last);
   }
 
   /**

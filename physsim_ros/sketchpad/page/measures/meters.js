@@ -3,7 +3,7 @@
 
 import {checkField, choiceField} from '../dom.js';
 import {jointTexts} from '../panels/joint_panel.js';
-import {QUANTITIES, toldOf} from './quantities.js';
+import {QUANTITIES, quantityText} from './quantities.js';
 import {t} from '../strings.js';
 
 /** @import {Parts, Point, SceneView} from '../types.js' */
@@ -56,7 +56,7 @@ export class Meters {
     const {world, records} = this.parts, {bodies, joints, gravity} = world.scene;
     for (const [name, key] of this.bodies) {
       const top = world.topOf(name), sample = records.past(name).at(-1);
-      if (top && sample) drawMeter(view, top, toldOf(key, QUANTITIES[key].of(sample, bodies[world.row(name)], gravity)));
+      if (top && sample) drawMeter(view, top, quantityText(key, QUANTITIES[key].of(sample, bodies[world.row(name)], gravity)));
     }
     for (const joint of joints) {
       if (!this.joints.has(joint.name)) continue;

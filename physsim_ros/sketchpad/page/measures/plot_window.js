@@ -4,7 +4,7 @@
 import {choice, createElement, elementOf, fold, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
 import {differenceOf, meanDistance, rangeOf, roomFor, sumOf, valueAt} from './curves.js';
-import {QUANTITIES, toldOf} from './quantities.js';
+import {QUANTITIES, quantityText} from './quantities.js';
 import {copyTable} from './table.js';
 import {threeDigits} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
@@ -208,6 +208,6 @@ export class PlotWindow {
     ctx.beginPath();
     ctx.arc(scales.x(nearest[0]), scales.y(nearest[1]), 6, 0, 2 * Math.PI);
     ctx.fill();
-    return `${toldOf(this.axes.x, nearest[0])} · ${toldOf(this.axes.y, nearest[1])}`;
+    return `${quantityText(this.axes.x, nearest[0])} · ${quantityText(this.axes.y, nearest[1])}`;
   }
 }

@@ -129,6 +129,6 @@ export const QUANTITIES = {
  * @param {number} value
  * @returns {string} its name, its value and its unit
  */
-export function toldOf(key, value) {
+export function quantityText(key, value) {
   return QUANTITIES[key].label.replace('[', `${Number.isNaN(value) ? '–' : threeDigits(value)} `).replace(']', '');
 }

@@ -141,9 +141,9 @@ export class Stopwatch {
     showText(this.byHand, this.#handText());
     showText(this.lapList, this.#lapTexts().slice(-MOST_LAPS).join(', '));
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
-    const told = (/** @type {Touched} */ {time, other}) => ({time: fixed(time, 4), name: other ? this.parts.words.item(other) : t('a wall')});
-    showText(this.details, [start && t('started at {time} s by {name}', told(start)),
-      stop && t('stopped at {time} s by {name}', told(stop))].filter(Boolean).join(', '));
+    const values = (/** @type {Touched} */ {time, other}) => ({time: fixed(time, 4), name: other ? this.parts.words.item(other) : t('a wall')});
+    showText(this.details, [start && t('started at {time} s by {name}', values(start)),
+      stop && t('stopped at {time} s by {name}', values(stop))].filter(Boolean).join(', '));
     const collisions = this.touches.filter(({name, time}) => name === this.counted && time > this.since).length;
     showText(this.count, this.counted ? String(collisions) : '–');
   }

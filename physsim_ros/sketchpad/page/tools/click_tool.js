@@ -167,7 +167,7 @@ export class ClickTool extends Gesture {
     // A finger that is lifted leaves nothing else.
     for (const {at} of this.points) view.ring(at, MARK, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
-    view.tell(this.#sizeText(points), this.pointed);
+    view.writeBeside(this.#sizeText(points), this.pointed);
   }
 
   /**

@@ -44,7 +44,7 @@ export class Pen extends Gesture {
     if (!this.last) return;
     view.line(this.path.map(({at}) => at), view.palette.accent);
     const [left, low, right, high] = unionOf(this.path.map(({at: [x, y]}) => [x, y, x, y]));
-    view.tell(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, this.last);
+    view.writeBeside(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, this.last);
   }
 }
 

@@ -146,6 +146,6 @@ export class Hand extends Gesture {
       by = this.#carried(this.start, this.last);
       view.outline(this.name, view.palette.accent, by);
     }
-    view.tell(placed(world, row, by), this.last);
+    view.writeBeside(placed(world, row, by), this.last);
   }
 }

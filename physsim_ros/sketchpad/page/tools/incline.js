@@ -75,7 +75,7 @@ export class InclineTool extends Gesture {
     const incline = this.#drawn(this.start, this.last), {polygon: [p, q, r]} = shapeOf(incline), [x, y] = incline.foot;
     const corners = [p, q, r, p].map(([px, py]) => /** @type {Point} */ ([x + px, y + py]));
     view.line(corners, view.palette.accent);
-    view.tell(`${digits(incline.angle, 5)}°, ${digits(incline.length, 5)} m`, this.last);
+    view.writeBeside(`${digits(incline.angle, 5)}°, ${digits(incline.length, 5)} m`, this.last);
   }
 }
 

@@ -34,6 +34,6 @@ export class WaterTool extends Gesture {
     if (!this.start || !this.last || this.isTap) return;
     const [left, low, right, high] = this.#region(this.start, this.last);
     view.line([[left, low], [right, low], [right, high], [left, high], [left, low]], view.palette.accent);
-    view.tell(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, this.last);
+    view.writeBeside(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, this.last);
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** World files: how a world is opened and told, the text of the one that is shown, and the one that nobody has saved. */
+/** World files: how a world is opened, the text of the one that is shown, and the one that nobody has saved. */
 
 import {textButton} from '../dom.js';
 import {ownName} from '../people.js';
@@ -51,7 +51,7 @@ export class Files {
       this.parts.notes.showMessage(t('This file is too large: a world has at most 1 MiB here.'), {ok: false});
       return false;
     }
-    const {ok, text: told, code} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
+    const {ok, text: answer, code} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
       .then((response) => response.json().catch(() => ({ok: false, code: '', text: [t('The server refused this file'), {}]})),
         () => ({ok: false, code: '', text: [t('Not done: the server is not reachable'), {}]}));
     const {notes, room, words} = this.parts;
@@ -60,7 +60,7 @@ export class Files {
       this.dismiss();
       room.frameNext();
     }
-    notes.showMessage(words.tell({text: told, code, ok}), {ok});
+    notes.showMessage(words.sayAnswer({text: answer, code, ok}), {ok});
     return ok;
   }
 

@@ -107,7 +107,7 @@ export class Lessons {
    */
   async #report(answer, result) {
     const {ok, code, text} = await this.parts.connection.ask('answered', answer);
-    const reason = this.parts.words.tell({ok, code, text});
+    const reason = this.parts.words.sayAnswer({ok, code, text});
     if (!ok) result.append(createElement('span', {className: 'danger'}, ` ${t('Your answer was not saved: {reason}', {reason})}`));
   }
 

@@ -68,11 +68,11 @@ export class Narrator {
     if (speed > RESTS) motion.since = this.time;
     if (!motion.moves && speed > MOVES) {
       motion.moves = true;
-      this.#tell(t('{name} moves at {time} s', {name: words.item(name), time}));
+      this.#announce(t('{name} moves at {time} s', {name: words.item(name), time}));
     } else if (motion.moves && this.time - motion.since > STILL) {
       motion.moves = false;
       const [x, y] = world.centerOf(row);
-      this.#tell(t('{name} rests at {x}, {y} m, at {time} s', {name: words.item(name), x: fixed(x, 1), y: fixed(y, 1), time}));
+      this.#announce(t('{name} rests at {x}, {y} m, at {time} s', {name: words.item(name), x: fixed(x, 1), y: fixed(y, 1), time}));
     }
   }
 
@@ -85,7 +85,7 @@ export class Narrator {
       const pair = `${bodies[one].name} ${bodies[other]?.name}`, before = this.touched.get(pair) ?? -Infinity;
       this.touched.set(pair, this.time);
       if (this.time - before < APART) continue;
-      this.#tell(t('{name} touches {other} at {time} s', {name: words.item(bodies[one].name),
+      this.#announce(t('{name} touches {other} at {time} s', {name: words.item(bodies[one].name),
         other: bodies[other] ? words.item(bodies[other].name) : t('a wall'), time: fixed(this.time, 1)}));
     }
   }
@@ -107,7 +107,7 @@ export class Narrator {
   }
 
   /** @param {string} sentence */
-  #tell(sentence) {
+  #announce(sentence) {
     this.sentences.push(sentence);
     this.timer ||= setTimeout(() => {
       this.timer = 0;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Answers in a line above the world; notes at places of the world. */
+/** The line above the world, in which the page answers; notes at places of the world, and in the dock beside it. */
 
 import {createElement, elementOf, textButton} from '../dom.js';
 import {t} from '../strings.js';
-import {personWord} from '../people.js';
 
-/** @import {Answer, Parts, Point} from '../types.js' */
+/** @import {Parts, Point} from '../types.js' */
 
-const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
 export const READ = 6000; // ms for which a note is shown
 const SHOWN = 2500, REFUSED = 5000, OFFERED = 10000; // ms: an answer, a refusal, a button
 
 export class Notes {
-  /** @param {Parts<'camera' | 'connection' | 'people' | 'view' | 'words'>} parts */
+  /** @param {Parts<'camera' | 'view'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.status = elementOf('status');
@@ -21,37 +19,8 @@ export class Notes {
     /** @type {Map<HTMLElement, () => ?Point>} */
     this.pinned = new Map();
     this.timer = 0;
-    this.until = 0; // [ms] until then an answer to this page stays
-    this.rest = {of: '', left: 0}; // answers to come that are parts of what was told as one thing
-    this.expected = () => {}; // shows an answer with the next scene
+    this.until = 0; // [ms] until then a message that is not quiet stays
     parts.view.overlays.push(() => this.#place());
-    parts.connection.on('answer', (answer) => this.#tell(answer));
-    parts.connection.on('scene', () => this.expected());
-  }
-
-  /** @param {Answer} answer */
-  #tell(answer) {
-    const {request, ok, code, text, topic} = answer, {people, words} = this.parts, own = request !== '';
-    // The button that opens the recording tells the same.
-    if (ok && topic === 'viewer') return;
-    // A dialog asks about a name that is taken where a world is saved.
-    if (!words.tell(answer) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
-    const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0), rest = topic === 'events'; // of a frame, to a page that did not ask
-    if (several > 1) this.rest = {of, left: several};
-    else if (this.rest.left && (rest || this.rest.of === of)) {
-      this.rest.left = rest ? 0 : this.rest.left - 1;
-      if (ok) return;
-    }
-    const who = own ? '' : personWord(people.nameOf(answer.page));
-    const tell = () => {
-      this.expected = () => {};
-      this.showMessage(`${who}${who && ': '}${words.tell(answer)}`, {ok, quiet: !own});
-    };
-    if (words.knows(text)) tell();
-    else {
-      this.expected = tell;
-      setTimeout(() => this.expected === tell && tell(), SCENE_LATER);
-    }
   }
 
   /**

@@ -91,7 +91,7 @@ class ResultTable {
     const head = titles.flatMap((title) => [t('answer'), t('right'), t('tries'), t('time')].map((column) => `${this.heading(title)}: ${column}`));
     const rows = names.map((name) => [personWord(name), ...titles.flatMap((title) => {
       const result = people.get(name)?.get(title);
-      return result ? [retold(result.answer), result.right ? '1' : '0', String(result.tries), dateOf(result)] : ['', '', '', ''];
+      return result ? [answerText(result.answer), result.right ? '1' : '0', String(result.tries), dateOf(result)] : ['', '', '', ''];
     })]);
     return [[t('Name'), ...head], ...rows];
   }
@@ -128,7 +128,7 @@ function histogramOf(results) {
  * @param {string} text that somebody has typed
  * @returns {string} the number as the reader of this page writes it; the text where it is none
  */
-export function retold(text) {
+export function answerText(text) {
   return Number.isNaN(numberOf(text)) ? text : localized(text.trim().replace(',', '.'));
 }
 
@@ -137,7 +137,7 @@ function cellOf(result) {
   if (!result) return createElement('td', {}, '');
   const {answer, right, tries} = result;
   return createElement('td', {className: right ? 'right' : '', title: t('{date}, tries: {count}', {date: dateOf(result), count: tries})},
-    `${retold(answer)} ${right ? '✓' : '✗'}${tries > 1 ? ` (${tries})` : ''}`);
+    `${answerText(answer)} ${right ? '✓' : '✗'}${tries > 1 ? ` (${tries})` : ''}`);
 }
 
 /** @param {Result} result */

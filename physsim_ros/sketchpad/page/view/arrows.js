@@ -73,7 +73,7 @@ export class Arrows {
     let hint = '';
     if (!this.forces) drawApplied(this.parts, view);
     else if (world.count) hint = this.#drawForces(view, room);
-    this.legend.tell(this.scales, hint);
+    this.legend.showScales(this.scales, hint);
   }
 
   /** @param {number} room [px] */

@@ -86,7 +86,7 @@ export class Legend {
    * @param {Record<string, ArrowScale>} scales by their units
    * @param {string} hint
    */
-  tell(scales, hint) {
+  showScales(scales, hint) {
     for (const [unit, scale] of Object.entries(scales)) {
       if (this.bars[unit]) showText(this.bars[unit], `${digits(scale.unit, 2)} ${unit}`);
     }

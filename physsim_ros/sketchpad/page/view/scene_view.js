@@ -292,7 +292,7 @@ export class SceneView {
    * @param {string} text what a gesture measures
    * @param {{page: Point}} pointer beside which it is written
    */
-  tell(text, {page: [x, y]}) {
+  writeBeside(text, {page: [x, y]}) {
     this.write(text, [x + ASIDE, y - ASIDE], this.palette.accent);
   }
 
