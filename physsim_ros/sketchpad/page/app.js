@@ -4,7 +4,7 @@
  *
  * Start reading here; each part is a file. The world moves on the server alone (world_state.js). `view/` draws it, `input/`
  * and `tools/` work it, `panels/` and `measures/` show and change what is selected, `ui/` stands around it. What makes a
- * ring goes by events: of the server (connection.js), of pointers (input/gestures.js), of what is selected
+ * ring goes by events: of the server (connection.js), of pointers (input/pointers.js), of what is selected
  * (input/selection.js).
  */
 
@@ -12,9 +12,9 @@ import {Connection} from './connection.js';
 import {elementOf} from './dom.js';
 import {FrameParts} from './frame_parts.js';
 import {Cursor} from './input/cursor.js';
-import {Gestures} from './input/gestures.js';
 import {Handles} from './input/handles.js';
 import {Keyboard} from './input/keyboard.js';
+import {Pointers} from './input/pointers.js';
 import {Selection} from './input/selection.js';
 import {Meters} from './measures/meters.js';
 import {Plotting} from './measures/plotting.js';
@@ -56,23 +56,23 @@ const connection = new Connection();
 const world = new WorldState(connection);
 const camera = new Camera();
 const view = new SceneView(elementOf('world', HTMLCanvasElement), world, camera);
-const gestures = new Gestures(view);
+const pointers = new Pointers(view);
 const words = new Words(connection);
 const dialog = new Dialog();
-const people = new People({connection, gestures, world});
+const people = new People({connection, pointers, world});
 const frames = new FrameParts({connection});
 const notes = new Notes({camera, view});
 new Answers({connection, notes, people, view, words, world});
 const settings = new Settings({connection, dialog, frames, notes, world});
-const selection = new Selection({camera, connection, frames, gestures, notes, view, words, world});
-const cursor = new Cursor({camera, gestures, view});
-const room = new Room({camera, connection, cursor, gestures, selection, view, world});
+const selection = new Selection({camera, connection, frames, notes, pointers, view, words, world});
+const cursor = new Cursor({camera, pointers, view});
+const room = new Room({camera, connection, cursor, pointers, selection, view, world});
 const records = new Records({connection, frames, world});
 const arrows = new Arrows({camera, connection, frames, people, records, selection, view, world});
 const trail = new Trail({arrows, camera, connection, records, view, world});
 const meters = new Meters({connection, records, view, world});
 const stopwatch = new Stopwatch({connection, notes, words});
-const time = new TimeBar({connection, gestures, notes, people, view, words, world});
+const time = new TimeBar({connection, notes, people, pointers, view, words, world});
 const files = new Files({connection, dialog, notes, people, room, words});
 const lessons = new Lessons({connection, files, people, room, selection, time, words, world});
 const plotting = new Plotting({connection, lessons, notes, records, room, selection, view, words, world});
@@ -86,20 +86,20 @@ const panel = new Panel({connection, room, selection, view}, {
   world: (_, render) => worldPanel.content(render),
   measure: () => stopwatch.content(),
 });
-new EmptyCard({connection, gestures, people, selection, view, world});
-const handles = new Handles({arrows, camera, connection, gestures, people, selection, view, world});
+new EmptyCard({connection, people, pointers, selection, view, world});
+const handles = new Handles({arrows, camera, connection, people, pointers, selection, view, world});
 const readings = new Readings({connection, notes, view, world});
-const hints = new Hints({connection, gestures, notes, world});
+const hints = new Hints({connection, notes, pointers, world});
 const toolParts = {camera, connection, frames, hints, notes, people, readings, records, selection, view, world};
-const toolbar = new Toolbar({...toolParts, gestures, room});
-gestures.ends = {eraser: new Eraser(toolParts), button: new Lasso(toolParts)};
+const toolbar = new Toolbar({...toolParts, pointers, room});
+pointers.ends = {eraser: new Eraser(toolParts), button: new Lasso(toolParts)};
 /** @type {?import('./input/menu.js').Menu} null until it is asked for */
 let menu = null;
-gestures.on('menu', (page) => notes.load(import('./input/menu.js'), ({Menu}) => {
-  menu ??= new Menu({camera, gestures, people, plotting, room, selection, view, world});
+pointers.on('menu', (page) => notes.load(import('./input/menu.js'), ({Menu}) => {
+  menu ??= new Menu({camera, people, plotting, pointers, room, selection, view, world});
   menu.open(page);
 }));
-new Keyboard({camera, cursor, dialog, driving, gestures, panel, people, plotting, readings, room, selection, settings, stopwatch,
+new Keyboard({camera, cursor, dialog, driving, panel, people, plotting, pointers, readings, room, selection, settings, stopwatch,
   time, toolbar, view, world});
 new TopBar({arrows, camera, connection, dialog, files, lessons, notes, room, selection, settings, view, world});
 new Classroom({camera, connection, dialog, lessons, notes, people, selection, view});
@@ -145,7 +145,7 @@ function listen() {
   });
   connection.on('leave', () => {
     if (people.teacher || people.viewOnly) return;
-    gestures.cancelAll();
+    pointers.cancelAll();
     connection.leave();
     dialog.close();
     for (const each of document.querySelectorAll('body > *')) each.toggleAttribute('inert', each !== gone);
@@ -154,7 +154,7 @@ function listen() {
   });
   connection.on('closed', ({status, opened}) => {
     // The server forgets the gestures that it knows of; a stroke is drawn to its end.
-    if (!away && gestures.tool.atServer) gestures.cancelAll();
+    if (!away && pointers.tool.atServer) pointers.cancelAll();
     away = true;
     gone.hidden = false;
     gone.textContent = status === 401 || status === 403 ?

@@ -9,7 +9,7 @@ export const NAME = 'physsim-name'; // key of the name of the person at this pag
 export const TEACHER = 'Teacher'; // name of a teacher without another one
 
 export class People {
-  /** @param {Parts<'connection' | 'gestures' | 'world'>} parts */
+  /** @param {Parts<'connection' | 'pointers' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.page = 0; // number of this one
@@ -28,7 +28,7 @@ export class People {
 
   /** @param {boolean} viewOnly */
   #show(viewOnly) {
-    this.viewOnly = this.parts.gestures.onlyMoves = viewOnly;
+    this.viewOnly = this.parts.pointers.onlyMoves = viewOnly;
     document.body.classList.toggle('view', viewOnly);
   }
 

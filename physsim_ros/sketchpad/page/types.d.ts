@@ -9,12 +9,13 @@ export type {Camera} from './view/camera.js';
 export type {Connection} from './connection.js';
 export type {Palette} from './view/theme.js';
 export type {SceneView} from './view/scene_view.js';
+export type {Tool} from './tools/tool.js';
 export type {WorldState} from './world_state.js';
 
 import type {Connection} from './connection.js';
 import type {FrameParts} from './frame_parts.js';
 import type {Cursor} from './input/cursor.js';
-import type {Gestures} from './input/gestures.js';
+import type {Pointers} from './input/pointers.js';
 import type {Selection} from './input/selection.js';
 import type {Meters} from './measures/meters.js';
 import type {Plotting} from './measures/plotting.js';
@@ -50,7 +51,6 @@ interface Page {
   driving: Driving;
   files: Files;
   frames: FrameParts;
-  gestures: Gestures;
   hints: Hints;
   lessons: Lessons;
   meters: Meters;
@@ -58,6 +58,7 @@ interface Page {
   panel: Panel;
   people: People;
   plotting: Plotting;
+  pointers: Pointers;
   readings: Readings;
   records: Records;
   room: Room;
@@ -75,7 +76,7 @@ interface Page {
 /** What a part of the page works with: others, by their names. They are made before it. */
 export type Parts<Names extends keyof Page> = Pick<Page, Names>;
 
-/** What tools work with. */
+/** What tools work with, all in all; each says what it uses itself. */
 export type ToolParts = Parts<'camera' | 'connection' | 'frames' | 'hints' | 'notes' | 'people' | 'readings' | 'records' | 'selection' | 'view' | 'world'>;
 
 /** x, y [m]; on the page [px]. */
@@ -402,35 +403,4 @@ export interface ClickUse {
   /** Whether its second point lies at a multiple of an angle from the first, while the key of the grid is held. */
   angled?: boolean;
   arrow?: boolean;
-}
-
-/** What a pointer works: a tool of the toolbar, a handle, or an end of a stylus. */
-export interface Tool {
-  /** Where the pointer has been, as the machine of gestures keeps it; empty while it is lifted. */
-  path: Touch[];
-  begin?(touch: Touch): void;
-  /** The path ends there. */
-  move?(touch: Touch): void;
-  end?(touch: Touch): void;
-  /** Forget the gesture, and the clicks before it. */
-  cancel?(): void;
-  /** @param touch of a pointer that is not pressed */
-  point?(touch: Touch): void;
-  /** @returns the place on the grid, or the one that is meant */
-  snap?(touch: Touch): Touch;
-  draw?(view: SceneView): void;
-  /** Whether wheel, R and a second finger turn the body in the tool. */
-  turns?: boolean;
-  /** @param angle [rad] */
-  turn?(angle: number): void;
-  /** Of a gesture, where it is made by clicks. */
-  clicks?: number;
-  /** Whether a gesture is begun, of which clicks are to come. */
-  open?: boolean;
-  /** Finish an open gesture; false where there is none. */
-  finish?(): boolean;
-  /** Whether the server knows of its unfinished gesture. */
-  atServer?: boolean;
-  /** Colour of the body that it is pointed at. */
-  aims?: 'accent' | 'warn';
 }

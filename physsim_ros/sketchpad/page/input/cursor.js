@@ -7,13 +7,13 @@ const STEP = 16, FINE = 2; // px
 const POINTER = -1; // its number among pointers
 
 export class Cursor {
-  /** @param {Parts<'camera' | 'gestures' | 'view'>} parts */
+  /** @param {Parts<'camera' | 'pointers' | 'view'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.x = this.y = -1; // px
     this.shown = false;
     parts.view.overlays.push((view) => this.#draw(view));
-    parts.gestures.on('press', () => this.hide());
+    parts.pointers.on('press', () => this.hide());
   }
 
   /** @returns {Touch} */
@@ -24,7 +24,7 @@ export class Cursor {
   }
 
   get #isPressed() {
-    return this.parts.gestures.working?.pointer === POINTER;
+    return this.parts.pointers.working?.pointer === POINTER;
   }
 
   /** @param {Point} page where it is put [px] */
@@ -34,7 +34,7 @@ export class Cursor {
   }
 
   hide() {
-    if (this.#isPressed) this.parts.gestures.cancel();
+    if (this.#isPressed) this.parts.pointers.cancel();
     this.shown = false;
   }
 
@@ -44,24 +44,24 @@ export class Cursor {
    * @param {boolean} fine
    */
   move(dx, dy, fine) {
-    const {camera, gestures} = this.parts, step = fine ? FINE : STEP;
+    const {camera, pointers} = this.parts, step = fine ? FINE : STEP;
     if (!this.shown && this.x < 0) [this.x, this.y] = [camera.width / 2, camera.height / 2];
     this.shown = true;
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
     this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
-    if (this.#isPressed) gestures.move(POINTER, this.touch);
-    else gestures.point(this.touch);
+    if (this.#isPressed) pointers.move(POINTER, this.touch);
+    else pointers.point(this.touch);
   }
 
   /** Press the tool, or a handle, or lift it; a tool of clicks clicks. */
   press() {
-    const {gestures} = this.parts, wasPressed = this.#isPressed;
+    const {pointers} = this.parts, wasPressed = this.#isPressed;
     if (!this.shown) {
       this.move(0, 0, false);
       return;
     }
-    if (!wasPressed) gestures.begin(POINTER, this.touch);
-    if (wasPressed || gestures.working?.tool?.clicks) gestures.end(POINTER, this.touch);
+    if (!wasPressed) pointers.begin(POINTER, this.touch);
+    if (wasPressed || pointers.working?.tool?.clicks) pointers.end(POINTER, this.touch);
   }
 
   /** @param {SceneView} view */

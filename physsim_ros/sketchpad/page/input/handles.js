@@ -8,7 +8,7 @@ import {scaledShape} from '../view/body_path.js';
 import {originOf} from '../measures/quantities.js';
 import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
-import {Gesture} from '../tools/gesture.js';
+import {Tool} from '../tools/tool.js';
 import {distance, onGrid, polar, wrapped} from '../vectors.js';
 
 /** @import {Body, Parts, Point, SceneView, Touch} from '../types.js' */
@@ -25,10 +25,10 @@ const SLOWEST = 5e-4; // m/s: a lower speed is that of a body at rest
 const NEAR = 20; // px beyond the handles within which a pointer shows them
 const TOUCHED = 4000, READ = 2500; // ms for which they are shown after a finger, and beside arrows that are read
 
-/** @typedef {Parts<'arrows' | 'camera' | 'connection' | 'gestures' | 'people' | 'selection' | 'view' | 'world'>} Needed */
+/** @typedef {Parts<'arrows' | 'camera' | 'connection' | 'people' | 'pointers' | 'selection' | 'view' | 'world'>} Needed */
 
-/** @extends {Gesture<Needed>} */
-export class Handles extends Gesture {
+/** @extends {Tool<Needed>} */
+export class Handles extends Tool {
   /** @param {Needed} parts */
   constructor(parts) {
     super(parts);
@@ -36,9 +36,9 @@ export class Handles extends Gesture {
     this.dragged = '';
     this.until = 0; // [ms] until then the handles are shown
     parts.view.overlays.push((view) => this.#draw(view));
-    parts.gestures.handles = this;
-    parts.gestures.on('point', (touch) => this.#point(touch));
-    parts.gestures.on('end', ({touch, isFinger}) => this.#point(touch, isFinger));
+    parts.pointers.handles = this;
+    parts.pointers.on('point', (touch) => this.#point(touch));
+    parts.pointers.on('end', ({touch, isFinger}) => this.#point(touch, isFinger));
   }
 
   /** @returns {boolean} whether the handles are there: a pointer is near, or has been */

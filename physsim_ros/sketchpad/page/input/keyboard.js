@@ -14,7 +14,7 @@ const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 
 export class Keyboard {
-  /** @param {Parts<'camera' | 'cursor' | 'dialog' | 'driving' | 'gestures' | 'panel' | 'people' | 'plotting' | 'readings' | 'room' | 'selection' | 'settings' | 'stopwatch' | 'time' | 'toolbar' | 'view' | 'world'>} parts */
+  /** @param {Parts<'camera' | 'cursor' | 'dialog' | 'driving' | 'panel' | 'people' | 'plotting' | 'pointers' | 'readings' | 'room' | 'selection' | 'settings' | 'stopwatch' | 'time' | 'toolbar' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.since = 0;
@@ -27,12 +27,12 @@ export class Keyboard {
     document.addEventListener('pointerup', () => this.#takeBack(), true);
     parts.view.canvas.addEventListener('blur', () => parts.view.canvas.classList.remove('reached'));
     parts.view.canvas.addEventListener('blur', () => parts.driving.liftAll());
-    addEventListener('blur', () => { parts.gestures.space = false; });
+    addEventListener('blur', () => { parts.pointers.space = false; });
     const callService = (/** @type {string} */ name) => () => parts.time.callService(name);
     /** @type {Record<string, () => unknown>} */
     this.keys = {
-      '?': () => parts.settings.showHelp(), f: () => parts.gestures.down.size || parts.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
-      r: () => parts.gestures.tool.turn?.(TURN), R: () => parts.gestures.tool.turn?.(-TURN),
+      '?': () => parts.settings.showHelp(), f: () => parts.pointers.down.size || parts.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      r: () => parts.pointers.tool.turn(TURN), R: () => parts.pointers.tool.turn(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => parts.selection.deleteSelected(), Backspace: () => parts.selection.deleteSelected(), Escape: () => this.#drop(),
       j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
@@ -72,16 +72,16 @@ export class Keyboard {
       return;
     }
     if (key === 'ContextMenu' || key === 'F10' && event.shiftKey) {
-      parts.gestures.emit('menu', parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
+      parts.pointers.emit('menu', parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
       event.preventDefault();
       return;
     }
     const control = target instanceof Element ? target : null, button = control?.matches(PRESSED);
     if (key === ' ' && !button) {
       if (!event.repeat) this.since = event.timeStamp;
-      parts.gestures.space = true;
+      parts.pointers.space = true;
     } else if (key === 'Enter' && !button) {
-      if (parts.cursor.shown || !parts.gestures.tool.finish?.()) parts.cursor.press();
+      if (parts.cursor.shown || !parts.pointers.tool.finish()) parts.cursor.press();
     } else if (key in ARROWS && !button) {
       parts.cursor.move(...ARROWS[key], event.shiftKey);
     } else if (target === parts.view.canvas && parts.driving.press(event.code)) {
@@ -96,16 +96,16 @@ export class Keyboard {
   #up({key, code, timeStamp}) {
     const {parts} = this;
     parts.driving.lift(code);
-    if (key !== ' ' || !parts.gestures.space) return;
-    parts.gestures.space = false;
-    if (timeStamp - this.since < TAP && !parts.gestures.down.size) parts.time.toggle();
+    if (key !== ' ' || !parts.pointers.space) return;
+    parts.pointers.space = false;
+    if (timeStamp - this.since < TAP && !parts.pointers.down.size) parts.time.toggle();
   }
 
   /** @param {number} factor */
   #zoom(factor) {
-    const {camera, gestures} = this.parts;
+    const {camera, pointers} = this.parts;
     // A stroke would leap to where the pointer is then.
-    if (!gestures.down.size) camera.zoom(camera.width / 2, camera.height / 2, factor);
+    if (!pointers.down.size) camera.zoom(camera.width / 2, camera.height / 2, factor);
   }
 
   /** @param {number} by */
@@ -122,7 +122,7 @@ export class Keyboard {
   #drop() {
     const {parts} = this;
     if (parts.plotting.close()) return;
-    parts.gestures.cancelAll();
+    parts.pointers.cancelAll();
     parts.readings.dismiss();
     parts.cursor.hide();
     parts.panel.close();

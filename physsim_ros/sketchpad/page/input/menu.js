@@ -12,11 +12,11 @@ import {t} from '../strings.js';
 const GAP = 4; // px to the edges of the page
 
 export class Menu {
-  /** @param {Parts<'camera' | 'gestures' | 'people' | 'plotting' | 'room' | 'selection' | 'view' | 'world'>} parts */
+  /** @param {Parts<'camera' | 'people' | 'plotting' | 'pointers' | 'room' | 'selection' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.element = document.body.appendChild(createElement('div', {id: 'menu', role: 'menu', 'aria-label': t('Menu'), hidden: true}));
-    parts.gestures.on('press', () => this.close());
+    parts.pointers.on('press', () => this.close());
     // What has the focus then keeps it.
     this.element.addEventListener('focusout', ({relatedTarget}) => { this.element.hidden ||= !this.element.contains(/** @type {?Node} */ (relatedTarget)); });
     this.element.addEventListener('keydown', (event) => this.#move(event));

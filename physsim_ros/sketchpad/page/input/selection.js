@@ -15,7 +15,7 @@ const NEAR = 8; // px: a tap that far from a joint means it
 /** @typedef {'' | 'body' | 'several' | 'joint' | 'world' | 'measure'} Kind of a subject of the panel; '' is a closed one */
 
 export class Selection extends Emitter {
-  /** @param {Parts<'camera' | 'connection' | 'frames' | 'gestures' | 'notes' | 'view' | 'words' | 'world'>} parts */
+  /** @param {Parts<'camera' | 'connection' | 'frames' | 'notes' | 'pointers' | 'view' | 'words' | 'world'>} parts */
   constructor(parts) {
     super();
     this.parts = parts;
@@ -30,8 +30,8 @@ export class Selection extends Emitter {
     /** The pointer, where it is not pressed; null where it has left. @type {?Touch} */
     this.pointed = null;
     parts.view.overlays.push((view) => this.#draw(view));
-    parts.gestures.on('press', () => { this.pointed = null; });
-    parts.gestures.on('point', (touch) => { this.pointed = touch; });
+    parts.pointers.on('press', () => { this.pointed = null; });
+    parts.pointers.on('point', (touch) => { this.pointed = touch; });
     // Of the same name, a body of another world is another body.
     parts.connection.on('world', () => { this.kept.names = []; });
     parts.connection.on('scene', ({bodies, joints}) => {
@@ -118,7 +118,7 @@ export class Selection extends Emitter {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const {palette} = view, {world, camera, words, gestures: {tool}} = this.parts;
+    const {palette} = view, {world, camera, words, pointers: {tool}} = this.parts;
     for (const name of this.names) view.outline(name, palette.accent);
     // Bodies come and go under a pointer that rests.
     const name = this.pointed ? world.nameAt({at: camera.toWorld(...this.pointed.page), slop: this.pointed.slop}) : '';

@@ -5,12 +5,14 @@
  * follows the pointer.
  */
 
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance, isTap, onGrid, polar} from '../vectors.js';
 
-/** @import {ClickUse, Point, SceneView, ToolParts, Touch} from '../types.js' */
+/** @import {ClickUse, Parts, Point, SceneView, Touch} from '../types.js' */
+
+/** @typedef {Parts<'camera' | 'connection' | 'world'>} Needed */
 
 const DRAG = 6; // px: a rectangle that is less high or wide is a side
 const MARK = 4; // px: radius of a point that was clicked
@@ -18,9 +20,10 @@ const CLOSE = 12; // px around the first corner of a polygon
 const NEWTONS = 10; // N: of an arrow of 1 m, as in `drawing/tools.py`
 const STEP = Math.PI / 12; // rad between the directions of angled lines
 
-export class ClickTool extends Gesture {
+/** @extends {Tool<Needed>} */
+export class ClickTool extends Tool {
   /**
-   * @param {ToolParts} parts
+   * @param {Needed} parts
    * @param {string} id of the tool
    * @param {ClickUse} use
    */

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The eraser, the other end of a stylus: what it passes over is outlined, and deleted when it is lifted. */
 
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {distance} from '../vectors.js';
 
-/** @import {SceneView, Touch} from '../types.js' */
+/** @import {Parts, SceneView, Touch} from '../types.js' */
 
 const STEP = 3; // px between the places at which it looks for bodies
 const NEAR = 6; // px: a joint that near to it is meant
 
-export class Eraser extends Gesture {
+/** @extends {Tool<Parts<'camera' | 'connection' | 'world'>>} */
+export class Eraser extends Tool {
   /** @type {Set<string>} bodies that it has passed over */
   bodies = new Set();
   /** @type {Set<string>} */

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that are drawn with: the pen, whose strokes become bodies, and the lasso, whose loops select them. */
 
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {inside, unionOf} from '../view/body_path.js';
 import {threeDigits} from '../rounding.js';
 
-/** @import {Point, SceneView, Touch} from '../types.js' */
+/** @import {Parts, Point, SceneView, Touch} from '../types.js' */
 
 const TAP_TIME = 0.4; // s: a longer press of the pen is no tap
 const MOST_SAMPLES = 4000; // of a stroke that is sent
 
-/** A freehand stroke, sent when the pen is lifted; a tap selects the body under it. */
-export class Pen extends Gesture {
+/**
+ * A freehand stroke, sent when the pen is lifted; a tap selects the body under it.
+ * @extends {Tool<Parts<'connection' | 'readings' | 'selection'>>}
+ */
+export class Pen extends Tool {
   kept = 1; // one in so many samples: a long stroke is thinned out evenly
   count = 0; // of samples after the first
 
@@ -48,8 +51,11 @@ export class Pen extends Gesture {
   }
 }
 
-/** A loop selects the bodies in it; the selected bodies are moved by dragging one. */
-export class Lasso extends Gesture {
+/**
+ * A loop selects the bodies in it; the selected bodies are moved by dragging one.
+ * @extends {Tool<Parts<'connection' | 'selection' | 'world'>>}
+ */
+export class Lasso extends Tool {
   carrying = false;
 
   /** @param {Touch} touch */

@@ -1,33 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The hand pulls a body and throws it, places and turns it in a paused world, drags a copy, and moves the view. */
 
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {placed} from '../measures/quantities.js';
 import {isTap, onGrid} from '../vectors.js';
 
-/** @import {Point, SceneView, ToolParts, Touch} from '../types.js' */
+/** @import {Parts, Point, SceneView, Touch} from '../types.js' */
 
 const CATCH = 120; // ms after which a body that is pressed is caught
 
-export class Hand extends Gesture {
+/** @extends {Tool<Parts<'camera' | 'connection' | 'frames' | 'hints' | 'selection' | 'world'>>} */
+export class Hand extends Tool {
   atServer = true;
-
-  /** @param {ToolParts} parts */
-  constructor(parts) {
-    super(parts);
-    /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'copying' | 'panning'} */
-    this.state = '';
-    this.name = '';
-    /** @type {Point} in the frame of the body [m] */
-    this.grip = [0, 0];
-    /** @type {Point} from its origin to where it was grabbed [m] */
-    this.offset = [0, 0];
-    this.yaw = 0;
-    this.turned = false;
-    this.moved = false;
-    this.timer = 0;
-    this.request = 0; // of a frame of the page
-  }
+  /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'copying' | 'panning'} */
+  state = '';
+  name = ''; // of the body
+  /** In the frame of the body [m]. @type {Point} */
+  grip = [0, 0];
+  /** From its origin to where it was grabbed [m]. @type {Point} */
+  offset = [0, 0];
+  yaw = 0;
+  turned = false;
+  moved = false;
+  timer = 0;
+  request = 0; // of a frame of the page
 
   /** @returns {boolean} whether wheel, R and a second finger turn the body */
   get turns() {

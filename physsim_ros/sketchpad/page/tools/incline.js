@@ -5,12 +5,14 @@
  */
 
 import {labelled, numberField} from '../dom.js';
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {digits} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, isTap, onGrid, polar} from '../vectors.js';
 
-/** @import {Body, Parts, Point, SceneView, ToolParts, Touch} from '../types.js' */
+/** @import {Body, Parts, Point, SceneView, Touch} from '../types.js' */
+
+/** @typedef {Parts<'camera' | 'connection' | 'people' | 'selection' | 'world'>} Needed */
 
 /**
  * @typedef {{foot: Point, side: number, angle: number, length: number}} Incline foot: lower end of the slope [m]; side: 1
@@ -22,8 +24,9 @@ const STEEPEST = 89, ROUGH = 15; // °: the greatest angle that is drawn, and st
 const NEAR = 12; // px: a foot that near to a floor stands on it
 const STRAIGHT = 1e-3; // share of a side by which it may be out of the level or the vertical
 
-export class InclineTool extends Gesture {
-  /** @param {ToolParts} parts */
+/** @extends {Tool<Needed>} */
+export class InclineTool extends Tool {
+  /** @param {Needed} parts */
   constructor(parts) {
     super(parts);
     this.fresh = ''; // name of the plane that is selected as soon as it is there

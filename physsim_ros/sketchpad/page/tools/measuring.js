@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that measure on the page: a ruler and a protractor, which stay until they are tapped away. */
 
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {degrees, threeDigits} from '../rounding.js';
 import {onGrid, wrapped} from '../vectors.js';
 
-/** @import {Point, SceneView, ToolParts, Touch} from '../types.js' */
+/** @import {Parts, Point, SceneView, Touch} from '../types.js' */
+
+/** @typedef {Parts<'connection' | 'view'>} Needed */
 
 const TICK = 5, LONG_TICK = 9; // px of the marks of a ruler
 const LEAST_TICK = 6; // px from mark to mark
 const ARC = 34; // px: radius of the arc of an angle
 
-/** A line from point to point, with marks, its length, slope and differences. */
-export class Ruler extends Gesture {
-  /** @param {ToolParts} parts */
+/**
+ * A line from point to point, with marks, its length, slope and differences.
+ * @extends {Tool<Needed>}
+ */
+export class Ruler extends Tool {
+  /** @param {Needed} parts */
   constructor(parts) {
     super(parts);
     /** @type {Point[]} [m] */
@@ -62,20 +67,27 @@ export class Ruler extends Gesture {
   }
 }
 
-/** The angle between two arms: the first one is dragged from the corner, the second one clicked. */
-export class Protractor extends Gesture {
-  /** @param {ToolParts} parts */
+/**
+ * The angle between two arms: the first one is dragged from the corner, the second one clicked.
+ * @extends {Tool<Needed>}
+ */
+export class Protractor extends Tool {
+  /** @param {Needed} parts */
   constructor(parts) {
     super(parts);
     this.clicks = 2;
     /** @type {Point[]} corner, ends of the arms [m] */
     this.points = [];
-    this.open = false; // the second arm follows the pointer
+    this.follows = false; // the second arm, the pointer
     parts.connection.on('world', () => {
       this.points = [];
-      this.open = false;
+      this.follows = false;
     });
     parts.view.overlays.push((view) => this.#draw(view));
+  }
+
+  get open() {
+    return this.follows;
   }
 
   /** @param {Touch} touch */
@@ -97,12 +109,12 @@ export class Protractor extends Gesture {
   end(touch) {
     this.move(touch);
     if (!this.open && this.isTap) this.points = [];
-    else this.open = !this.open;
+    else this.follows = !this.follows;
   }
 
   cancel() {
-    if (this.open || this.start) this.points = [];
-    this.open = false;
+    if (this.follows || this.start) this.points = [];
+    this.follows = false;
   }
 
   /** @param {SceneView} view */

@@ -2,7 +2,7 @@
 /** Notes on the world: anchored sensors that are boxes as large as their label. */
 
 import {elementOf, textOf, textField} from '../dom.js';
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {labelSize} from '../view/label_view.js';
 import {t} from '../strings.js';
 
@@ -11,7 +11,8 @@ import {t} from '../strings.js';
 const LETTERS = 16, HALF = 140; // px: size of letters where a note is written, half the width of its field
 const LOOK = {anchored: true, sensor: true, color: '#ffe680'};
 
-export class Note extends Gesture {
+/** @extends {Tool<Parts<'camera' | 'connection' | 'people' | 'view'>>} */
+export class Note extends Tool {
   clicks = 1;
 
   /** @param {Touch} touch */

@@ -5,17 +5,20 @@
  */
 
 import {distanceTo} from '../view/body_path.js';
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
-/** @import {Point, Sample, SceneView, ToolParts, Touch} from '../types.js' */
+/** @import {Parts, Point, Sample, SceneView, Touch} from '../types.js' */
+
+/** @typedef {Parts<'connection' | 'notes' | 'records' | 'view' | 'world'>} Needed */
 
 const PARTS = 100; // of a prediction, at whose ends it is compared: percents
 
-export class Prediction extends Gesture {
-  /** @param {ToolParts} parts */
+/** @extends {Tool<Needed>} */
+export class Prediction extends Tool {
+  /** @param {Needed} parts */
   constructor(parts) {
     super(parts);
     this.name = ''; // of the body whose way is drawn
@@ -56,7 +59,7 @@ export class Prediction extends Gesture {
 
   /** @param {SceneView} view */
   #drawAll(view) {
-    const {world, records, camera} = this.parts, {palette} = view;
+    const {world, records} = this.parts, {camera, palette} = view;
     for (const [name, {since, way}] of this.ways) {
       if (world.row(name) < 0) continue;
       view.line(way, palette.momentum, [8, 6]);

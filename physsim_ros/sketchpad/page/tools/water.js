@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Water: dragged from corner to corner, a region in which bodies float. */
 
-import {Gesture} from './gesture.js';
+import {Tool} from './tool.js';
 import {WATER} from '../panels/field_fields.js';
 import {threeDigits} from '../rounding.js';
 import {isTap, onGrid} from '../vectors.js';
 
-/** @import {Bounds, SceneView, Touch} from '../types.js' */
+/** @import {Bounds, Parts, SceneView, Touch} from '../types.js' */
 
 const USUAL = [4, 2]; // m: width and depth of a tap, whose middle it is
 
-export class WaterTool extends Gesture {
+/** @extends {Tool<Parts<'connection' | 'people'>>} */
+export class WaterTool extends Tool {
   /** @param {Touch} touch */
   end(touch) {
     const {connection, people} = this.parts, [left, low, right, high] = this.#region(this.path[0], touch);

@@ -23,7 +23,7 @@ const KNOWN = 2; // times that a tool was used after its hint, which is not show
 const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
 
 export class Hints {
-  /** @param {Parts<'connection' | 'gestures' | 'notes' | 'world'>} parts */
+  /** @param {Parts<'connection' | 'notes' | 'pointers' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.line = elementOf('hint');
@@ -48,7 +48,7 @@ export class Hints {
       if (this.shown !== 'tool' && this.#step()?.[0] !== this.shown) this.#showStep();
     });
     connection.on('scene', () => this.shown === 'tool' || this.#showStep());
-    parts.gestures.on('end', ({tool}) => tool === parts.gestures.tool && this.#noteUse());
+    parts.pointers.on('end', ({tool}) => tool === parts.pointers.tool && this.#noteUse());
     this.#showStep();
   }
 

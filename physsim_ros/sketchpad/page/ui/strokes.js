@@ -29,7 +29,7 @@ const STROKES = [
 
 /** The card beside a canvas on which nothing can move yet, until somebody has drawn or closes it. It is faint in a gesture, which may pass under it. */
 export class EmptyCard {
-  /** @param {Parts<'connection' | 'gestures' | 'people' | 'selection' | 'view' | 'world'>} parts */
+  /** @param {Parts<'connection' | 'people' | 'pointers' | 'selection' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.closed = false;
@@ -37,7 +37,7 @@ export class EmptyCard {
     parts.connection.on('scene', () => this.#update());
     parts.connection.on('reading', ({built}) => built && this.#close());
     parts.selection.on('change', () => this.#update());
-    parts.view.overlays.push(() => this.element.classList.toggle('faint', parts.gestures.isBusy));
+    parts.view.overlays.push(() => this.element.classList.toggle('faint', parts.pointers.isBusy));
   }
 
   #close() {

@@ -22,7 +22,7 @@ const EXPLAINED = 3000; // ms for which the world is slow before that is explain
 const SLOW = 0.9; // share of the speed asked for below which the pace is told
 
 export class TimeBar {
-  /** @param {Parts<'connection' | 'gestures' | 'notes' | 'people' | 'view' | 'words' | 'world'>} parts */
+  /** @param {Parts<'connection' | 'notes' | 'people' | 'pointers' | 'view' | 'words' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.slider = elementOf('slider', HTMLInputElement);
@@ -58,7 +58,7 @@ export class TimeBar {
     parts.connection.on('open', () => { [this.busy, this.wanted, this.asked] = [false, null, 0]; });
     parts.view.overlays.push(() => this.#showTime());
     // A world that runs back would go back beyond a change at once.
-    parts.gestures.on('begin', () => parts.world.frame.speed < 0 && this.callService('pause'));
+    parts.pointers.on('begin', () => parts.world.frame.speed < 0 && this.callService('pause'));
   }
 
   /** @param {string} service */

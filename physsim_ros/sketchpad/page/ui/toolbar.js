@@ -15,7 +15,7 @@ import {TOOLS} from '../tools/tools.js';
 const FEW = ['hand', 'ruler', 'protractor', 'predict', 'note']; // tools that a lesson needs
 
 export class Toolbar {
-  /** @param {ToolParts & Parts<'gestures' | 'room'>} parts */
+  /** @param {ToolParts & Parts<'pointers' | 'room'>} parts */
   constructor(parts) {
     this.parts = parts;
     /** @type {Map<string, {tool: Tool, button: HTMLButtonElement, hint: string}>} by id */
@@ -71,7 +71,7 @@ export class Toolbar {
   #select(id) {
     const selected = this.tools.get(id);
     if (!selected) return;
-    this.parts.gestures.take(selected.tool);
+    this.parts.pointers.take(selected.tool);
     this.parts.view.canvas.dataset.tool = id;
     for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
   }

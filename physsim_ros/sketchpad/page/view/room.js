@@ -21,7 +21,7 @@ export function isRoomy() {
 }
 
 export class Room {
-  /** @param {Parts<'camera' | 'connection' | 'cursor' | 'gestures' | 'selection' | 'view' | 'world'>} parts */
+  /** @param {Parts<'camera' | 'connection' | 'cursor' | 'pointers' | 'selection' | 'view' | 'world'>} parts */
   constructor(parts) {
     this.parts = parts;
     this.element = elementOf('room');
@@ -31,7 +31,7 @@ export class Room {
     this.extent = [0, 0, 0, 0];
     this.late = false; // whether the world is framed when the gesture ends
     parts.view.overlays.push(() => {
-      if (this.late && !this.parts.gestures.isBusy) this.fit();
+      if (this.late && !this.parts.pointers.isBusy) this.fit();
     });
     new ResizeObserver(() => this.fit()).observe(parts.view.canvas);
     new ResizeObserver(() => this.#follow()).observe(this.element);
@@ -108,7 +108,7 @@ export class Room {
     document.body.classList.toggle('wide', xmax - xmin > FLAT * (ymax - ymin));
     view.insets = this.#insets;
     view.redraw();
-    this.late = camera.fitted && this.parts.gestures.isBusy;
+    this.late = camera.fitted && this.parts.pointers.isBusy;
     if (!camera.fitted || this.late) return;
     const {left, top, right, bottom} = view.insets, gaps = getComputedStyle(this.element);
     camera.fit(this.extent, {left: left + parseFloat(gaps.paddingLeft), top: top + parseFloat(gaps.paddingTop),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The machine of gestures: mouse, pen and fingers on the canvas. One pointer works the tool in hand, or the handle under
+ * Pointers on the canvas: mouse, pen and fingers. One works the tool in hand, or the handle under
  * it; two fingers move and zoom the view; once a stylus was seen it draws, and a finger moves the view. The other end of
  * a stylus erases, and its button selects. The cursor of the keyboard (cursor.js) is one more pointer.
  *
@@ -10,9 +10,10 @@
  */
 
 import {Emitter} from '../emitter.js';
+import {Tool} from '../tools/tool.js';
 import {distance} from '../vectors.js';
 
-/** @import {Point, SceneView, Tool, Touch} from '../types.js' */
+/** @import {Point, SceneView, Touch} from '../types.js' */
 
 const PEN_BUTTON = 2, PEN_ERASER = 32; // bits of `buttons` (Pointer Events, section 4.1.1)
 const FINGER = 14, MOUSE = 2; // px of slop
@@ -24,14 +25,13 @@ const STILL = 4; // px: a right button that is dragged further moves the view
  * Events: press, a pointer comes down; begin, before its gesture; end, after that, with the tool, the touch, and whether it
  * was a finger; point, with the touch of a pointer that is not pressed, null where it has left; menu, with a place [px].
  */
-export class Gestures extends Emitter {
+export class Pointers extends Emitter {
   /** @param {SceneView} view */
   constructor(view) {
     super();
     this.view = view;
     this.camera = view.camera;
-    /** Of the toolbar. @type {Tool} */
-    this.tool = {path: []};
+    this.tool = new Tool({}); // of the toolbar, when that is there
     /** What is worked in place of the tool in hand, where it is under the pointer. @type {?(Tool & {isAt(touch: Touch): boolean})} */
     this.handles = null;
     /** Of a stylus. @type {{eraser: ?Tool, button: ?Tool}} */
@@ -65,12 +65,12 @@ export class Gestures extends Emitter {
     // The click after a tap would go to the panel that the tap has opened.
     canvas.addEventListener('touchend', (event) => event.cancelable && event.preventDefault());
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-    view.overlays.push(() => new Set([this.tool, this.working?.tool]).forEach((tool) => tool?.draw?.(view)));
+    view.overlays.push(() => new Set([this.tool, this.working?.tool]).forEach((tool) => tool?.draw(view)));
   }
 
   /** @returns {boolean} whether a gesture goes on, or clicks are to come */
   get isBusy() {
-    return this.down.size > 0 || this.tool.open === true;
+    return this.down.size > 0 || this.tool.open;
   }
 
   /**
@@ -82,10 +82,10 @@ export class Gestures extends Emitter {
     // Of another pointer: the cursor of the keyboard, while the mouse draws.
     this.cancel();
     this.emit('begin');
-    const touch = tool.snap?.(at) ?? at;
+    const touch = tool.snap(at);
     this.working = {pointer, isPen, tool};
     tool.path = [touch];
-    tool.begin?.(touch);
+    tool.begin(touch);
   }
 
   /**
@@ -93,14 +93,16 @@ export class Gestures extends Emitter {
    * @param {Touch} at
    */
   move(pointer, at) {
-    const tool = this.working?.pointer === pointer ? this.working.tool : null, touch = tool?.snap?.(at) ?? at;
-    tool?.path.push(touch);
-    tool?.move?.(touch);
+    const tool = this.working?.pointer === pointer ? this.working.tool : null;
+    if (!tool) return;
+    const touch = tool.snap(at);
+    tool.path.push(touch);
+    tool.move(touch);
   }
 
   /** @param {Touch} touch of a pointer that is not pressed */
   point(touch) {
-    this.tool.point?.(touch);
+    this.tool.point(touch);
     this.emit('point', touch);
   }
 
@@ -116,7 +118,7 @@ export class Gestures extends Emitter {
     if (last && distance(last.page, touch.page)) this.move(pointer, touch);
     this.working = null;
     if (!tool) return;
-    tool.end?.(tool.snap?.(touch) ?? touch);
+    tool.end(tool.snap(touch));
     if (tool === this.tool) tool.path = [];
     else this.#drop(tool);
     this.emit('end', {tool, touch, isFinger});
@@ -145,8 +147,9 @@ export class Gestures extends Emitter {
 
   /** @param {?Tool | undefined} tool */
   #drop(tool) {
-    tool?.cancel?.();
-    if (tool) tool.path = [];
+    if (!tool) return;
+    tool.cancel();
+    tool.path = [];
   }
 
   /** @param {Tool} tool that is taken in hand; what is drawn with another one is drawn to its end */
@@ -198,8 +201,8 @@ export class Gestures extends Emitter {
       before = undefined;
     }
     if (pointerId === this.working?.pointer) {
-      const parts = event.getCoalescedEvents?.() ?? [];
-      for (const part of parts.length ? parts : [event]) this.move(pointerId, this.#touch(part));
+      const moves = event.getCoalescedEvents?.() ?? [];
+      for (const each of moves.length ? moves : [event]) this.move(pointerId, this.#touch(each));
     } else if (before) this.#moveView(event, before);
     else this.point(this.#touch(event));
     if (this.down.has(pointerId)) this.down.set(pointerId, event);
@@ -217,7 +220,7 @@ export class Gestures extends Emitter {
       return;
     }
     const x = other.clientX, y = other.clientY, wasX = before.clientX - x, wasY = before.clientY - y;
-    if (tool.turns) tool.turn?.(Math.atan2(wasY, wasX) - Math.atan2(clientY - y, clientX - x));
+    if (tool.turns) tool.turn(Math.atan2(wasY, wasX) - Math.atan2(clientY - y, clientX - x));
     else {
       camera.pan(dx / 2, dy / 2);
       camera.zoom((clientX + x) / 2, (clientY + y) / 2, Math.hypot(clientX - x, clientY - y) / (Math.hypot(wasX, wasY) || 1));
@@ -237,7 +240,7 @@ export class Gestures extends Emitter {
     const {camera, tool} = this;
     event.preventDefault();
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
-    if (tool.turns) tool.turn?.(-pixels * WHEEL_TURN);
+    if (tool.turns) tool.turn(-pixels * WHEEL_TURN);
     else camera.zoom(event.clientX, event.clientY, Math.exp(-pixels * (event.ctrlKey ? PINCH : WHEEL)));
   }
 }
