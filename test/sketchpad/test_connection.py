@@ -342,17 +342,17 @@ def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
     # Browsers delay the sockets of a page that tried many in vain.
     sheet.until(lambda: len(requests) > 2, 'requests to a server that is gone')
     assert not sockets
-    # A stroke drawn meanwhile is not lost in silence; what means another thing later is not kept.
+    # A stroke is drawn for the world that comes; what means another thing later is not kept.
     sheet.drag(*circle(1.0, 5.0, 0.8))
     sheet.press('Undo')
     sheet.told('Not done')
     port = re.search(r':(\d+)/', first)[1]
     world, _ = started_world(outside, sketchpad_port=port)
     alert.wait_for(state='hidden')
-    assert sheet.page.get_by_role('status').inner_text() == 'Connected again'
-    sheet.page.locator('#dock').get_by_text('1 may be lost').wait_for()
+    sheet.wait('Object.keys(physsim.bodies).length === 4')
+    assert not sheet.page.locator('#dock').get_by_text('may be lost').is_visible()
     before = sheet.names()
-    sheet.drag(*circle(1.0, 5.0, 0.8))
+    sheet.drag(*circle(1.0, 2.0, 0.8))
     sheet.wait_for_new(before)
     world.interrupt()
     # Of another user, or a year ago.

@@ -10,7 +10,7 @@
 
 import {Connection} from './connection.js';
 import {elementOf} from './dom.js';
-import {FrameParts} from './frame_parts.js';
+import {FrameColumns} from './frame_columns.js';
 import {Cursor} from './input/cursor.js';
 import {Handles} from './input/handles.js';
 import {Keyboard} from './input/keyboard.js';
@@ -28,7 +28,6 @@ import {Panel} from './panels/panel.js';
 import {severalContent} from './panels/several_panel.js';
 import {WorldPanel} from './panels/world_panel.js';
 import {People} from './people.js';
-import {t} from './strings.js';
 import {Eraser} from './tools/eraser.js';
 import {Lasso} from './tools/freehand.js';
 import {Answers} from './ui/answers.js';
@@ -40,6 +39,7 @@ import {Lessons} from './ui/lessons.js';
 import {Narrator} from './ui/narrator.js';
 import {Notes} from './ui/notes.js';
 import {Readings} from './ui/readings.js';
+import {ServerNotice} from './ui/server_notice.js';
 import {Settings} from './ui/settings.js';
 import {EmptyCard} from './ui/strokes.js';
 import {TimeBar} from './ui/time_bar.js';
@@ -60,7 +60,7 @@ const pointers = new Pointers(view);
 const words = new Words(connection);
 const dialog = new Dialog();
 const people = new People({connection, pointers, world});
-const frames = new FrameParts({connection});
+const frames = new FrameColumns({connection});
 const notes = new Notes({camera, view});
 new Answers({connection, notes, people, view, words, world});
 const settings = new Settings({connection, dialog, frames, notes, world});
@@ -110,59 +110,13 @@ makeToolbar(elementOf('time'), '[data-icon=play]');
 // What somebody does may change the picture: a pointer only on the canvas. The view itself follows what the server tells.
 for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel', 'pointerout', 'wheel']) view.canvas.addEventListener(type, () => view.redraw());
 for (const type of ['keydown', 'keyup', 'click', 'input', 'change']) document.addEventListener(type, () => view.redraw(), true);
-listen();
+new ServerNotice({connection, dialog, notes, people, pointers});
 // A link with which the page is opened; in an open page, one loads it again.
 addEventListener('hashchange', () => location.reload());
 if (/[?#&](world|lesson|t)=/.test(location.href)) {
   await notes.load(import('./ui/links.js'), ({Links}) => new Links({connection, dialog, files, lessons, notes, people, world}));
 }
 connection.connect();
-
-function listen() {
-  const gone = elementOf('gone');
-  let known = ''; // version of the server
-  connection.on('welcome', ({version}) => {
-    // These scripts come from another version of the server.
-    if (version !== (known ||= version)) location.reload();
-  });
-  let away = false; // without a socket
-  const isBack = () => {
-    away = false;
-    if (!gone.hidden) notes.showMessage(t('Connected again'));
-    gone.hidden = true;
-  };
-  connection.on('open', isBack);
-  connection.on('heard', isBack);
-  const silent = t('The server does not answer. This page comes back with it, and sends what you draw.');
-  connection.on('silent', () => {
-    gone.hidden = false;
-    gone.textContent = silent;
-  });
-  connection.on('again', ({sent, lost}) => {
-    // Beside the answers to what is sent again.
-    if (lost) notes.dock([t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost})]);
-    else if (sent) notes.showMessage(t('Connected again. What you did meanwhile is sent now.'));
-  });
-  connection.on('leave', () => {
-    if (people.teacher || people.viewOnly) return;
-    pointers.cancelAll();
-    connection.leave();
-    dialog.close();
-    for (const each of document.querySelectorAll('body > *')) each.toggleAttribute('inert', each !== gone);
-    gone.hidden = false;
-    gone.textContent = t('Your teacher has freed this seat. To come back, open the address of the class.');
-  });
-  connection.on('closed', ({status, opened}) => {
-    // The server forgets the gestures that it knows of; a stroke is drawn to its end.
-    if (!away && pointers.tool.atServer) pointers.cancelAll();
-    away = true;
-    gone.hidden = false;
-    gone.textContent = status === 401 || status === 403 ?
-      t('Wrong token: open the address that the node printed.') :
-      !status ? silent :
-        opened ? t('Connecting again …') : t('The server refused this page; trying again …');
-  });
-}
 
 /** Parts that tests of the page look into. */
 export {arrows, handles, records, world};

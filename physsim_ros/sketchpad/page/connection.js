@@ -39,7 +39,7 @@ export class Connection extends Emitter {
     /** @type {Map<string, (answer: Answer) => void>} */
     this.waiting = new Map();
     this.number = 0;
-    /** @type {Map<string, {message: {id: string, type: string}, at: number}>} not answered, by id; at: when they were made [ms] */
+    /** @type {Map<string, {message: {id: string, type: string}, at: number, sent: boolean}>} not answered, by id; at: when they were made [ms] */
     this.unanswered = new Map();
     this.expired = 0; // count of those that waited for a server too long
     this.pause = SHORTEST_PAUSE;
@@ -84,7 +84,7 @@ export class Connection extends Emitter {
       return '';
     }
     const message = {id: String(++this.number), type, ...fields};
-    if (!PASSING.includes(type)) this.unanswered.set(message.id, {message, at: Date.now()});
+    if (!PASSING.includes(type)) this.unanswered.set(message.id, {message, at: Date.now(), sent: false});
     if (this.#isOpen) this.#sendOut(message);
     else this.#dropExpired();
     return message.id;
@@ -93,6 +93,8 @@ export class Connection extends Emitter {
   /** @param {{id: string, type: string}} message */
   #sendOut(message) {
     this.socket?.send(JSON.stringify(message));
+    const request = this.unanswered.get(message.id);
+    if (request) request.sent = true;
     this.emit('sent', message);
   }
 
@@ -107,16 +109,17 @@ export class Connection extends Emitter {
 
   /**
    * Send again what the server has not received over the sockets before.
-   * @param {string} received the last message that it has; '' where it does not know this page
+   * @param {string} received the last message that it has; '' where it does not know this page, as it was started anew: it
+   *   gets the strokes that were drawn without a server
    * @returns {{sent: number, lost: number}} how many messages, and how many are not sent
    */
   #sendAgain(received) {
     this.#dropExpired();
     let sent = 0, lost = this.expired;
     this.expired = 0;
-    for (const [id, {message}] of this.unanswered) {
+    for (const [id, {message, sent: wasSent}] of this.unanswered) {
       const missed = !received || Number(id) > Number(received);
-      if (missed && received && AGAIN.includes(message.type)) {
+      if (missed && (received ? AGAIN.includes(message.type) : message.type === 'stroke' && !wasSent)) {
         this.#sendOut(message);
         sent++;
       } else {

@@ -50,27 +50,27 @@ export function iconButton(name, id, onclick, title = name) {
 }
 
 /**
- * A button that folds a part of the page to its first lines, and unfolds it.
- * @param {HTMLElement} part
+ * A button that folds a section of the page to its first lines, and unfolds it.
+ * @param {HTMLElement} section
  * @param {string} label
  * @param {(folded: boolean) => void} change called when it is pressed
  * @param {string} textContent beside its arrow
  */
-export function foldButton(part, label, change, textContent = '') {
+export function foldButton(section, label, change, textContent = '') {
   const button = createElement('button', {type: 'button', className: 'fold', 'aria-label': label, title: textContent ? '' : label, textContent, onclick: () => {
-    fold(part, button, !part.classList.contains('folded'));
-    change(part.classList.contains('folded'));
+    fold(section, button, !section.classList.contains('folded'));
+    change(section.classList.contains('folded'));
   }});
   return button;
 }
 
 /**
- * @param {HTMLElement} part
+ * @param {HTMLElement} section
  * @param {HTMLElement} button of `foldButton`
  * @param {boolean} folded
  */
-export function fold(part, button, folded) {
-  part.classList.toggle('folded', folded);
+export function fold(section, button, folded) {
+  section.classList.toggle('folded', folded);
   button.setAttribute('aria-expanded', String(!folded));
 }
 

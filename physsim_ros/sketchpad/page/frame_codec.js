@@ -5,7 +5,7 @@
 
 const HEADER = 24; // bytes of a frame
 const VERSION = 2;
-const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16, PULLS = 32, SCAN = 64, FIELDS = 128; // flags of its parts
+const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16, PULLS = 32, SCAN = 64, FIELDS = 128; // flags of its columns
 
 /**
  * @param {ArrayBuffer} buffer

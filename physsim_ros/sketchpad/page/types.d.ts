@@ -13,7 +13,7 @@ export type {Tool} from './tools/tool.js';
 export type {WorldState} from './world_state.js';
 
 import type {Connection} from './connection.js';
-import type {FrameParts} from './frame_parts.js';
+import type {FrameColumns} from './frame_columns.js';
 import type {Cursor} from './input/cursor.js';
 import type {Pointers} from './input/pointers.js';
 import type {Selection} from './input/selection.js';
@@ -50,7 +50,7 @@ interface Page {
   dialog: Dialog;
   driving: Driving;
   files: Files;
-  frames: FrameParts;
+  frames: FrameColumns;
   hints: Hints;
   lessons: Lessons;
   meters: Meters;

@@ -128,7 +128,7 @@ export class Numbers {
     this.element.classList.toggle('waiting', !velocities);
     if (!velocities || anchored) return;
     // Seen from above, there is no height.
-    for (const {1: part} of [this.labels, this.bars, this.values]) part.hidden = !gravity[0] && !gravity[1];
+    for (const {1: ofHeight} of [this.labels, this.bars, this.values]) ofHeight.hidden = !gravity[0] && !gravity[1];
     const energies = energiesOf(body, motionOf(world, row), gravity);
     this.most = Math.max(this.most, ...energies);
     energies.forEach((energy, i) => {

@@ -79,13 +79,13 @@ export class BodyPanel {
  * @param {(properties: Record<string, unknown>) => void} change
  * @returns {HTMLElement[]} a choice of the direction in which others pass it, and whether its sides are closed
  */
-function oneWayFields({one_way: way, closed_sides: closed}, change) {
+function oneWayFields({one_way: direction, closed_sides: closed}, change) {
   /** @type {[string, string][]} */
-  const ways = [['0,0', t('no')], ['0,1', t('upwards')], ['0,-1', t('downwards')], ['-1,0', t('to the left')], ['1,0', t('to the right')]];
-  const now = String(way ?? [0, 0]);
-  if (!ways.some(([each]) => each === now)) ways.push([now, now]);
-  return [choiceField(t('Lets others pass'), ways, now, (chosen) => change({one_way: chosen.split(',').map(Number)})),
-    ...way ? [checkField(t('Its sides are closed'), Boolean(closed), (closed_sides) => change({closed_sides}))] : []];
+  const directions = [['0,0', t('no')], ['0,1', t('upwards')], ['0,-1', t('downwards')], ['-1,0', t('to the left')], ['1,0', t('to the right')]];
+  const now = String(direction ?? [0, 0]);
+  if (!directions.some(([each]) => each === now)) directions.push([now, now]);
+  return [choiceField(t('Lets others pass'), directions, now, (chosen) => change({one_way: chosen.split(',').map(Number)})),
+    ...direction ? [checkField(t('Its sides are closed'), Boolean(closed), (closed_sides) => change({closed_sides}))] : []];
 }
 
 /**

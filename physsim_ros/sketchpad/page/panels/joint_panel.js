@@ -69,13 +69,13 @@ export function jointContent({world, connection, selection, meters, words}, [nam
 
 /**
  * @param {Joint} axle
- * @param {(way: ?number) => void} change
- * @returns {HTMLElement} a choice of the way that an axle turns
+ * @param {(direction: ?number) => void} change
+ * @returns {HTMLElement} a choice of the direction in which an axle turns
  */
 function ratchetField(axle, change) {
   /** @type {[string, string][]} */
-  const ways = [['', t('both ways')], ['1', t('counter-clockwise')], ['-1', t('clockwise')]];
-  return choiceField(t('Turns'), ways, String(axle.ratchet ?? ''), (way) => change(Number(way) || null));
+  const directions = [['', t('both ways')], ['1', t('counter-clockwise')], ['-1', t('clockwise')]];
+  return choiceField(t('Turns'), directions, String(axle.ratchet ?? ''), (chosen) => change(Number(chosen) || null));
 }
 
 /**

@@ -9,7 +9,7 @@ import {t} from '../strings.js';
 /** @import {Bounds, Parts} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
-/** Label, axis (0 is x), and the share of the way from the lower edge to the upper one. @type {[string, number, number][]} */
+/** Label, axis (0 is x), and the share of the distance from the lower edge to the upper one. @type {[string, number, number][]} */
 const ALIGNMENTS = [[t('Left'), 0, 0], [t('Centre'), 0, 0.5], [t('Right'), 0, 1], [t('Top'), 1, 1], [t('Middle'), 1, 0.5], [t('Bottom'), 1, 0]];
 /** @type {[string, number][]} */
 const DISTRIBUTIONS = [[t('Across'), 0], [t('Up'), 1]];
@@ -46,13 +46,13 @@ function arrangeButtons(parts, names) {
 /**
  * @param {Parts<'connection' | 'world'>} parts
  * @param {string[]} names
- * @param {(boxes: Bounds[]) => number[][]} wayOf how far each body is moved [m], by their boxes
+ * @param {(boxes: Bounds[]) => number[][]} shiftsOf how far each body is moved [m], by their boxes
  */
-function place({world, connection}, names, wayOf) {
+function place({world, connection}, names, shiftsOf) {
   const known = names.filter((name) => world.row(name) >= 0);
-  const ways = wayOf(known.map((name) => world.boundsOfAll([name])));
+  const shifts = shiftsOf(known.map((name) => world.boundsOfAll([name])));
   const poses = known.map((name, i) => {
-    const row = world.row(name), [dx, dy] = ways[i];
+    const row = world.row(name), [dx, dy] = shifts[i];
     return [world.frame.x[row] + dx, world.frame.y[row] + dy, world.frame.yaw[row]];
   });
   connection.send('place', {names: known, poses});
@@ -68,13 +68,13 @@ function distances(boxes, axis) {
   const sizes = order.map((i) => boxes[i][axis + 2] - boxes[i][axis]);
   const first = boxes[order[0]][axis], last = boxes[order[order.length - 1]][axis + 2];
   const gap = (last - first - sizes.reduce((sum, size) => sum + size, 0)) / Math.max(order.length - 1, 1);
-  const ways = boxes.map(() => [0, 0]);
+  const shifts = boxes.map(() => [0, 0]);
   let at = first;
   order.forEach((i, number) => {
-    ways[i] = along(axis, at - boxes[i][axis]);
+    shifts[i] = along(axis, at - boxes[i][axis]);
     at += sizes[number] + gap;
   });
-  return ways;
+  return shifts;
 }
 
 /**

@@ -14,7 +14,7 @@ import {distance} from '../vectors.js';
 
 /** @typedef {Parts<'connection' | 'notes' | 'records' | 'view' | 'world'>} Needed */
 
-const PARTS = 100; // of a prediction, at whose ends it is compared: percents
+const SHARES = 100; // of a prediction, at whose ends it is compared: percents
 
 /** @extends {Tool<Needed>} */
 export class Prediction extends Tool {
@@ -66,7 +66,7 @@ export class Prediction extends Tool {
       const [x, y] = camera.toPage(...way[way.length - 1]);
       const gone = records.past(name).filter(({time}) => time > since);
       view.line(gone.map((each) => [each.x, each.y]), palette.accent);
-      const places = evenly(gone, lengthOf(way) / PARTS);
+      const places = evenly(gone, lengthOf(way) / SHARES);
       const off = places.reduce((sum, place) => sum + distanceTo(way, place), 0) / places.length;
       const text = t('off by {length} m on average, for {share} % of the line',
         {length: threeDigits(off), share: places.length - 1});
@@ -86,7 +86,7 @@ function evenly(samples, step) {
   let next = 0; // of the places, from the sample before [m]
   samples.forEach(({x, y}, i) => {
     const last = samples[i - 1] ?? {x, y}, length = distance([last.x, last.y], [x, y]);
-    for (; next <= length && places.length <= PARTS; next += step) {
+    for (; next <= length && places.length <= SHARES; next += step) {
       const share = length && next / length;
       places.push([last.x + share * (x - last.x), last.y + share * (y - last.y)]);
     }

@@ -49,9 +49,9 @@ export function showHelp(dialog, settings) {
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
   const tools = TOOLS.flat().map(({id, name, hint}) => [icon(id), `${name}: ${hint}`]);
   const strokes = [createElement('h3', {}, t('What the pen understands')), strokeCard()];
-  const parts = [strokes, section(t('Keys'), keys)];
-  if (TOUCHED.matches) parts.splice(1, 0, section(t('Gestures'), GESTURES), section(t('Tools'), tools));
-  dialog.show(t('Help'), inRow(...settings), ...parts.flat());
+  const sections = [strokes, section(t('Keys'), keys)];
+  if (TOUCHED.matches) sections.splice(1, 0, section(t('Gestures'), GESTURES), section(t('Tools'), tools));
+  dialog.show(t('Help'), inRow(...settings), ...sections.flat());
 }
 
 /**

@@ -98,12 +98,12 @@ async function unpackText(packed) {
   const binary = atob(packed.replaceAll('-', '+').replaceAll('_', '/'));
   const bytes = Uint8Array.from(binary, (character) => character.charCodeAt(0));
   const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
-  const parts = [];
+  const chunks = [];
   for (let size = 0; ;) {
     const {value, done} = await reader.read();
-    if (done) return new Blob(parts).text();
+    if (done) return new Blob(chunks).text();
     size += value.length;
     if (size > LARGEST) throw new RangeError('the world of this link is too large');
-    parts.push(value);
+    chunks.push(value);
   }
 }

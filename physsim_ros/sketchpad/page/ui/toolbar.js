@@ -109,14 +109,14 @@ export class TopBar {
   }
 
   /**
-   * @param {'velocities' | 'forces'} part of frames
+   * @param {'velocities' | 'forces'} what is shown
    * @param {string} name
    * @param {string} id of its icon
    * @param {string} title
    */
-  #toggle(part, name, id, title) {
+  #toggle(what, name, id, title) {
     const {parts} = this;
-    return toggling(iconButton(name, id, () => {}, title), () => parts.arrows[part], () => parts.arrows.toggle(part));
+    return toggling(iconButton(name, id, () => {}, title), () => parts.arrows[what], () => parts.arrows.toggle(what));
   }
 
   /** @param {string} address of Rerun's page on the machine of the world; '' where it serves none */

@@ -197,7 +197,7 @@ export class BodyView {
   /**
    * The arrow of a one-way body, across its middle.
    * @param {Point} centroid
-   * @param {Point} way
+   * @param {Point} direction in which others pass it
    * @param {Appearance} appearance
    * @param {number} pixel [m]
    */
@@ -247,19 +247,19 @@ export class BodyView {
 
   /**
    * The treads of a belt, which run along the outline.
-   * @param {number} way that they have gone, counter-clockwise [m]
+   * @param {number} gone how far they have run, counter-clockwise [m]
    * @param {Shape} shape
    * @param {Appearance} appearance
    * @param {number} pixel [m]
    */
-  #drawBelt(way, {outline}, {path}, pixel) {
+  #drawBelt(gone, {outline}, {path}, pixel) {
     const {ctx, view: {palette}} = this, tread = TREAD * pixel;
     for (const [style, width] of /** @type {const} */ ([[palette.ink, 6], [palette.paper, 3]])) {
       ctx.strokeStyle = style;
       ctx.lineWidth = width * pixel;
       ctx.stroke(path);
       ctx.setLineDash([tread / 2, tread / 2]);
-      ctx.lineDashOffset = (outline && isClockwise(outline) ? way : -way) % tread;
+      ctx.lineDashOffset = (outline && isClockwise(outline) ? gone : -gone) % tread;
     }
     ctx.setLineDash([]);
   }

@@ -18,9 +18,9 @@ export function overlap(a, b) {
 /** @type {(box: Box, begin: Point, end: Point) => boolean} whether a line crosses a box (Liang and Barsky) */
 export function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
   let [first, last] = [0, 1];
-  for (const [from, way, low, high] of [[px, qx - px, left - CLEAR, right + CLEAR], [py, qy - py, top, bottom]]) {
-    if (!way && (from < low || from > high)) return false;
-    const [enters, leaves] = way ? [(low - from) / way, (high - from) / way].sort((one, other) => one - other) : [0, 1];
+  for (const [from, along, low, high] of [[px, qx - px, left - CLEAR, right + CLEAR], [py, qy - py, top, bottom]]) {
+    if (!along && (from < low || from > high)) return false;
+    const [enters, leaves] = along ? [(low - from) / along, (high - from) / along].sort((one, other) => one - other) : [0, 1];
     [first, last] = [Math.max(first, enters), Math.min(last, leaves)];
   }
   return first < last;

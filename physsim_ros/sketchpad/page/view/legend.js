@@ -69,17 +69,17 @@ export class Legend {
       bars[unit] = createElement('output');
       return createElement('span', {className: `scale ${kind}`}, bars[unit]);
     };
-    const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) =>
+    const kindButton = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) =>
       toggling(textButton(name, () => {}, kind), isOn, change);
     element.hidden = !velocities && !forces;
     replaceContent(element,
-      ...velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
+      ...velocities ? [bar('m/s', 'velocity'), kindButton(t('Momentum'), 'momentum', () => this.momenta, () => {
         this.momenta = !this.momenta;
         this.#render();
       }), ...this.momenta ? [bar('N s', 'momentum'), bar('N m s', 'momentum')] : []] : [],
       ...forces ? [bar('N', ''), ...this.kinds.has('torque') ? [bar('N m', '')] : [], ...Object.keys(NAMES).filter((kind) => this.kinds.has(kind)).map((kind) =>
-        part(this.nameOf(kind), kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
-      part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint, this.more);
+        kindButton(this.nameOf(kind), kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
+      kindButton(t('x and y'), 'components', () => this.components, () => { this.components = !this.components; }), this.hint, this.more);
   }
 
   /**

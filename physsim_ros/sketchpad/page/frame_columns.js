@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The parts of frames that the server sends, since somebody here wants them. */
+/** The columns of frames that the server sends, since somebody here wants them. */
 
 /** @import {Parts} from './types.js' */
 
 /** @typedef {{velocities?: boolean, contacts?: boolean, laser?: string}} Wanted laser: name of a robot */
 
-export class FrameParts {
+export class FrameColumns {
   /** @param {Parts<'connection'>} parts */
   constructor({connection}) {
     this.connection = connection;
