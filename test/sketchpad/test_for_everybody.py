@@ -194,13 +194,26 @@ def test_a_screen_reader_is_told_what_the_selected_body_does(sheet: Sheet) -> No
 
 
 def test_a_screen_reader_is_told_of_all_bodies_where_somebody_asks(sheet: Sheet) -> None:
+    tells = sheet.page.get_by_label('Tell what moves, for screen readers')
+
+    def ask(*, tell: bool) -> None:
+        sheet.press('Help')
+        assert tells.is_checked() != tell
+        tells.set_checked(tell)
+        sheet.page.keyboard.press('Escape')
+
     sheet.page.evaluate(ANNOUNCEMENTS)
-    sheet.press('Help')
-    sheet.page.get_by_label('Tell what moves, for screen readers').check()
-    sheet.page.keyboard.press('Escape')
+    ask(tell=True)
     sheet.press('Play')
     sheet.wait("announced.includes('box/0 touches a wall at')")
-    sheet.press('Pause')
+    for tell in (True, False):
+        # It is remembered; the first sentence after that is told at once.
+        sheet.page.reload()
+        sheet.begin()
+        sheet.page.evaluate(ANNOUNCEMENTS)
+        sheet.play_until(0.5)
+        assert ('box/0 touches a wall at' in sheet.page.evaluate('announced')) == tell
+        ask(tell=not tell)
 
 
 def test_buttons_of_the_legend_are_as_large_as_a_finger(open_sheet: OpenSheet) -> None:

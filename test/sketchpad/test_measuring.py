@@ -285,6 +285,39 @@ def test_a_curve_that_was_drawn_first_is_compared_with_the_one_that_comes(sheet:
     assert float(told[1]) == pytest.approx(off, abs=0.2)
 
 
+# Mean rows of the pixels of colours in a column of the plot of energy in a panel, at a share of its
+# width; 0 where there are none.
+ROWS = """([share, ...names]) => {
+    const plot = document.querySelector('.plots canvas:last-of-type'), {width, height} = plot;
+    const {data} = plot.getContext('2d').getImageData(Math.round(share * width), 0, 1, height);
+    const style = getComputedStyle(document.documentElement);
+    return names.map((name) => {
+        const color = style.getPropertyValue(name).trim().match(/\\w\\w/g);
+        const wanted = color.map((each) => parseInt(each, 16)), rows = [];
+        for (let row = 0; row < height; row++) {
+            const near = (each, i) => Math.abs(each - data[4 * row + i]) < 24;
+            if (data[4 * row + 3] > 80 && wanted.every(near)) rows.push(row);
+        }
+        return rows.length && rows.reduce((sum, row) => sum + row, 0) / rows.length;
+    });
+}"""
+
+
+def test_a_flight_lies_on_its_curve_and_goes_ahead_of_it(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    sheet.play_until(1.0)
+
+    def rows(share: float) -> list[float]:
+        return list(sheet.page.evaluate(ROWS, [share, '--force', '--accent']))
+
+    # The plot ends half a second after now.
+    sheet.until(lambda: rows(0.9)[0], 'a flight')
+    ahead, nothing = rows(0.9)
+    assert nothing == 0
+    for share in (0.3, 0.5):
+        assert rows(share) == pytest.approx([ahead, ahead], abs=2.0)
+
+
 def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None:
     chosen(sheet, -7.5, 8.0)
     sheet.page.get_by_label('Stroboscope, with v and a').check()
@@ -303,6 +336,20 @@ def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None
     time = paused + 0.25
     x, y = sheet.place(-7.5 + 2.0 * time, 8.0 - G * time**2 / 2)
     assert not sheet.page.evaluate(HAS_COLOR, [x, y, 10, '--weight'])
+
+
+def test_the_arrow_of_v_in_a_stroboscope_is_as_long_as_that_of_the_velocity(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    sheet.page.get_by_label('Stroboscope, with v and a').check()
+    sheet.page.keyboard.press('Escape')
+    sheet.play_until(1.0)
+    # It was thrown to the right.
+    (x, y), length = sheet.place(-7.5, 8.0), 2.0 * sheet.page.evaluate('physsim.scales.speed')
+    sheet.until(
+        lambda: sheet.page.evaluate(HAS_COLOR, [x + length - 4, y, 3, '--accent']), 'the tip of v'
+    )
+    assert sheet.page.evaluate(HAS_COLOR, [x + length / 2, y, 2, '--accent'])
+    assert not sheet.page.evaluate(HAS_COLOR, [x + length + 6, y, 4, '--accent'])
 
 
 def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
@@ -351,6 +398,18 @@ def test_the_number_of_an_arrow_lies_on_no_other_text(sheet: Sheet) -> None:
     sheet.page.mouse.up()
     sheet.wait('boxes.some(([text]) => text.startsWith("Δx"))')
     assert sheet.page.evaluate(COVERED, '1.5 m/s') == []
+
+
+def test_the_number_of_an_arrow_lies_on_no_meter(sheet: Sheet) -> None:
+    chosen(sheet, -3.0, 2.4)
+    sheet.page.get_by_label('Meter in the world').select_option('Momentum [N s]')
+    sheet.page.evaluate(NOTE_TEXTS)
+    sheet.page.get_by_text('Enter numbers').click()
+    for speed in ('0.3', '0.8', '1.2', '2', '3'):
+        sheet.enter('vx [m/s]', '0')
+        sheet.enter('vy [m/s]', speed)
+        sheet.wait('text => boxes.some((each) => each[0] === text)', f'{speed} m/s')
+        assert sheet.page.evaluate(COVERED, f'{speed} m/s') == []
 
 
 def test_a_meter_stays_beside_its_body_until_the_world_is_another(sheet: Sheet) -> None:

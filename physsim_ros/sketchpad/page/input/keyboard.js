@@ -60,36 +60,49 @@ export class Keyboard {
     }
     if (parts.dialog.isOpen || parts.people.viewOnly || event.altKey) return;
     if (target instanceof HTMLInputElement && target.type === 'range' && MOVES_RANGE.test(key)) return;
-    if (event.ctrlKey || event.metaKey) {
-      // A text that somebody has selected on the page is copied by the browser.
-      if (target !== parts.view.canvas && key === 'c' && String(getSelection())) return;
-      const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
-      if (undo || redo) parts.time.callService(undo ? 'undo' : 'redo');
-      const edit = {c: () => parts.selection.keep(false), x: () => parts.selection.keep(true), d: () => parts.selection.duplicate(), a: () => parts.selection.selectAll(),
-        v: () => parts.selection.paste(parts.selection.pointed && parts.camera.toWorld(...parts.selection.pointed.page))}[key];
-      edit?.();
-      if (undo || redo || edit) event.preventDefault();
-      return;
+    if (event.ctrlKey || event.metaKey ? this.#edit(event) : this.#work(event)) event.preventDefault();
+  }
+
+  /**
+   * @param {KeyboardEvent} event with Ctrl
+   * @returns {boolean} whether it has a meaning here
+   */
+  #edit({key, shiftKey, target}) {
+    const {camera, selection, time, view} = this.parts;
+    // A text that somebody has selected on the page is copied by the browser.
+    if (target !== view.canvas && key === 'c' && String(getSelection())) return false;
+    const undo = () => time.callService('undo'), redo = () => time.callService('redo');
+    const edit = {z: shiftKey ? redo : undo, Z: redo, y: redo,
+      c: () => selection.keep(false), x: () => selection.keep(true), d: () => selection.duplicate(), a: () => selection.selectAll(),
+      v: () => selection.paste(selection.pointed && camera.toWorld(...selection.pointed.page))}[key];
+    edit?.();
+    return edit !== undefined;
+  }
+
+  /**
+   * @param {KeyboardEvent} event
+   * @returns {boolean} whether it has a meaning here
+   */
+  #work({key, code, shiftKey, repeat, timeStamp, target}) {
+    const {camera, cursor, driving, pointers, settings, view} = this.parts;
+    if (key === 'ContextMenu' || key === 'F10' && shiftKey) {
+      pointers.emit('menu', cursor.shown ? cursor.touch.page : [camera.width / 2, camera.height / 2]);
+      return true;
     }
-    if (key === 'ContextMenu' || key === 'F10' && event.shiftKey) {
-      parts.pointers.emit('menu', parts.cursor.shown ? parts.cursor.touch.page : [parts.camera.width / 2, parts.camera.height / 2]);
-      event.preventDefault();
-      return;
-    }
-    const control = target instanceof Element ? target : null, button = control?.matches(PRESSED);
-    if (key === ' ' && !button) {
-      if (!event.repeat) this.since = event.timeStamp;
-      parts.pointers.space = true;
-    } else if (key === 'Enter' && !button) {
-      if (parts.cursor.shown || !parts.pointers.tool.finish()) parts.cursor.press();
-    } else if (key in ARROWS && !button) {
-      parts.cursor.move(...ARROWS[key], event.shiftKey);
-    } else if (target === parts.view.canvas && parts.driving.press(event.code)) {
+    const control = target instanceof Element ? target : null, isPressed = control?.matches(PRESSED);
+    if (key === ' ' && !isPressed) {
+      if (!repeat) this.since = timeStamp;
+      pointers.space = true;
+    } else if (key === 'Enter' && !isPressed) {
+      if (cursor.shown || !pointers.tool.finish()) cursor.press();
+    } else if (key in ARROWS && !isPressed) {
+      cursor.move(...ARROWS[key], shiftKey);
+    } else if (target === view.canvas && driving.press(code)) {
       // Tools that have these keys have them again when no robot is selected.
-    } else if (key in this.keys && (key.length > 1 || parts.settings.letters && !control?.closest('aside, section'))) {
+    } else if (key in this.keys && (key.length > 1 || settings.letters && !control?.closest('aside, section'))) {
       this.keys[key]();
-    } else return;
-    event.preventDefault();
+    } else return false;
+    return true;
   }
 
   /** @param {KeyboardEvent} event */
