@@ -285,8 +285,8 @@ def test_a_curve_that_was_drawn_first_is_compared_with_the_one_that_comes(sheet:
     assert float(told[1]) == pytest.approx(off, abs=0.2)
 
 
-# Mean rows of the pixels of colours in a column of the plot of energy in a panel, at a share of its
-# width; 0 where there are none.
+# Mean rows of the pixels of colours in a column of the plot of energy in a panel, at a share of
+# its width; 0 where there are none.
 ROWS = """([share, ...names]) => {
     const plot = document.querySelector('.plots canvas:last-of-type'), {width, height} = plot;
     const {data} = plot.getContext('2d').getImageData(Math.round(share * width), 0, 1, height);

@@ -10,7 +10,7 @@
 import {Emitter} from './emitter.js';
 import {decodeFrame} from './frame_codec.js';
 
-/** @import {Answer} from './types.js' */
+/** @import {Answer, Frame} from './types.js' */
 
 const PERSON = 'physsim-person'; // key with which this tab is the same person again
 const REPLACED = 4000; // code of closing: another tab came with that key
@@ -52,6 +52,7 @@ export class Connection extends Emitter {
     this.socket = null;
     /** That has come before its first frame. @type {?{epoch: number}} */
     this.scene = null;
+    this.epoch = -1; // of the scene that was handed on
     // Only of the world of this page.
     if (path === '/ws') this.on('welcome', ({person}) => sessionStorage.setItem(PERSON, person));
   }
@@ -197,12 +198,8 @@ export class Connection extends Emitter {
       // Only a frame tells that the server keeps a socket open: until then the pauses grow.
       this.pause = SHORTEST_PAUSE;
       const frame = decodeFrame(data);
-      // Without a frame the bodies of a scene are nowhere.
-      if (!frame.ghost && this.scene?.epoch === frame.epoch) {
-        this.emit('scene', this.scene);
-        this.scene = null;
-      }
-      this.emit(frame.ghost ? 'ghost_frame' : 'frame', frame);
+      if (frame.ghost) this.emit('ghost_frame', frame);
+      else this.#takeFrame(frame);
       return;
     }
     const message = JSON.parse(data);
@@ -224,6 +221,16 @@ export class Connection extends Emitter {
     this.emit(message.type, message);
     if (message.type === 'timeline') this.#followLine(message);
     if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.emit('world', message);
+  }
+
+  /** @param {Frame} frame that is handed on after its scene, whose bodies are nowhere without it; one of another scene is dropped */
+  #takeFrame(frame) {
+    if (this.scene?.epoch === frame.epoch) {
+      this.epoch = frame.epoch;
+      this.emit('scene', this.scene);
+      this.scene = null;
+    }
+    if (frame.epoch === this.epoch) this.emit('frame', frame);
   }
 
   /** @param {{line: number, parts: number}} timeline */

@@ -51,9 +51,7 @@ export class WorldState {
       this.ghost = null;
     });
     connection.on('ghost_frame', (frame) => { this.ghost = frame.epoch === this.ghostScene.epoch ? frame : null; });
-    connection.on('frame', (frame) => {
-      if (frame.epoch === this.scene.epoch) this.frame = frame;
-    });
+    connection.on('frame', (frame) => { this.frame = frame; });
   }
 
   /** @returns {boolean} whether time stands still */

@@ -10,10 +10,7 @@ import {threeDigits} from '../rounding.js';
 const TAP_TIME = 0.4; // s: a longer press of the pen is no tap
 const MOST_SAMPLES = 4000; // of a stroke that is sent
 
-/**
- * A freehand stroke, sent when the pen is lifted; a tap selects the body under it.
- * @extends {Tool<Parts<'connection' | 'readings' | 'selection'>>}
- */
+/** A freehand stroke, sent when the pen is lifted; a tap selects the body under it. @extends {Tool<Parts<'connection' | 'readings' | 'selection'>>} */
 export class Pen extends Tool {
   kept = 1; // one in so many samples: a long stroke is thinned out evenly
   count = 0; // of samples after the first
@@ -51,10 +48,7 @@ export class Pen extends Tool {
   }
 }
 
-/**
- * A loop selects the bodies in it; the selected bodies are moved by dragging one.
- * @extends {Tool<Parts<'connection' | 'selection' | 'world'>>}
- */
+/** A loop selects the bodies in it; the selected bodies are moved by dragging one. @extends {Tool<Parts<'connection' | 'selection' | 'world'>>} */
 export class Lasso extends Tool {
   carrying = false;
 

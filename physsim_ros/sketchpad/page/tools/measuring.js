@@ -13,10 +13,7 @@ const TICK = 5, LONG_TICK = 9; // px of the marks of a ruler
 const LEAST_TICK = 6; // px from mark to mark
 const ARC = 34; // px: radius of the arc of an angle
 
-/**
- * A line from point to point, with marks, its length, slope and differences.
- * @extends {Tool<Needed>}
- */
+/** A line from point to point, with marks, its length, slope and differences. @extends {Tool<Needed>} */
 export class Ruler extends Tool {
   /** @param {Needed} parts */
   constructor(parts) {
@@ -67,10 +64,7 @@ export class Ruler extends Tool {
   }
 }
 
-/**
- * The angle between two arms: the first one is dragged from the corner, the second one clicked.
- * @extends {Tool<Needed>}
- */
+/** The angle between two arms: the first one is dragged from the corner, the second one clicked. @extends {Tool<Needed>} */
 export class Protractor extends Tool {
   /** @param {Needed} parts */
   constructor(parts) {

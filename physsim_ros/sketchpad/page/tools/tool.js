@@ -37,20 +37,7 @@ export class Tool {
     return this.path.every((touch) => isTap(this.path[0], touch));
   }
 
-  /** @returns {boolean} whether a gesture is begun, of which clicks are to come */
-  get open() {
-    return false;
-  }
-
-  /** @returns {boolean} whether wheel, R and a second finger turn the body in the tool */
-  get turns() {
-    return false;
-  }
-
-  /**
-   * @param {Touch} touch
-   * @returns {Touch} the place on the grid, or the one that is meant
-   */
+  /** @type {(touch: Touch) => Touch} the place on the grid, or the one that is meant */
   snap(touch) {
     return touch;
   }
@@ -58,7 +45,7 @@ export class Tool {
   /** @param {Touch} _touch */
   begin(_touch) {}
 
-  /** @param {Touch} _touch where the path ends now */
+  /** @param {Touch} _touch */
   move(_touch) {}
 
   /** @param {Touch} _touch */
@@ -70,17 +57,24 @@ export class Tool {
   /** @param {Touch} _touch of a pointer that is not pressed */
   point(_touch) {}
 
-  /** @param {number} _angle [rad] */
-  turn(_angle) {}
+  /** @param {SceneView} _view */
+  draw(_view) {}
 
-  /**
-   * Finish an open gesture.
-   * @returns {boolean} whether there was one
-   */
+  /** @returns {boolean} whether a gesture is begun, of which clicks are to come */
+  get open() {
+    return false;
+  }
+
+  /** @returns {boolean} whether there was an open gesture, which is finished */
   finish() {
     return false;
   }
 
-  /** @param {SceneView} _view */
-  draw(_view) {}
+  /** @returns {boolean} whether wheel, R and a second finger turn the body in the tool */
+  get turns() {
+    return false;
+  }
+
+  /** @param {number} _angle [rad] */
+  turn(_angle) {}
 }

@@ -31,7 +31,7 @@ export class Answers {
     this.expected = () => {}; // shows an answer with the next scene
     this.dismiss = () => {}; // the note of the last refusal
     const {connection} = parts;
-    connection.on('sent', (message) => this.#note(message));
+    connection.on('sent', (message) => this.#keepPlace(message));
     connection.on('unsent', (message) => this.#refuse(t('Not done: the server is not reachable'), placeOf(message)));
     connection.on('answer', (answer) => this.#show(answer));
     connection.on('scene', () => this.expected());
@@ -72,7 +72,7 @@ export class Answers {
   }
 
   /** @param {any} message */
-  #note(message) {
+  #keepPlace(message) {
     if (PASSING.includes(message.type)) return;
     this.places.set(message.id, placeOf(message));
     if (this.places.size > KEPT) this.places.delete([...this.places.keys()][0]);

@@ -18,7 +18,7 @@ const STEPS = [
   ['change', t('This is the past. Draw or move something here, and the future changes.'), '', ({timeline: {newest, now}}) => now < newest],
   ['ghost', t('Dashed: what happened before. The ring on the time line returns there.'), 'play', ({timeline}) => Boolean(timeline.courses?.length)],
 ];
-const KEY = 'physsim-hints', TOOLS = 'physsim-tools';
+const STEP = 'physsim-hints', USED = 'physsim-tools'; // keys
 const KNOWN = 2; // times that a tool was used after its hint, which is not shown any more
 const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
 
@@ -27,9 +27,9 @@ export class Hints {
   constructor(parts) {
     this.parts = parts;
     this.line = elementOf('hint');
-    this.step = Number(localStorage.getItem(KEY) ?? 0);
+    this.step = Number(localStorage.getItem(STEP) ?? 0);
     /** @type {Record<string, number>} how often tools were used after their hints */
-    this.used = JSON.parse(localStorage.getItem(TOOLS) ?? '{}');
+    this.used = JSON.parse(localStorage.getItem(USED) ?? '{}');
     this.tool = ''; // whose hint was shown last, until it is used
     this.timer = 0;
     this.shown = ''; // id of the step whose text is shown
@@ -56,7 +56,7 @@ export class Hints {
   completeStep(id) {
     if (this.#isDone(id)) return;
     this.step = indexOf(id) + 1;
-    localStorage.setItem(KEY, String(this.step));
+    localStorage.setItem(STEP, String(this.step));
     this.#showStep();
   }
 
@@ -93,7 +93,7 @@ export class Hints {
     if (!this.tool) return;
     this.used[this.tool] = (this.used[this.tool] ?? 0) + 1;
     this.tool = '';
-    localStorage.setItem(TOOLS, JSON.stringify(this.used));
+    localStorage.setItem(USED, JSON.stringify(this.used));
   }
 
   #showStep() {

@@ -83,8 +83,7 @@ export class Links {
   }
 
   #stopAt() {
-    const {frame: {time, epoch}, scene} = this.parts.world;
-    if (this.wanted === null || time < this.wanted || epoch !== scene.epoch) return;
+    if (this.wanted === null || this.parts.world.frame.time < this.wanted) return;
     const wanted = this.wanted;
     this.wanted = null;
     this.parts.connection.send('service', {name: 'pause'});

@@ -37,9 +37,9 @@ export class Sound {
    * @param {Frame} frame
    * @param {AudioContext} context
    */
-  #listen({contacts, speed, epoch}, context) {
+  #listen({contacts, speed}, context) {
     const {scene} = this.parts.world, now = new Set(), impacts = [];
-    if (!contacts || speed <= 0 || epoch !== scene.epoch) return;
+    if (!contacts || speed <= 0) return;
     for (let i = 0; i < contacts.a.length; i++) {
       const a = contacts.a[i], b = contacts.b[i], pair = `${a} ${b}`;
       now.add(pair);

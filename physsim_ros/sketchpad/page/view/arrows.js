@@ -125,7 +125,7 @@ export class Arrows {
     const {world, camera, selection, people: {viewOnly}} = this.parts, all = forcesOf(world), {bodies} = world.scene;
     const selected = new Set([...selection.names].map((name) => world.row(name)));
     const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all);
-    this.legend.note([...all, ...sums].map(({kind}) => kind));
+    this.legend.addKinds([...all, ...sums].map(({kind}) => kind));
     this.#drawTorque(view);
     const some = all.some(isSelected), beside = some ? neighboursOf([...world.touches, ...world.scene.joints], selected) : selected;
     const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
@@ -156,7 +156,7 @@ export class Arrows {
     if (row < 0 || sample?.spinning === undefined || world.frame.time - sample.time > 2 / world.rate) return;
     const {moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
     if (anchored || this.legend.off.has('torque') || !(Math.abs(torque) > NO_TURN)) return;
-    this.legend.note(['torque']);
+    this.legend.addKinds(['torque']);
     this.scales['N m'].fit(Math.abs(torque), ARC, world.paused);
     this.#roundArrow(view, camera.toPage(...world.centerOf(row)), torque,
       {unit: 'N m', radius: ROUND, color: view.palette.ink, name: this.legend.nameOf('torque')});

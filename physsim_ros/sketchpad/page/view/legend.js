@@ -47,7 +47,7 @@ export class Legend {
   }
 
   /** @param {string[]} kinds of forces that occur */
-  note(kinds) {
+  addKinds(kinds) {
     const known = this.kinds.size;
     for (const kind of kinds) this.kinds.add(kind);
     if (this.kinds.size > known) this.#render();

@@ -36,8 +36,7 @@ export class Room {
     new ResizeObserver(() => this.fit()).observe(parts.view.canvas);
     new ResizeObserver(() => this.#follow()).observe(this.element);
     parts.connection.on('frame', () => {
-      const {frame, scene} = parts.world, others = this.#worldNow !== this.world;
-      if (frame.epoch === scene.epoch && (!this.framed || others && parts.camera.fitted)) this.frame();
+      if (!this.framed || this.#worldNow !== this.world && parts.camera.fitted) this.frame();
     });
   }
 
