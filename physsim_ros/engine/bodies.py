@@ -14,7 +14,7 @@ lead.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import islice
 import math
 import operator
@@ -49,9 +49,6 @@ GRAZE = 1e-12
 SKIN = 1e-11
 # The filter of shapes that touch nothing.
 NOTHING = pymunk.ShapeFilter(categories=0, mask=0)
-# Properties whose change needs no new engine objects and wakes nobody. Any other, such as a belt,
-# has the body rebuilt, which wakes what sleeps on it and begins its contacts anew.
-_OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
 # The state of a body that has not been in a table: in free flight, its lead by fields to be found.
 BODY_STATE = dtype_of('BodyState')
 _NEW = np.zeros(1, BODY_STATE)[0]
@@ -322,9 +319,3 @@ def _set_neighbors(segments: list[pymunk.Segment]) -> None:
     for segment in segments:
         a, b = segment.a, segment.b
         segment.set_neighbors(before.get(a, a), after.get(b, b))
-
-
-def same_in_engine(a: Body, b: Body) -> bool:
-    """Return whether two bodies have the same objects in the engine."""
-    ours = {name: getattr(a, name) for name in _OURS}
-    return a == replace(b, **ours)

@@ -4,8 +4,8 @@
 """
 The bodies of a space, by name and by place.
 
-Law: Pymunk does not wake bodies that overlap a static or kinematic body which is added or moved;
-`BodySet.wake_around` does.
+Law: Pymunk does not wake bodies that overlap a static or kinematic body, or a sensor, which is
+added or moved; `BodySet.wake_around` does.
 """
 
 from __future__ import annotations
@@ -125,13 +125,13 @@ class BodySet:
 
     def wake_around(self, rigid: RigidBody, touching: Sequence[RigidBody] = ()) -> None:
         """
-        Wake what an anchored or kinematic body overlaps, and what it touched before.
+        Wake what a sensor, an anchored or kinematic body overlaps, and what it touched before.
 
         :param touching: bodies that it touched before it was moved
         """
-        if not rigid.body.dynamic:
+        if not rigid.body.dynamic or rigid.body.sensor:
             wake_bodies(each.pm_body for each in touching)
-            # The engine compares static shapes with awake ones only.
+            # The engine compares static shapes with awake ones only, and sensors wake nobody.
             for shape in rigid.pm_body.shapes:
                 hits = (hit.shape for hit in self._pm_space.shape_query(shape))
                 wake_bodies(hit.body for hit in hits if hit is not None and hit.body is not None)

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 import math
 
-from physsim_ros.engine.bodies import build_body, RigidBody, same_in_engine
+from physsim_ros.engine.bodies import build_body, RigidBody
 from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
@@ -27,7 +27,7 @@ from physsim_ros.engine.scene_columns import check_columns, check_floor
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.scene import Body, Joint, Scene, Wakes
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
@@ -140,6 +140,8 @@ class Space:
         self._changes += old != settings
         if old.gravity != settings.gravity:
             self._change_gravity(old.gravity, settings.gravity)
+        if old.floor_friction != settings.floor_friction:
+            wake_bodies(rigid.pm_body for rigid in self.bodies.by_name.values())
         self.pm_space.damping = 1.0 - settings.damping
         self.pm_space.iterations = -(-settings.iterations // lib.SUB_STEPS)
         walls = (settings.bounds, settings.friction, settings.elasticity)
@@ -159,7 +161,10 @@ class Space:
     def change(self, old: RigidBody, body: Body, pose: Pose, twist: Twist) -> None:
         """Replace a body by a changed one, in its place in the spawn order."""
         check_columns(body, self._settings, self.dt)
-        if same_in_engine(old.body, body):
+        wakes = old.body.wakes(body)
+        if wakes < Wakes.TOUCHING:
+            if wakes is Wakes.ITSELF:
+                wake_bodies([old.pm_body])
             self.tables.drop()
             self._changes += body != old.body
             old.take_over_roles(old, body)

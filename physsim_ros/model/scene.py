@@ -7,13 +7,13 @@ The scene: bodies and joints without their poses.
 Law: everything here is immutable, and constant while the world steps.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
+from enum import IntEnum
 from functools import cached_property
+from inspect import get_annotations
 import math
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from physsim_ros.model.actors import Actor
@@ -43,10 +43,21 @@ from physsim_ros.model.transform import (
 _NEAR_SHARE, _NEAR = 0.35, 0.1
 
 
+class Wakes(IntEnum):
+    """Which bodies wake when a property of a body changes: those whose motion depends on it."""
+
+    NOBODY = 0
+    ITSELF = 1
+    # The body and what touches it: their contacts begin anew.
+    TOUCHING = 2
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Body:
     """
     A body without its pose and velocity, its properties as `Properties` declares them.
+
+    A note at each says who wakes when it changes.
 
     :param name: unique in its world
     :param shape: geometry in the body's frame
@@ -56,30 +67,37 @@ class Body:
     :param expires: step at whose end the body is removed; None is never
     """
 
-    name: str
-    shape: Shape
-    color: Color
-    mass: float | None = None
-    density: float
-    friction: float
-    elasticity: float
-    anchored: bool = False
-    kinematic: bool = False
-    group: int = 0
-    sensor: bool = False
-    expires: int | None = None
-    surface_velocity: Point = (0.0, 0.0)
-    belt: float = 0.0
-    rolling_resistance: float = 0.0
-    one_way: Point = (0.0, 0.0)
-    closed_sides: bool = False
-    robot: Robot | None = None
-    towed: Towed | None = None
-    label: str = ''
-    actor: Actor | None = None
-    forces: tuple[AppliedForce, ...] = ()
-    charge: float = 0.0
-    medium: Medium | None = None
+    name: Annotated[str, Wakes.NOBODY]
+    shape: Annotated[Shape, Wakes.TOUCHING]
+    color: Annotated[Color, Wakes.NOBODY]
+    mass: Annotated[float | None, Wakes.TOUCHING] = None
+    density: Annotated[float, Wakes.TOUCHING]
+    friction: Annotated[float, Wakes.TOUCHING]
+    elasticity: Annotated[float, Wakes.TOUCHING]
+    anchored: Annotated[bool, Wakes.TOUCHING] = False
+    kinematic: Annotated[bool, Wakes.TOUCHING] = False
+    group: Annotated[int, Wakes.TOUCHING] = 0
+    sensor: Annotated[bool, Wakes.TOUCHING] = False
+    expires: Annotated[int | None, Wakes.NOBODY] = None
+    surface_velocity: Annotated[Point, Wakes.TOUCHING] = (0.0, 0.0)
+    belt: Annotated[float, Wakes.TOUCHING] = 0.0
+    rolling_resistance: Annotated[float, Wakes.TOUCHING] = 0.0
+    one_way: Annotated[Point, Wakes.TOUCHING] = (0.0, 0.0)
+    closed_sides: Annotated[bool, Wakes.TOUCHING] = False
+    robot: Annotated[Robot | None, Wakes.ITSELF] = None
+    towed: Annotated[Towed | None, Wakes.TOUCHING] = None
+    label: Annotated[str, Wakes.NOBODY] = ''
+    actor: Annotated[Actor | None, Wakes.ITSELF] = None
+    forces: Annotated[tuple[AppliedForce, ...], Wakes.ITSELF] = ()
+    charge: Annotated[float, Wakes.TOUCHING] = 0.0
+    medium: Annotated[Medium | None, Wakes.TOUCHING] = None
+
+    def wakes(self, changed: 'Body') -> Wakes:
+        """Return which bodies wake when this one becomes another one of its name."""
+        notes = (
+            note for name, note in _WAKES.items() if getattr(self, name) != getattr(changed, name)
+        )
+        return max(notes, default=Wakes.NOBODY)
 
     @property
     def total_mass(self) -> float:
@@ -112,6 +130,9 @@ class Body:
         }
 
 
+_WAKES: dict[str, Wakes] = {
+    name: hint.__metadata__[0] for name, hint in get_annotations(Body).items()
+}
 # Of the fields of a body; MISSING where the world or the request has it.
 BODY_DEFAULTS = {each.name: each.default for each in fields(Body)}
 # Its properties, in the order of their declarations.

@@ -62,7 +62,20 @@ void find_leads(World *world) {
     }
 }
 
+// Apply the wrenches of commands; Chipmunk clears forces after each step.
+static void apply_wrenches(World *world) {
+    for (int number = 0; number < active_count(world); number++) {
+        const Body *body = active_at(world, number);
+        if (!is_zero(body->wrench)) {
+            world->chipmunk.body_activate(body->engine);
+            body->engine->f = body->wrench.v;
+            body->engine->t = body->wrench.w;
+        }
+    }
+}
+
 void apply_forces(World *world) {
+    apply_wrenches(world);
     for (int number = 0; number < world->force_count; number++) {
         const AppliedForce *applied = world->forces + number;
         cpBody *engine = world->bodies[applied->body].engine;

@@ -4,7 +4,7 @@
 // A contact (`cpArbiter`) within a sub-step: what its fields are from which stage on.
 //
 // state: `ARBITER_FIRST_COLLISION` where it begins, by Chipmunk or by the end of being ignored (`first_touch.c`).
-// data: not NULL where it is ignored in this sub-step (`first_touch.c`); it has no points then.
+// data: not NULL where it is ignored in this sub-step (`one_way.c`, `first_touch.c`); it has no points then.
 // n, r1, r2: as the sub-step ends, by Chipmunk; of one that begins, as its bodies first met (`first_touch.c`).
 // nMass, tMass: effective masses, by Chipmunk, or `prepare_contact` for another normal; from `steep_friction.c` on,
 //     just before the solvers, nMass is that of their rounds, which is less where friction is steep.
@@ -25,6 +25,12 @@ static inline bool begins(const cpArbiter *arbiter) {
 
 static inline bool is_ignored(const cpArbiter *arbiter) {
     return arbiter->data != NULL;
+}
+
+// Have Chipmunk ignore a contact in this sub-step; in the next one it begins.
+static inline void ignore(cpArbiter *arbiter) {
+    arbiter->data = arbiter;
+    arbiter->count = 0;
 }
 
 // Approach velocity from which two bodies are in an impact [m/s]; bodies at rest tremble by less.

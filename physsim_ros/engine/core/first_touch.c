@@ -14,10 +14,9 @@
 // Method: between Chipmunk's narrow phase and its solver, for all contacts; parts 2 and 4 for those that begin:
 //
 // 1. False contacts: polygons whose normal points from the second to the first, and which a face separates (separating
-//    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1). Chipmunk ignores the contact in this step, and in
-//    the next one what it finds counts as a first touch (`find_begun`).
-//    So are those of bodies that pass a one-way body (`one_way.c`), and polygons whose faces have met by
-//    rounding as the sub-step ends: one corner alone is in, which turned boxes that slide on a floor.
+//    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1); and polygons whose faces have met by rounding as
+//    the sub-step ends: one corner alone is in, which turned boxes that slide on a floor. Chipmunk ignores the contact
+//    in this sub-step, and in the next one what it finds counts as a first touch (`find_begun`).
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc, or a corner,
 //    first meets the other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over; at
@@ -32,7 +31,6 @@
 // (`test/engine/stages/test_internal_edges.py`). Part 1 can go when GJK is exact.
 
 #include "contact.h"
-#include "one_way.h"
 #include "stages.h"
 #include "touch_stages.h"
 
@@ -94,16 +92,11 @@ static bool meets_next(const World *world, cpArbiter *arbiter) {
            has_face(arbiter->a, touch.normal) && has_face(arbiter->b, negated(touch.normal));
 }
 
-// Have Chipmunk ignore a contact in this step; in the next one it begins.
-static void ignore(cpArbiter *arbiter) {
-    arbiter->data = arbiter;
-    arbiter->count = 0;
-}
-
 void ignore_false_contacts(World *world) {
     for (int number = 0; number < arbiter_count(world); number++) {
-        if (is_false(arbiter_at(world, number))) {
-            ignore(arbiter_at(world, number));
+        cpArbiter *arbiter = arbiter_at(world, number);
+        if (arbiter->count > 0 && (is_false(arbiter) || (is_new(arbiter) && meets_next(world, arbiter)))) {
+            ignore(arbiter);
         }
     }
 }
@@ -113,12 +106,8 @@ void find_begun(World *world) {
     now->begun = TAKE(&world->own->arena, Touch, arbiter_count(world));
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (arbiter->count == 0) {
-            continue; // it is ignored already
-        }
-        if (passes(world, arbiter) || (is_new(arbiter) && meets_next(world, arbiter))) {
-            ignore(arbiter);
-        } else if (is_new(arbiter)) {
+        // One without points is ignored.
+        if (arbiter->count > 0 && is_new(arbiter)) {
             arbiter->data = NULL;
             arbiter->state = ARBITER_FIRST_COLLISION;
             now->begun[now->begun_count++] = touch_of(arbiter);

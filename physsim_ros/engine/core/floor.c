@@ -234,6 +234,10 @@ void apply_floor(World *world) {
         if (body->braking > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_plus(driving.mean, belt, 1.0), end = twist_plus(driving.end, belt, 1.0);
+            if (sleeps(body) && !is_zero(mean)) {
+                // A conveyor has come below it.
+                world->chipmunk.body_activate(body->engine);
+            }
             bring_to_floor(world, body, mean, end);
         }
     }

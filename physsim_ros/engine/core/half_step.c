@@ -112,7 +112,7 @@ static const Twist *half_changes(World *world) {
     return changes;
 }
 
-void begin_half_step(World *world) {
+void begin_flights(World *world) {
     Arena *arena = &world->own->arena;
     uint8_t *free = TAKE(arena, uint8_t, world->body_count), *unsupported = TAKE(arena, uint8_t, world->body_count);
     find_start(world, free, unsupported);
@@ -128,12 +128,6 @@ void begin_half_step(World *world) {
         }
         if (unsupported[place]) {
             forget_impulses(body);
-        }
-        if (!is_zero(body->wrench)) {
-            // The wrench is that of a command; Chipmunk clears forces after each step.
-            world->chipmunk.body_activate(body->engine);
-            body->engine->f = body->wrench.v;
-            body->engine->t = body->wrench.w;
         }
     }
 }

@@ -88,25 +88,30 @@ static bool is_where_bodies_pass(const World *world, const cpArbiter *arbiter) {
     return rise < -least_rise || (are_closed_at(arbiter) && !comes_from_outside(world, arbiter));
 }
 
-void find_passing(World *world) {
-    Private *own = world->own;
-    int count = own->has_one_way ? arbiter_count(world) : 0;
-    own->now.passing = TAKE(&own->arena, Pair, count);
-    own->now.passing_count = 0;
-    for (int number = 0; number < count; number++) {
+// List the pairs of bodies that pass each other, by places; return their number.
+static int list_passing(const World *world, Pair *passing) {
+    int count = 0;
+    for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
         if (is_of_one_way(arbiter) && !carries_load(world, arbiter) && is_where_bodies_pass(world, arbiter)) {
-            own->now.passing[own->now.passing_count++] = bodies_of(world, arbiter);
+            passing[count++] = bodies_of(world, arbiter);
         }
     }
-    sort_pairs(own->now.passing, own->now.passing_count);
+    sort_pairs(passing, count);
+    return count;
 }
 
-bool passes(const World *world, const cpArbiter *arbiter) {
-    const Private *own = world->own;
-    if (!own->has_one_way || !is_of_one_way(arbiter)) {
-        return false;
+void ignore_passing(World *world) {
+    if (!world->own->has_one_way) {
+        return;
     }
-    return !are_closed_at(arbiter) || (!carries_load(world, arbiter) &&
-                                       has_pair(own->now.passing, own->now.passing_count, bodies_of(world, arbiter)));
+    Pair *passing = TAKE(&world->own->arena, Pair, arbiter_count(world));
+    int count = list_passing(world, passing);
+    for (int number = 0; number < arbiter_count(world); number++) {
+        cpArbiter *arbiter = arbiter_at(world, number);
+        bool passes = !carries_load(world, arbiter) && has_pair(passing, count, bodies_of(world, arbiter));
+        if (is_of_one_way(arbiter) && (passes || !are_closed_at(arbiter))) {
+            ignore(arbiter);
+        }
+    }
 }

@@ -6,9 +6,6 @@
 
 #include "world.h"
 
-// Whether the bodies of a contact pass each other, by what `find_passing` has found.
-bool passes(const World *world, const cpArbiter *arbiter);
-
 static inline bool is_one_way(const Body *body) {
     return body->one_way.x != 0.0 || body->one_way.y != 0.0;
 }

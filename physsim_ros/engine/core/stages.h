@@ -1,124 +1,154 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// The stages of a step; `step.c` has their order.
+// The stages of a step, in the order of the tables of `step.c`; behind each is the file that says why and how.
 
 #ifndef PHYSSIM_STAGES_H
 #define PHYSSIM_STAGES_H
 
 #include "world.h"
 
-// Wrenches of commands, and free flight of bodies that requests have changed (`half_step.c`).
-void begin_half_step(World *world);
+// Before the first sub-step of a step.
 
-// Constant forces on bodies, and leads of bodies in free flight (`applied_forces.c`). `find_leads` leaves these forces
-// out; `turn_leads`, which follows it, adds them, and finds leads anew where forces turn with their bodies.
-void apply_forces(World *world);
-void find_leads(World *world);
-void turn_leads(World *world);
-
-// Forces that depend on where all bodies are and how they move: media (`media.c`), attraction (`attraction.c`);
-// their half-step treatment (`fields.c`).
-void begin_fields(World *world);
-void apply_fields(World *world);
-void keep_fields(World *world);
-
-// Forces of hands (`mouse_joints.c`).
-void pull_grips(World *world);
-
-// Errors of the solver in what friction locks in place (`resting_damping.c`).
+// Damp errors of the solver in what friction locks in place (`resting_damping.c`).
 void damp_resting(World *world);
-
-// Actors: where they go, and at which velocity (`actors.c`). `choose_velocity` chooses that of the next actor, and is
-// false where all have one.
+// Begin the sums that joints report of the step (`joint_report.c`).
+void clear_joint_reports(World *world);
+// Measure how far joints are out of their bounds that were just made or changed (`joint_report.c`).
+void measure_drawn_joints(World *world);
+// Have actors start whose condition is met (`actors.c`).
 void begin_actors(World *world);
+// Choose the velocity of the next actor; false where all have one (`actors.c`).
 bool choose_velocity(World *world);
+// Have actors move at their chosen velocities (`actors.c`).
 void move_actors(World *world);
 
-// Wheels (`drives.c`), odometry (`odometry.c`) and batteries (`batteries.c`) of robots.
+// In each sub-step, before Chipmunk's step.
+
+// Find the leads by fields of bodies that requests have changed (`fields.c`).
+void begin_fields(World *world);
+// Have bodies begin or cease to fly freely where requests have changed that (`half_step.c`).
+void begin_flights(World *world);
+// Add the wrenches of commands, and constant forces on bodies (`applied_forces.c`).
+void apply_forces(World *world);
+// Add the forces of hands (`mouse_joints.c`).
+void pull_grips(World *world);
+// Add the forces of media and of attraction (`fields.c`).
+void apply_fields(World *world);
+// Find the velocities of the wheels of robots (`drives.c`).
 void roll_wheels(World *world);
-void reckon_odometry(World *world);
-void use_batteries(World *world);
-
-// The floor under bodies, and how contacts and joints have pushed what it carries (`floor.c`).
+// Bring bodies to the velocity of the floor under them, by friction (`floor.c`).
 void apply_floor(World *world);
-void find_floor_pushes(World *world);
-
-// One-way bodies (`one_way.c`): contacts that carry a load, and bodies that pass.
+// List the contacts of one-way bodies that carry a load (`one_way.c`).
 void find_loaded(World *world);
-void find_passing(World *world);
-
-// Fast bodies end their step where they first hit something (`continuous.c`), and move on after that
-// (`rest_of_step.c`); they keep small boxes (`tight_boxes.c`).
+// Have the coming move of fast bodies end where they first hit something (`continuous.c`).
 void clamp_moves(World *world);
-void finish_moves(World *world);
+// Replace the boxes of fast bodies among many others by boxes of bodies at rest (`tight_boxes.c`).
 void tighten_boxes(World *world);
-
-// Constraints are put where the step needs them (`joint_parts.c`), and motors get their rates (`joint_motors.c`).
+// Put the constraints of joints where the sub-step needs them (`joint_parts.c`).
 void prepare_parts(World *world);
+// Set the rates of motors by their commands (`joint_motors.c`).
 void command_motors(World *world);
-
-// Have Chipmunk's solver resist rolling, until the step ends (`rolling.c`).
+// Have Chipmunk's solver resist rolling, until `end_rolling` (`rolling.c`).
 void begin_rolling(World *world);
-// How far ahead of a disc the load of a contact acts where it rolls; 0 is where nothing rolls [m].
-double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
-// Between narrow phase and solver: contacts that begin (`first_touch.c`), their slop (`overlap_bias.c`), surfaces that
-// move along their outlines (`belts.c`), the first of two points (`contact_order.c`), the greatest load
-// (`impact_loads.c`), when impacts were (`rest_of_step.c`), contacts next to an impact (`impact_propagation.c`), rounds
-// of the solvers (`steep_friction.c`), points that are hit at once (`block_solver.c`), contacts that roll
-// (`rolling.c`).
-void ignore_false_contacts(World *world);
-void find_begun(World *world);
-void move_to_impacts(World *world);
-void slide_over_edges(World *world);
-void prepare_begun(World *world);
-void set_overlap_biases(World *world);
-void move_belts(World *world);
-void order_points(World *world);
-void list_load_bounds(World *world);
-void time_impacts(World *world);
-void defer_contacts(World *world);
-void damp_steep_friction(World *world);
-void solve_impacts(World *world);
-void find_rolls(World *world);
-// The rest of the step after impacts (`rest_of_step.c`): how long it is for two bodies that met in this step [s]; by
-// how much further a body is for a velocity after its impact than for that before it, and what it has still to go then.
-double remaining_time(const Body *a, const Body *b);
-Twist displacement_gained(const Body *body, Twist after, double remaining, double dt);
-void set_remaining_move(Body *body, Twist gained);
+// Between Chipmunk's narrow phase and its solver.
 
-// Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_report.c`).
+// Ignore the contacts of bodies that pass each other, one of them one-way (`one_way.c`).
+void ignore_passing(World *world);
+// Ignore contacts of polygons that are apart, or whose faces have met by rounding (`first_touch.c`).
+void ignore_false_contacts(World *world);
+// List the contacts that begin (`first_touch.c`).
+void find_begun(World *world);
+// Give these the normals and points of the moment of their impact (`first_touch.c`).
+void move_to_impacts(World *world);
+// Give contacts at seams the normal of the face that is slid over, and ignore those behind it (`first_touch.c`).
+void slide_over_edges(World *world);
+// Write the contacts that begin to Chipmunk (`first_touch.c`).
+void prepare_begun(World *world);
+// Have overlaps be pushed out up to the slop of the two bodies (`overlap_bias.c`).
+void set_overlap_biases(World *world);
+// Have surfaces move along their outlines (`belts.c`).
+void move_belts(World *world);
+// Put the leading one of two points first (`contact_order.c`).
+void order_points(World *world);
+// List the greatest impulses that can be loads (`impact_loads.c`).
+void list_load_bounds(World *world);
+// Find how long ago impacts were, and their bounces then (`rest_of_step.c`).
+void time_impacts(World *world);
+// Have elastic contacts wait for faster impacts of their bodies (`impact_propagation.c`).
+void defer_contacts(World *world);
+// Reduce effective masses where friction is steep (`steep_friction.c`).
+void damp_steep_friction(World *world);
+// Solve the points of bodies that hit each other together (`block_solver.c`).
+void solve_impacts(World *world);
+// Find the islands of jointed bodies, with the contacts that these bear (`joint_solver.c`).
 void find_joint_islands(World *world);
+// List the contacts that resist rolling, and are no rows of these islands (`rolling.c`).
+void find_rolls(World *world);
+
+// After Chipmunk's step.
+
+// Replace the leads by fields by those of this sub-step (`fields.c`).
+void keep_fields(World *world);
+// Add the leads by constant forces at the poses of now; `find_leads` finds those without (`applied_forces.c`).
+void turn_leads(World *world);
+// Have idle time outlive a sub-step in which a body was too fast for rest (`sleeping.c`).
+void ignore_jitter(World *world);
+// Find the velocities of jointed bodies (`joint_solver.c`).
 void solve_joints(World *world);
-void correct_joint_positions(World *world);
-// Impulses from which the next step does not start: of gaps that were closed (`joint_solver.c`), and of impacts
-// (`impact_loads.c`).
-void remove_closing_impulses(World *world);
-void remove_impact_impulses(World *world);
-void clear_joint_reports(World *world);
-void measure_drawn_joints(World *world);
-// Add to what joints report: their impulses, and those by which gaps were closed.
+// Add the impulses of joints to their reports (`joint_report.c`).
 void report_joint_impulses(World *world);
+// Have bodies that met end their move with the velocity after it (`rest_of_step.c`).
+void finish_moves(World *world);
+// Close the gaps of joints (`joint_solver.c`).
+void correct_joint_positions(World *world);
+// Add the impulses by which gaps were closed to the reports of joints (`joint_report.c`).
 void report_joint_closings(World *world);
+// Find what contacts and joints have changed the velocities of bodies on the floor by (`floor.c`).
+void find_floor_pushes(World *world);
+// Continue the odometry of robots (`odometry.c`).
+void reckon_odometry(World *world);
+// Discharge and charge the batteries of robots (`batteries.c`).
+void use_batteries(World *world);
+// Add contacts to the report of the frame (`contact_report.c`).
+void report_contacts(World *world);
+// Find which bodies are in free flight (`half_step.c`).
+void find_free(World *world);
+// Keep bodies awake that are slow for another reason than rest (`sleeping.c`).
+void keep_awake(World *world);
+// Have the next sub-step not start from the impulses by which gaps were closed (`joint_solver.c`).
+void remove_closing_impulses(World *world);
+// Have it not start from the impulses of impacts (`impact_loads.c`).
+void remove_impact_impulses(World *world);
+
+// At the end of a step.
+
+// Find the joints that broke (`joint_report.c`).
 void find_broken_joints(World *world);
 
-// Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).
-void find_free(World *world);
+// What stages use of each other.
+
+// Find the leads of bodies in free flight, without those by constant forces (`applied_forces.c`).
+void find_leads(World *world);
 // The share of an impulse on two bodies in this sub-step that does not take back a half-step lead; before `find_free`.
 double reported_share(const Body *a, const Body *b, Vec impulse);
-void ignore_jitter(World *world);
-void keep_awake(World *world);
-
+// How far ahead of a disc the load of a contact acts where it rolls; 0 is where nothing rolls [m] (`rolling.c`).
+double rolling_arm(const cpArbiter *arbiter);
+// The rest of the sub-step after the impact of two bodies [s] (`rest_of_step.c`).
+double remaining_time(const Body *a, const Body *b);
+// By how much further a body is for a velocity after its impact than for that before it (`rest_of_step.c`).
+Twist displacement_gained(const Body *body, Twist after, double remaining, double dt);
+// Set what a body has still to go in the rest of its sub-step, by such a gain (`rest_of_step.c`).
+void set_remaining_move(Body *body, Twist gained);
 // Which sensors were crossed within the sub-step (`sensors.c`).
 typedef void Crossing(World *world, const Body *body, const Body *sensor);
 void find_crossings(World *world, Crossing *found);
-// When a body and a sensor first met in this sub-step, as a share of it (0 .. 1).
+// When a body and a sensor first met in this sub-step, as a share of it (0 .. 1) (`sensors.c`).
 double crossing_time(World *world, Body *body, Body *sensor);
 
-// What touched, and how it pressed (`contact_report.c`).
-void report_contacts(World *world);
+// The report of a world (`contact_report.c`); a new table of bodies renames it.
 struct Report *new_report(void);
 void rename_contacts(World *world, const int32_t *former, int count);
 void free_report(World *world);

@@ -74,9 +74,9 @@ static void run(World *world, const Stage *stages) {
 // Between Chipmunk's narrow phase and its solver: all contacts of the step are known, with their target velocities, and
 // none has been solved. Each stage has what the ones before have made of the contacts; beside it is what it sets.
 static const Stage contact_stages[] = {
-    {find_passing, 0},                             // which bodies pass one-way bodies
-    {ignore_false_contacts, STAGE_FALSE_CONTACTS}, // contacts that are none
-    {find_begun, 0},                               // the list of contacts that begin; others that are none
+    {ignore_passing, 0},                           // contacts without points: of bodies that pass each other
+    {ignore_false_contacts, STAGE_FALSE_CONTACTS}, // the same: of bodies that do not touch
+    {find_begun, 0},                               // the list of contacts that begin
     {move_to_impacts, STAGE_IMPACT},               // in it: normals and points
     {slide_over_edges, STAGE_EDGES},               // in it: normals at seams; hidden contacts leave it
     {prepare_begun, 0},                            // contacts, by that list
@@ -118,9 +118,9 @@ static void step_chipmunk(World *world) {
 // velocities then.
 static const Stage sub_step_stages[] = {
     {begin_fields, STAGE_FIELDS},            // leads by fields, of bodies that requests have changed
-    {begin_half_step, 0},                    // leads, and which bodies are in free flight; forces of commands
+    {begin_flights, 0},                      // leads; which bodies are in free flight, and their velocities
     {begin_bodies, 0},                       // scratch, and the pose that the sub-step begins with
-    {apply_forces, 0},                       // forces
+    {apply_forces, 0},                       // forces, of commands and of bodies
     {pull_grips, 0},                         // forces
     {apply_fields, STAGE_FIELDS},            // forces, and half of what they change velocities by
     {roll_wheels, STAGE_FLOOR},              // velocities of the floor under robots

@@ -13,9 +13,8 @@
 
 // The results of stages that later stages of the same sub-step use, in the memory of the arena.
 typedef struct SubStep {
-    // `find_loaded`: pairs of shapes, one of a one-way body, that carry a load; `find_passing`: pairs of bodies.
-    struct Pair *loaded, *passing;
-    int loaded_count, passing_count;
+    struct Pair *loaded; // `find_loaded`: pairs of shapes, one of a one-way body, that carry a load
+    int loaded_count;
     Body **awake; // `step_chipmunk`: before its step, for `begin_sleepers`
     int awake_count;
     struct Touch *begun; // `find_begun`: contacts that begin, without those that `slide_over_edges` ignores

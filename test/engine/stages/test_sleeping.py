@@ -4,18 +4,40 @@
 """Sleeping by island: rest costs nothing, changes nothing that is seen, and ends when it must."""
 
 from collections.abc import Callable
+from dataclasses import fields, replace
+from functools import partial
 import math
 import random
+from typing import Any
 
 import numpy as np
-from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Request
+from physsim_ros.model.actors import Path
+from physsim_ros.model.applied_forces import AppliedForce
+from physsim_ros.model.media import Medium
+from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Request, Restore
+from physsim_ros.model.robots import Differential, Robot, Towed
+from physsim_ros.model.scene import Body, BODY_DEFAULTS, Wakes
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Polygon
+from physsim_ros.model.transform import REST
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import BOX, command, DISC, G, join, pose, sleepers, spawn, spawning, stack, twist
+from ...building import (
+    BLUE,
+    BOX,
+    command,
+    DISC,
+    G,
+    join,
+    pose,
+    sleepers,
+    spawn,
+    spawning,
+    stack,
+    twist,
+)
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 SECOND = 1_000_000_000
@@ -160,6 +182,129 @@ def test_a_stack_on_an_anchored_floor_wakes_when_the_floor_is_moved():
     world.step(120)
 
     assert pose(world, 'stack/0')[1] < 0.0
+
+
+# Another value of each property of a body, but of its name.
+OTHER: dict[str, Any] = {
+    'shape': DISC,
+    'color': BLUE,
+    'mass': 7.0,
+    'density': 3.0,
+    'friction': 0.01,
+    'elasticity': 0.9,
+    'anchored': True,
+    'kinematic': True,
+    'group': 3,
+    'sensor': True,
+    'expires': 10**6,
+    'surface_velocity': (0.0, 1.0),
+    'belt': 1.0,
+    'rolling_resistance': 0.5,
+    'one_way': (0.0, -1.0),
+    'closed_sides': True,
+    'robot': Robot(drive=Differential(traction=0.01)),
+    'towed': Towed(traction=0.01),
+    'label': 'bank',
+    'actor': Path(points=((9.0, 0.0, 0.0),), speed=1.0, traction=0.01),
+    'forces': (AppliedForce(force=(9.0, 0.0)),),
+    'charge': 9.0,
+    'medium': Medium(density=1000.0),
+}
+PROPERTIES = pytest.mark.parametrize('name', [each.name for each in fields(Body)][1:])
+
+
+def banks(*, anchored: bool) -> World:
+    """Return a world on a slope: what lies on a bank sleeps, as does what lies beside it."""
+    settings = WorldSettings(gravity=(1.0, -G), bounds=(-9.0, 0.0, 9.0, 9.0), coulomb=1.0)
+    world = World(settings=settings)
+    spawn(world, 'bank/0', Box(width=4.0, height=1.0), (0.0, 0.5, 0.0), anchored=anchored)
+    spawn(world, 'on/0', BOX, (0.0, 1.5, 0.0), group=3)
+    spawn(world, 'apart/0', BOX, (7.0, 0.5, 0.0))
+    world.step(300)
+    assert {'on/0', 'apart/0'} <= {*sleepers(world)}
+    return world
+
+
+def tables() -> World:
+    """Return a table that leans, seen from above, with bodies that sleep on it."""
+    world = World(settings=WorldSettings(gravity=(1.0, 0.0), floor_friction=0.4))
+    spawn(world, 'bank/0', Box(width=4.0, height=1.0), (0.0, 0.5, 0.0))
+    spawn(world, 'on/0', BOX, (0.0, 1.5, 0.0), group=3)
+    world.step(300)
+    assert sleepers(world) == ['bank/0', 'on/0']
+    return world
+
+
+def changed_bank(world: World, name: str) -> Body:
+    """Return the description of the bank with another value of a property."""
+    body = world.space.bodies.by_name['bank/0'].body
+    value = OTHER[name] if getattr(body, name) != OTHER[name] else BODY_DEFAULTS[name]
+    # Robots and actors are not anchored.
+    movable = {'anchored': False} if name in {'robot', 'actor'} else {}
+    return replace(body, **{name: value}, **movable)
+
+
+def change_bank(world: World, body: Body) -> Wakes:
+    bank = world.space.bodies.by_name['bank/0']
+    wakes = bank.body.wakes(body)
+    world.space.change(bank, body, bank.pose, REST)
+    return wakes
+
+
+@pytest.mark.parametrize('anchored', [True, False])
+@PROPERTIES
+def test_a_changed_property_wakes_the_body_or_what_touches_it_or_nobody(name, anchored):
+    world = banks(anchored=anchored)
+    asleep = sleepers(world)
+
+    wakes = change_bank(world, changed_bank(world, name))
+
+    # An anchored body does not sleep; another one wakes with its island.
+    itself = set() if anchored else {'bank/0', 'on/0'}
+    woken = {Wakes.NOBODY: set(), Wakes.ITSELF: itself, Wakes.TOUCHING: {'bank/0', 'on/0'}}[wakes]
+    assert sleepers(world) == [each for each in asleep if each not in woken]
+
+
+@pytest.mark.parametrize(
+    'build', [partial(banks, anchored=True), partial(banks, anchored=False), tables]
+)
+@PROPERTIES
+def test_what_sleeps_moves_after_a_change_as_in_a_world_that_begins_with_it(name, build):
+    asleep, awake = build(), World()
+    body, state = changed_bank(asleep, name), asleep.save()
+    bodies = (replace(state.bodies[0], body=body, motion=None), *state.bodies[1:])
+    awake.apply(Restore(state=replace(state, bodies=bodies, memory=None)))
+    assert not sleepers(awake)
+
+    change_bank(asleep, body)
+    for world in (asleep, awake):
+        world.step(120)
+
+    assert pose(asleep, 'bank/0') == pytest.approx(pose(awake, 'bank/0'), abs=1e-3)
+    assert pose(asleep, 'on/0') == pytest.approx(pose(awake, 'on/0'), abs=1e-3)
+
+
+def test_what_sleeps_on_a_floor_slides_when_its_friction_falls():
+    world = tables()
+
+    world.apply(Configure(changes={'floor_friction': 0.05}))
+    world.step(240)
+
+    # m: half of what gravity leaves of friction
+    assert pose(world, 'on/0')[0] == pytest.approx((1.0 - 0.05 * G) / 2, rel=0.01)
+
+
+def test_a_conveyor_that_comes_to_a_body_that_sleeps_carries_it():
+    world = World(settings=WorldSettings(gravity=(0.0, 0.0), floor_friction=0.5))
+    said = {'kinematic': True, 'sensor': True, 'surface_velocity': (0.0, 1.0)}
+    spawn(world, 'box/0', BOX)
+    spawn(
+        world, 'belt/0', Box(width=2.0, height=2.0), (-3.0, 0.0, 0.0), velocity=(1.0, 0.0), **said
+    )
+
+    world.step(600)
+
+    assert pose(world, 'box/0')[1] > 0.3
 
 
 def weights(world: World, seconds: float) -> list[float]:
