@@ -115,7 +115,7 @@ class BodyTable:
 
     def lost(self) -> list[str]:
         """Return the names of the bodies that have left the range of numbers in the last step."""
-        rows = np.flatnonzero(self.records['scratch']['lost'][:-1])
+        rows = np.flatnonzero(self.records['lost'][:-1])
         return [self.scene.names[row] for row in rows.tolist()]
 
     # Floor and robots

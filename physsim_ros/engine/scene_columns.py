@@ -143,7 +143,7 @@ def _body_records(scene: Scene) -> Table:
     forms = [body.shape.form for body in bodies]
     by_form = {form: _numbers_of(form) for form in dict.fromkeys(forms)}
     numbers = np.array([by_form[form] for form in forms]).reshape(-1, 5)
-    names = 'reach', 'half_width', 'turning_radius', 'corners', 'pieces'
+    names = 'reach', 'inner', 'turning_radius', 'corners', 'pieces'
     for name, values in zip(names, numbers.T, strict=True):
         own[name] = values
     own['reach'] += np.hypot(*(scene.centroids - own['offset']).T)
@@ -189,7 +189,7 @@ def _slop(body: Body) -> float:
 
 
 def _numbers_of(form: Form) -> tuple[float, float, float, int, int]:
-    """Return outer radius, half width, turning radius, corners and piece count of a shape."""
+    """Return outer and inner radius, turning radius, corners and piece count of a shape."""
     # A disc covers the same ground however it turns.
     turning_radius = 0.0 if form.inner >= form.outer else form.outer
     corners = sum(

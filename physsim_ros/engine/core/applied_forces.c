@@ -6,8 +6,8 @@
 // Problem: the torque of a force at an arm, and the direction of a thruster, depend on the pose of the body. With the
 // pose at which a sub-step begins, the velocity gained is that of a moment too early: a swinging body gains energy.
 // Method: velocity Verlet, as of gravity in `half_step.c`: Chipmunk moves bodies first and accelerates them then, so
-// forces are those of the pose after the move; and the lead of a body in free flight, half a step of its acceleration,
-// is that of the pose that it has now.
+// forces are those of the pose after the move; and the lead of a body in free flight, half a sub-step of its
+// acceleration, is that of the pose that it has now.
 //
 // Cost: 15 ns a force and sub-step.
 // Without it thrusters and ropes cannot be put on bodies.
@@ -21,7 +21,7 @@ static Twist wrench_of(const AppliedForce *applied, double yaw) {
     return (Twist){force, cross(rotated(applied->arm, by), force)};
 }
 
-// Half a step of gravity and of the wrench on a body, with the part of fields.
+// Half a sub-step of gravity and of the wrench on a body, with the part of fields.
 static Twist steady_lead(const World *world, const Body *body) {
     if (!body->dynamic) {
         return (Twist){0};
@@ -44,11 +44,11 @@ void turn_leads(World *world) {
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
         assert(last == NULL || last <= body);
-        body->scratch.lead = body == last ? body->scratch.lead : steady_lead(world, body);
+        body->own->lead = body == last ? body->own->lead : steady_lead(world, body);
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
         Twist change = {scaled(wrench.v, engine->m_inv), wrench.w * engine->i_inv};
-        body->scratch.lead = twist_plus(body->scratch.lead, change, world->dt / 2.0);
+        body->own->lead = twist_plus(body->own->lead, change, world->dt / 2.0);
     }
 }
 
@@ -58,11 +58,11 @@ void find_leads(World *world) {
     }
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
-        body->scratch.lead = steady_lead(world, body);
+        body->own->lead = steady_lead(world, body);
     }
 }
 
-// Apply the wrenches of commands; Chipmunk clears forces after each step.
+// Apply the wrenches of commands; Chipmunk clears forces after each sub-step.
 static void apply_wrenches(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);

@@ -63,7 +63,7 @@ void arena_reset(Arena *arena) {
     clear_since(arena, 0);
     if (arena->most > arena->size) {
         free(arena->memory);
-        // A half more, since what a step needs varies.
+        // A half more, since what a sub-step needs varies.
         arena->size = arena->most + arena->most / 2;
         arena->memory = calloc(1, arena->size);
         if (arena->memory == NULL) {

@@ -1,11 +1,13 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Memory of one step: taken piece by piece, given back all at once.
+// Memory of one sub-step: taken piece by piece, given back all at once.
 //
-// Method: a linear allocator (Box2D v3, `arena_allocator.c`). A step that needs more than there is gets the rest from
-// the heap, and the arena has as much from the next step on; so steps allocate nothing once a world has been running.
-// Law: all bits of what is free are 0. Small pieces, of which a joint needs some 70 in a step, are cleared together.
+// Method: a linear allocator (Box2D v3, `arena_allocator.c`). A sub-step that needs more than there is gets the rest
+// from the heap, and the arena has as much from the next sub-step on; so sub-steps allocate nothing once a world has
+// been running.
+// Law: all bits of what is free are 0. Small pieces, of which a joint needs some 70 in a sub-step, are cleared
+// together.
 
 #ifndef PHYSSIM_ARENA_H
 #define PHYSSIM_ARENA_H
@@ -16,7 +18,7 @@
 
 typedef struct Arena {
     char *memory;
-    size_t size, used, most; // [bytes]; `most` is what was in use at once in this step
+    size_t size, used, most; // [bytes]; `most` is what was in use at once in this sub-step
     struct Block *extra;     // from the heap
 } Arena;
 
@@ -35,7 +37,7 @@ static inline size_t arena_mark(const Arena *arena) {
 
 void arena_release(Arena *arena, size_t mark);
 
-// Give back everything, between steps, and grow to what the last step needed.
+// Give back everything, between sub-steps, and grow to what the last sub-step needed.
 void arena_reset(Arena *arena);
 
 void arena_free(Arena *arena);

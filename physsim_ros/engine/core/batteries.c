@@ -10,7 +10,7 @@
 #include "stages.h"
 
 static bool is_docked(const Body *body, const Body *dock) {
-    return dock != body && body_covers(dock->engine, dock->scratch.begin, body->scratch.begin.p);
+    return dock != body && body_covers(dock->engine, dock->own->begin, body->own->begin.p);
 }
 
 // Drain the battery of a robot by a sub-step, and charge it on a dock.

@@ -46,10 +46,10 @@ typedef struct Point {
     bool begins;
     double friction;
     Vec slip;              // velocity of the surfaces
-    double added, added_t; // impulse that an impact next to it has given it in this step [N s]
+    double added, added_t; // impulse that an impact next to it has given it in this sub-step [N s]
 } Point;
 
-// The velocity of a body at the end of the step without impulses.
+// The velocity of a body at the end of the sub-step without impulses.
 static Twist free_twist(const World *world, const cpBody *body) {
     Twist twist = twist_of(body);
     if (is_movable(body)) {
@@ -213,11 +213,11 @@ static void find_impulses(const World *world, Point *points, int count) {
     }
 }
 
-// Velocities of a body just before and just after an impact: those of the end of the step, less what its acceleration
-// adds from the impact on, and less the half-step lead while it flies.
+// Velocities of a body just before and just after an impact: those of the end of the sub-step, less what its
+// acceleration adds from the impact on, and less the half-step lead while it flies.
 static Twist at_impact(const World *world, const Body *body, Twist end, bool flies) {
-    double share = 2.0 * (body->scratch.since + body->scratch.remaining) / world->dt + (flies ? 1.0 : 0.0);
-    return body->dynamic ? twist_plus(end, body->scratch.lead, -share) : end;
+    double share = 2.0 * (body->own->since + body->own->remaining) / world->dt + (flies ? 1.0 : 0.0);
+    return body->dynamic ? twist_plus(end, body->own->lead, -share) : end;
 }
 
 static Twist before_impact(const World *world, const cpBody *body) {
@@ -225,7 +225,7 @@ static Twist before_impact(const World *world, const cpBody *body) {
 }
 
 static Twist after_impact(const World *world, const cpBody *body, Twist end) {
-    return at_impact(world, body_of(body), end, body_of(body)->scratch.bounces);
+    return at_impact(world, body_of(body), end, body_of(body)->own->bounces);
 }
 
 // The energy that the impulses give to the bodies [J]; < 0 is lost. What is gained by rounding counts as nothing.

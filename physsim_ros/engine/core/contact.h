@@ -61,7 +61,7 @@ static inline bool is_impact(const cpArbiter *arbiter) {
     return arbiter->count > 0 && approach_of(arbiter) > slowest_impact;
 }
 
-// Whether a contact takes no impulse in this step (`defer_contacts`).
+// Whether a contact takes no impulse in this sub-step (`defer_contacts`).
 static inline bool is_deferred(const cpContact *point) {
     return point->bounce == INFINITY;
 }

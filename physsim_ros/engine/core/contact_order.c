@@ -7,7 +7,7 @@
 // Few iterations leave a difference by that order, so that the mirror image of a box that slides or leans moves
 // otherwise than the box.
 // Method: the point that lies ahead in the direction in which the lighter body slips on the other, by the friction
-// of the step before, comes first; what does not slip keeps Chipmunk's order.
+// of the sub-step before, comes first; what does not slip keeps Chipmunk's order.
 // Cost: 5 ns a contact.
 // Without it law 27 fails for boxes on an incline; without the slip of contacts that have no friction yet, ten scenes
 // of boxes and their mirror images part.
@@ -20,7 +20,7 @@ static const double telling_friction = 1e-6;
 static const double telling_slip = 1e-6;
 
 // The direction in which the second body slips along a tangent on the first: 1 is along it, 0 none. Of a contact that
-// has had friction in the step before, it is against that.
+// has had friction in the sub-step before, it is against that.
 static int slip_direction(const cpArbiter *arbiter, Vec tangent, Vec gravity_step) {
     const cpContact *one = arbiter->contacts, *other = one + 1;
     double friction = one->jtAcc + other->jtAcc;

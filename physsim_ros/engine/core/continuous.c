@@ -1,14 +1,15 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Continuous collision: the coming step of fast bodies ends where they first hit something.
+// Continuous collision: the coming sub-step of fast bodies ends where they first hit something.
 //
-// Problem: Chipmunk tests for overlap only where a step ends. A disc of 0.1 m at 40 m/s jumps over a wall.
-// Method: pairs that approach by more than a safe depth in a step are found by a broad phase of swept boxes
-// (`swept_boxes`), and advanced to their time of impact (`time_of_impact`). For the rest of the step the two move as
-// one rigid body with their common momentum and angular momentum (a perfectly plastic impact, of the positions only): a
-// light body is carried along by a heavy one and by a kinematic one, and stops at an anchored one (`impact_islands`).
-// Chipmunk then finds the contact where the step ends, and resolves it from the velocities, which stay as they are.
+// Problem: Chipmunk tests for overlap only where a sub-step ends. A disc of 0.1 m at 40 m/s jumps over a wall.
+// Method: pairs that approach by more than a safe depth in a sub-step are found by a broad phase of swept boxes
+// (`swept_boxes`), and advanced to their time of impact (`time_of_impact`). For the rest of the sub-step the two move
+// as one rigid body with their common momentum and angular momentum (a perfectly plastic impact, of the positions
+// only): a light body is carried along by a heavy one and by a kinematic one, and stops at an anchored one
+// (`impact_islands`). Chipmunk then finds the contact where the sub-step ends, and resolves it from the velocities,
+// which stay as they are.
 // Laws: bodies that meet keep the displacement of their common centre of mass, unless one is anchored or kinematic; a
 // pair that overlaps is stopped only where it would come deeper; islands that do not meet do not depend on each other.
 // Cost: 2 µs for a single fast body near nothing; some 2 µs for each pair that could meet.
@@ -20,7 +21,7 @@
 // Up to this many fast bodies, boxes are compared first: it saves time, and changes no result.
 enum { FEW = 8 };
 
-// The displacement of a body in the coming step.
+// The displacement of a body in the coming sub-step.
 static Twist displacement_of(const World *world, const Body *body) {
     return twist_plus((Twist){0}, twist_of(body->engine), world->dt);
 }
@@ -61,8 +62,8 @@ static void set_back(World *world, const Mover *mover) {
     cpBody *engine = mover->body->engine;
     Vec pivot;
     Pose end = pose_at(mover, 1.0, &pivot), free_end = pose_after(engine, world->dt);
-    mover->body->scratch.remaining = mover->body->dynamic ? (1.0 - mover->since) * world->dt : 0.0;
-    mover->body->scratch.carried = (Twist){sub(end.p, mover->pose.p), end.yaw - mover->pose.yaw};
+    mover->body->own->remaining = mover->body->dynamic ? (1.0 - mover->since) * world->dt : 0.0;
+    mover->body->own->carried = (Twist){sub(end.p, mover->pose.p), end.yaw - mover->pose.yaw};
     Vec shift = sub(end.p, free_end.p);
     double turn = mover->turning > 0.0 ? end.yaw - free_end.yaw : 0.0;
     if (sleeps(mover->body)) {

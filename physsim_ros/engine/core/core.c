@@ -31,6 +31,7 @@ void core_free(World *world) {
     arena_free(&world->own->static_arena);
     arena_free(&world->own->system_arena);
     free_report(world);
+    free(world->own->bodies);
     free(world->own->jointed);
     free(world->own->fluid_forces);
     free(world->own);
@@ -48,8 +49,11 @@ void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *f
     own->has_floor = own->has_one_way = own->has_belt = own->has_rolling = own->has_sensor = false;
     free(own->fluid_forces);
     own->fluid_forces = NULL;
+    free(own->bodies);
+    own->bodies = allocated((size_t)count, sizeof(BodyPrivate));
     for (int place = 0; place < count; place++) {
         Body *body = bodies + place;
+        body->own = own->bodies + place;
         body->engine->userData = body;
         own->least_depth = body->sensor ? own->least_depth : least(own->least_depth, body->safe_depth);
         own->has_sensor = own->has_sensor || body->sensor;
@@ -67,7 +71,7 @@ static void list_jointed(World *world) {
     own->jointed = allocated((size_t)world->body_count, sizeof(int));
     own->jointed_count = 0;
     for (int place = 0; place < world->body_count; place++) {
-        if (world->bodies[place].ties.jointed && world->bodies[place].dynamic) {
+        if (world->bodies[place].own->jointed && world->bodies[place].dynamic) {
             own->jointed[own->jointed_count++] = place;
         }
     }
@@ -84,7 +88,7 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
     world->guides = guides;
     world->guide_count = guide_count;
     for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].ties.jointed = false;
+        world->bodies[place].own->jointed = false;
     }
     int next_part = 0, next_row = 0;
     for (int number = 0; number < joint_count; number++) {
@@ -94,12 +98,12 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
         next_row += joints[number].row_count;
         Body *ends[2] = {world->bodies + joints[number].a, world->bodies + joints[number].b};
         for (int end = 0; end < 2; end++) {
-            ends[end]->ties.jointed = ends[end]->ties.jointed || joints[number].row_count > 0;
+            ends[end]->own->jointed = ends[end]->own->jointed || joints[number].row_count > 0;
         }
     }
     assert(next_part == part_count && next_row == row_count);
     for (int number = 0; number < guide_count; number++) {
-        world->bodies[guides[number].body].ties.jointed = true;
+        world->bodies[guides[number].body].own->jointed = true;
     }
     list_jointed(world);
     prepare_springs(world);

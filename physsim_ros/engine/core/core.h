@@ -41,46 +41,8 @@ typedef struct BodyState {
     Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
 } BodyState;
 
-// What its joints make of a body; `core_use_joints` writes it.
-typedef struct BodyTies {
-    uint8_t jointed;   // a joint with rows ends on it
-    uint8_t sprung;    // in an island that a spring holds to something fixed
-    uint8_t motored;   // in one that a motor holds to something fixed
-    uint8_t on_spring; // a spring pulls it, and forces move it
-} BodyTies;
-
-// What stages tell each other of a body within a sub-step, by the file that writes it, in the order of the stages; that
-// of a sleeping body stays until it wakes.
-typedef struct BodyScratch {
-    // `applied_forces.c`, also before a step
-    Twist lead; // half a sub-step of gravity and all forces: by it the velocity of a body in free flight leads
-    // `step.c`, as the sub-step begins
-    Pose begin;
-    double idle; // for which it has been at rest; < 0 while it sleeps [s]
-    // `fields.c`, with `media.c`
-    Twist field;     // half of what fields change its velocity by in this sub-step
-    uint8_t afloat;  // the surface of a medium crosses it
-    uint8_t stirred; // fields act on it that change while it rests
-    // `floor.c`
-    Twist under;            // mean velocity of the floor under it
-    Twist without_contacts; // velocity after the sub-step without contacts
-    // `continuous.c`
-    double remaining; // of the sub-step after it has been stopped [s]
-    Twist carried;    // displacement with what has stopped it, in that time [m, rad]
-    // `step.c`, as Chipmunk's step begins
-    Twist twist;
-    uint8_t thrown; // its velocity was set before this sub-step
-    // `rest_of_step.c`
-    double since;               // time from its first impact to the end of its motion [s]
-    uint8_t bounces;            // its impact throws it off, so gravity acts on the new velocity
-    Twist remaining_move;       // displacement that remains after its impact [m, rad]
-    uint8_t has_remaining_move; // that displacement has been found
-    // `step.c`, as the step ends
-    uint8_t lost; // it has left the range of numbers
-} BodyScratch;
-
-// A body: what requests say of it, which Python writes, and what the core makes of that. The last body of the table is
-// the background, which has the walls.
+// A body: what requests say of it, which Python writes, and its state. The last body of the table is the background,
+// which has the walls.
 typedef struct Body {
     cpBody *engine;
     uint8_t dynamic;       // forces move it
@@ -88,8 +50,8 @@ typedef struct Body {
     uint8_t sensor;        // its contacts have no effect
     uint8_t towed;         // it rolls on an axle without a motor
     cpVect offset;         // the engine's origin in the body's frame [m]
-    double reach;          // no point of it is farther from the engine's origin [m]
-    double half_width;     // of its thinnest piece [m]
+    double reach;          // outer radius about the engine's origin [m]
+    double inner;          // half the width of its thinnest piece [m]
     double safe_depth;     // how far it may be entered in a sub-step unseen [m]
     double slop;           // how far it may overlap others at rest [m]
     double turning_radius; // how far out its turning counts for continuous collision [m]
@@ -108,8 +70,8 @@ typedef struct Body {
     uint8_t closed_sides;  // others do not pass it across that direction
     cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
     BodyState state;
-    BodyTies ties;
-    BodyScratch scratch;
+    uint8_t lost;            // it has left the range of numbers in the last step
+    struct BodyPrivate *own; // what the core keeps of it, as long as it steps this table
 } Body;
 
 // A grip of a hand on a body; Box2D's mouse joint.

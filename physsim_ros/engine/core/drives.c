@@ -52,7 +52,7 @@ static Twist at_center(Twist velocity, Vec center, double yaw) {
 void roll_wheels(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
-        double yaw = world->bodies[robot->body].scratch.begin.yaw;
+        double yaw = world->bodies[robot->body].own->begin.yaw;
         bool obeys = world->step < robot->state.until && !is_empty(robot);
         Twist aim = obeys ? robot->state.aim : (Twist){0}, after = robot->state.wheels;
         if (!is_same(robot->state.wheels, aim) || !is_same(aim, robot->state.aim)) {

@@ -33,7 +33,7 @@ static void find_fluid_force(World *world, const Media *media, Body *body, doubl
     Twist now = true_twist(engine), change = {0};
     if (body->state.free) {
         // It goes on with the acceleration that is half in its lead.
-        change = body->scratch.lead;
+        change = body->own->lead;
     }
     Pose pose = moved(pose_of(engine), twist_plus(now, change, ahead / world->dt), ahead);
     Flight flight = {body->state.free, ahead, now, twist_plus(now, change, 2.0 * ahead / world->dt),
@@ -155,13 +155,13 @@ void apply_fields(World *world) {
         Body *body = world->bodies + place;
         if (is_moved_by_fields(body)) {
             Twist force = force_of_fields(world, body, twist_of(body->engine), attraction[place]);
-            body->scratch.field = half_change(world, body->engine, force);
+            body->own->field = half_change(world, body->engine, force);
             body->engine->f = add(body->engine->f, force.v);
             body->engine->t += force.w;
         }
     }
     for (int number = 0; number < world->attractor_count; number++) {
-        world->bodies[world->attractors[number].body].scratch.stirred = true;
+        world->bodies[world->attractors[number].body].own->stirred = true;
     }
 }
 
@@ -172,7 +172,7 @@ void keep_fields(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         if (is_moved_by_fields(body)) {
-            body->state.field = body->scratch.field;
+            body->state.field = body->own->field;
         }
     }
     find_leads(world);

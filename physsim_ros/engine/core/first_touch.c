@@ -1,10 +1,10 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// First touch: a contact that begins has normal and points of the moment of its impact, not of the end of the step.
+// First touch: a contact that begins has normal and points of the moment of its impact, not of the end of the sub-step.
 //
-// Problem: Chipmunk finds a contact where the step ends, up to a safe depth inside. Until then the line of centres of
-// two discs has turned, by v dt / (2 r) at most; a disc that hits a corner has come past it; a body that slides over
+// Problem: Chipmunk finds a contact where the sub-step ends, up to a safe depth inside. Until then the line of centres
+// of two discs has turned, by v dt / (2 r) at most; a disc that hits a corner has come past it; a body that slides over
 // the seam of two tiles has gone less far past the side of the next one than it lies below its top ("ghost collision":
 // Catto, "Ghost Collisions", box2d.org 2020).
 // And its GJK (`GJKRecurse` in `src/cpCollision.c`) tests with rounded numbers whether the origin is in a triangle: one
@@ -20,8 +20,8 @@
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc, or a corner,
 //    first meets the other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over; at
-//    one behind a face that its shape has met before, it is ignored, as in part 1. That of a disc gets it in each step,
-//    since Chipmunk has it point to the corner until the disc has passed it.
+//    one behind a face that its shape has met before, it is ignored, as in part 1. That of a disc gets it in each
+//    sub-step, since Chipmunk has it point to the corner until the disc has passed it.
 // 4. What `cpArbiterPreStep` had made of the old contacts is made anew.
 //
 // Cost: 0.3 µs a contact that begins, and for two polygons that meet fast 20 ns a corner.
@@ -82,8 +82,7 @@ static bool has_face(const cpShape *polygon, Vec direction) {
 // Whether faces have met by rounding, as the sub-step ends: the next one finds whether by a face or a corner.
 // Continuous collision has stopped others there.
 static bool meets_next(const World *world, cpArbiter *arbiter) {
-    bool stopped =
-        body_of(arbiter->body_a)->scratch.remaining > 0.0 || body_of(arbiter->body_b)->scratch.remaining > 0.0;
+    bool stopped = body_of(arbiter->body_a)->own->remaining > 0.0 || body_of(arbiter->body_b)->own->remaining > 0.0;
     if (stopped || arbiter->count != 1 || kind_of(arbiter->a) == SHAPE_CIRCLE || kind_of(arbiter->b) == SHAPE_CIRCLE) {
         return false;
     }

@@ -6,7 +6,7 @@
 // Problem: bodies on a floor slide to a stop, robots drive, stall and push, conveyors carry.
 // Method: one mechanism. Under a body the floor has a velocity: 0, that of a conveyor, and of a robot besides that of
 // its wheels against the floor. Friction brings the body to that velocity within its limit surface. It is solved before
-// Chipmunk's step, implicitly, with the push of contacts and joints that the last step has had (warm start): so
+// Chipmunk's step, implicitly, with the push of contacts and joints that the last sub-step has had (warm start): so
 // friction resists what pushes a body, and a robot pushes at its full speed. A body that the floor carries moves
 // exactly as the floor; one that slips has the mean of its velocities before and after as it is moved (velocity
 // Verlet), the rest of friction as a force.
@@ -34,8 +34,8 @@
 #include "outline.h"
 #include "stages.h"
 
-// The share of the push of the last step that the next one expects where the floor stands still. With all of it, bodies
-// would stay pressed against each other by friction alone, for ever; so 2 % of the push decays in each step.
+// The share of the push of the last sub-step that the next one expects where the floor stands still. With all of it,
+// bodies would stay pressed against each other by friction alone, for ever; so 2 % of the push decays in each sub-step.
 static const double relaxed = 0.98;
 // The greatest push that is expected, by the limit of friction: more is an impact, which is over.
 static const double most_expected = 2.0;
@@ -45,7 +45,7 @@ static const double least_push = 1e-11;
 // the two limits from 0.01 to 100.
 enum { ITERATIONS = 8 };
 
-// The limit surface of a body, as changes of its velocity in a step.
+// The limit surface of a body, as changes of its velocity in a sub-step.
 typedef struct LimitSurface {
     double lever;        // mean distance of the points that bear it [m]
     double most;         // greatest change of velocity [m/s]
@@ -108,7 +108,7 @@ static Conveyors conveyors_of(World *world) {
         const Body *body = world->bodies + place;
         if (is_conveyor(body)) {
             Vec reach = vec(body->reach, body->reach);
-            boxes[count] = (Box){sub(body->scratch.begin.p, reach), add(body->scratch.begin.p, reach)};
+            boxes[count] = (Box){sub(body->own->begin.p, reach), add(body->own->begin.p, reach)};
             conveyors.list[count++] = (Conveyor){body, twist_of(body->engine)};
         }
     }
@@ -127,7 +127,7 @@ static bool find_under(int number, void *data) {
     Under *under = data;
     const Body *conveyor = under->conveyors->list[number].body;
     bool may_be = conveyor != under->body && number > under->last;
-    if (may_be && body_covers(conveyor->engine, conveyor->scratch.begin, under->body->scratch.begin.p)) {
+    if (may_be && body_covers(conveyor->engine, conveyor->own->begin, under->body->own->begin.p)) {
         under->last = number;
     }
     return true;
@@ -136,14 +136,14 @@ static bool find_under(int number, void *data) {
 // The velocity at the centre of mass of a body of the conveyor under it.
 static Twist conveyed(const Conveyors *conveyors, const Body *body) {
     Under under = {conveyors, body, -1};
-    tree_query(&conveyors->tree, (Box){body->scratch.begin.p, body->scratch.begin.p}, find_under, &under);
+    tree_query(&conveyors->tree, (Box){body->own->begin.p, body->own->begin.p}, find_under, &under);
     if (under.last < 0) {
         return (Twist){0};
     }
     const Conveyor *conveyor = conveyors->list + under.last;
-    Pose begin = conveyor->body->scratch.begin;
+    Pose begin = conveyor->body->own->begin;
     Vec surface = rotated(conveyor->body->surface, rotation(begin.yaw));
-    Vec arm = sub(body->scratch.begin.p, begin.p);
+    Vec arm = sub(body->own->begin.p, begin.p);
     return (Twist){add(velocity_at(conveyor->twist, arm), surface), conveyor->twist.w};
 }
 
@@ -158,15 +158,15 @@ static Twist twist_of_axle(const Body *body, Twist twist, double yaw) {
     return (Twist){add(twist.v, scaled(along, impulse * engine->m_inv)), twist.w + impulse * engine->i_inv * lever};
 }
 
-// Bring a body to the velocity of the floor under it: its mean in the step, and that at its end. Below a towed body
+// Bring a body to the velocity of the floor under it: its mean in the sub-step, and that at its end. Below a towed body
 // these are the velocities at which its axle rolls.
 static void bring_to_floor(World *world, Body *body, Twist mean, Twist end) {
     cpBody *engine = body->engine;
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
     Twist before = twist_of(engine);
-    before = body->state.free ? twist_plus(before, body->scratch.lead, -1.0) : before;
-    // What the step brings without the floor: damping, gravity, forces of commands and hands.
+    before = body->state.free ? twist_plus(before, body->own->lead, -1.0) : before;
+    // What the sub-step brings without the floor: damping, gravity, forces of commands and hands.
     Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
                    before.w * kept + engine->t * angular};
     LimitSurface surface = surface_of(world, body);
@@ -176,7 +176,7 @@ static void bring_to_floor(World *world, Body *body, Twist mean, Twist end) {
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
     Twist next = twist_plus(after, expected, 1.0);
     if (body->towed) {
-        double yaw = body->scratch.begin.yaw, turn = next.w * dt;
+        double yaw = body->own->begin.yaw, turn = next.w * dt;
         end = twist_of_axle(body, next, yaw + turn);
         Twist sum = twist_plus(before, end, 1.0);
         mean = twist_of_axle(body, twist_scaled(sum, 0.5), yaw + turn / 2.0);
@@ -189,8 +189,8 @@ static void bring_to_floor(World *world, Body *body, Twist mean, Twist end) {
         Twist sum = twist_plus(twist_plus(before, after, 1.0), twist_plus(expected, change, 1.0), 1.0);
         as_moved = twist_scaled(sum, 0.5);
     }
-    body->scratch.under = mean;
-    body->scratch.without_contacts = twist_plus(after, change, 1.0);
+    body->own->under = mean;
+    body->own->without_contacts = twist_plus(after, change, 1.0);
     if (!sleeps(body)) {
         set_twist(engine, as_moved);
         Vec added = add(scaled(sub(before.v, as_moved.v), kept), change.v);
@@ -256,7 +256,7 @@ void find_floor_pushes(World *world) {
         // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in
         // turns.
         Twist push =
-            twist_plus(twist_plus(twist_of(body->engine), body->scratch.without_contacts, -1.0), body->state.push, 1.0);
+            twist_plus(twist_plus(twist_of(body->engine), body->own->without_contacts, -1.0), body->state.push, 1.0);
         push = twist_scaled(push, 0.5);
         double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
         body->state.push = sleeps(body) || size < least_push ? (Twist){0} : push;

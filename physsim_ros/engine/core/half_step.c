@@ -3,15 +3,15 @@
 
 // Half-step velocity: exact free flight (leapfrog; Störmer, Verlet).
 //
-// Problem: Chipmunk moves a body with the velocity of the step before and then accelerates it, so that a thrown ball
+// Problem: Chipmunk moves a body with the velocity of its last step and then accelerates it, so that a thrown ball
 // falls ½ g t dt too far (law 1: 4 cm in 2 s at 240 Hz).
-// Method: while a body is in free flight, its velocity in the engine leads the true one by half a step of its
-// acceleration; what is reported is the true one. A body is in free flight if its velocity changed in the last step by
-// its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly. One whose
-// velocity is set flies unless a contact that pressed on it in the last step still holds it.
+// Method: while a body is in free flight, its velocity in the engine leads the true one by half a sub-step of its
+// acceleration; what is reported is the true one. A body is in free flight if its velocity changed in the last sub-step
+// by its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly. One whose
+// velocity is set flies unless a contact that pressed on it in the last sub-step still holds it.
 //
-// A body on a spring is never in free flight. As it begins, its velocity gets half a step of what its weight and its
-// springs change that by; from then on it leads, as that of a body on a rod does.
+// A body on a spring is never in free flight. As it begins, its velocity gets half a sub-step of what its weight and
+// its springs change that by; from then on it leads, as that of a body on a rod does.
 //
 // Reports.
 // Law: the impulses of contacts and joints, with gravity, are what changes the momentum of a body, but for m times a
@@ -21,7 +21,7 @@
 // Method: of an impulse in the first sub-step of such a body that share is reported with which the true velocity goes
 // into the velocity of the engine, along the impulse; at most the momenta of both leads are taken off.
 //
-// Cost: a comparison of velocities before and after each step.
+// Cost: a comparison of velocities before and after each sub-step.
 
 #include "contact.h"
 #include "lost_support.h"
@@ -33,16 +33,17 @@ static const double rounding_of_velocity = 1e-12;
 
 // Whether springs or motors hold the island of a body.
 static bool is_held(const Body *body) {
-    return body->ties.sprung || body->ties.motored;
+    return body->own->sprung || body->own->motored;
 }
 
-// Whether a contact that pressed on a body in the last step parts by less than the step pulls its bodies together.
+// Whether a contact that pressed on a body in the last sub-step parts by less than the sub-step pulls its bodies
+// together.
 static bool keeps_contact(const Body *body) {
     for (const cpArbiter *each = body->engine->arbiterList; each != NULL; each = next_of(each, body->engine)) {
         Twist a = true_twist(each->body_a), b = true_twist(each->body_b);
         for (int number = 0; number < each->count && presses(each); number++) {
             double parting = dot(parting_velocity(each->contacts + number, a, b), each->n);
-            if (parting <= length(body->scratch.lead.v)) {
+            if (parting <= length(body->own->lead.v)) {
                 return true;
             }
         }
@@ -50,7 +51,7 @@ static bool keeps_contact(const Body *body) {
     return false;
 }
 
-// Find the free flight that the next step begins with, and the bodies whose support was removed (body_count).
+// Find the free flight that the next sub-step begins with, and the bodies whose support was removed (body_count).
 static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
     if (world->own->all_active) {
         find_leads(world);
@@ -75,7 +76,7 @@ static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
 // The velocity of a body that begins or ceases to fly.
 static Twist with_lead(const Body *body, bool flies) {
     double sign = (double)flies - (double)body->state.free;
-    return twist_plus(twist_of(body->engine), body->scratch.lead, sign);
+    return twist_plus(twist_of(body->engine), body->own->lead, sign);
 }
 
 static void forget_impulses(const Body *body) {
@@ -86,13 +87,13 @@ static void forget_impulses(const Body *body) {
     }
 }
 
-// Whether a body that hangs on springs begins its first step.
+// Whether a body that hangs on springs begins its first sub-step.
 static bool begins_on_spring(const Body *body) {
-    return body->state.free && body->dynamic && body->ties.sprung && !body->ties.motored;
+    return body->state.free && body->dynamic && body->own->sprung && !body->own->motored;
 }
 
-// Find half of what the coming step changes velocities by, of bodies that begin on springs (body_count; the rest is 0);
-// NULL if none begins.
+// Find half of what the coming sub-step changes velocities by, of bodies that begin on springs (body_count; the rest is
+// 0); NULL if none begins.
 static const Twist *half_changes(World *world) {
     Twist *changes = NULL;
     bool *begins = NULL;
@@ -103,7 +104,7 @@ static const Twist *half_changes(World *world) {
             begins = begins == NULL ? TAKE(&world->own->arena, bool, world->body_count) : begins;
             int place = place_of(world, body->engine);
             begins[place] = true;
-            changes[place] = body->scratch.lead;
+            changes[place] = body->own->lead;
         }
     }
     if (changes != NULL) {
@@ -133,7 +134,7 @@ void begin_flights(World *world) {
 }
 
 static bool begins_to_fly(const Body *body) {
-    return body->scratch.thrown && body->state.free && body->dynamic;
+    return body->own->thrown && body->state.free && body->dynamic;
 }
 
 double reported_share(const Body *a, const Body *b, Vec impulse) {
@@ -142,17 +143,16 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
     for (int end = 0; end < 2; end++) {
         const Body *body = bodies[end], *other = bodies[1 - end];
         if (begins_to_fly(body) && size > 0.0) {
-            Vec against = begins_to_fly(other) ? vec(0.0, 0.0) : other->scratch.twist.v;
+            Vec against = begins_to_fly(other) ? vec(0.0, 0.0) : other->own->twist.v;
             // Without the impulse, the true velocity and that of the engine would be these.
-            Vec true_end = add(body->scratch.twist.v, body->scratch.lead.v),
-                engine_end = add(true_end, body->scratch.lead.v);
-            double lead = body->scratch.bounces ? 0.0 : fabs(dot(body->scratch.lead.v, impulse)) / size;
+            Vec true_end = add(body->own->twist.v, body->own->lead.v), engine_end = add(true_end, body->own->lead.v);
+            double lead = body->own->bounces ? 0.0 : fabs(dot(body->own->lead.v, impulse)) / size;
             load += fabs(dot(sub(lead > 0.0 ? true_end : engine_end, against), impulse));
             all += fabs(dot(sub(engine_end, against), impulse));
             taken_back += body->engine->m * lead;
         }
     }
-    if (taken_back == 0.0 || all == 0.0) {
+    if (all == 0.0) {
         return 1.0;
     }
     // Bodies that part are slower in the engine than in truth, so that the share would exceed 1.
@@ -166,8 +166,8 @@ void find_free(World *world) {
         if (!body->dynamic || is_held(body) || body->braking > 0.0 || sleeps(body)) {
             continue;
         }
-        Twist after = twist_of(body->engine), flown = body->scratch.lead;
-        flown = twist_plus(twist_scaled(body->scratch.twist, world->own->kept), flown, 2.0);
+        Twist after = twist_of(body->engine), flown = body->own->lead;
+        flown = twist_plus(twist_scaled(body->own->twist, world->own->kept), flown, 2.0);
         body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
                            fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
                            fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));
@@ -181,7 +181,7 @@ void core_read_state(World *world, Motion *motions, uint8_t *free, uint8_t *unsu
     find_start(world, flies, falls);
     for (int place = 0; place < world->body_count - 1; place++) {
         const Body *body = world->bodies + place;
-        // What is still to begin on a spring begins in the next step of a space that is built from this state, too.
+        // What is still to begin on a spring begins in the next sub-step of a space that is built from this state, too.
         free[place] = flies[place] || begins_on_spring(body);
         // A sleeping body does not move, whatever velocity Chipmunk keeps for it.
         Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, free[place]);
@@ -203,7 +203,7 @@ void core_observe(World *world, Pose *poses, Twist *twists) {
         poses[place] = pose;
         Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, flies[place]);
         // The same sum as in a space that is built from this state, to the bit.
-        twists[place] = flies[place] ? twist_plus(twist, body->scratch.lead, -1.0) : twist;
+        twists[place] = flies[place] ? twist_plus(twist, body->own->lead, -1.0) : twist;
     }
 }
 

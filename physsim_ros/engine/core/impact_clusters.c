@@ -101,6 +101,7 @@ static void add_contact(Cluster *cluster, cpArbiter *arbiter) {
     }
 }
 
+// `qsort` may put equal hits in any order, and the order of points is that of sums, so that shapes decide, too.
 static int by_bodies(const void *one, const void *other) {
     const Hit *x = one, *y = other;
     return compared(4, (double[][2]){{x->a, y->a},

@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Islands of bodies that have met in the coming step, and move on as one.
+// Islands of bodies that have met in the coming sub-step, and move on as one.
 //
 // Problem: a body that has met another one meets others as the two move on together.
 // Method: rounds. Each finds the impacts to come, and joins those that meet before anything near them does. The two go
@@ -14,17 +14,17 @@
 #include "time_of_impact.h"
 #include <string.h>
 
-// Greatest count of successive impacts of a body in a step, as in a row of bodies before a wall. Beyond it Chipmunk's
-// own result holds.
+// Greatest count of successive impacts of a body in a sub-step, as in a row of bodies before a wall. Beyond it
+// Chipmunk's own result holds.
 enum { IMPACT_ROUNDS = 10 };
 
-// Two movers that meet, and the share of the step at which they do.
+// Two movers that meet, and the share of the sub-step at which they do.
 typedef struct Impact {
     double share;
     int one, other;
 } Impact;
 
-// Impacts to come, in memory of the step that grows.
+// Impacts to come, in memory of the sub-step that grows.
 typedef struct Impacts {
     Sweep *sweep;
     Impact *list;
@@ -62,7 +62,7 @@ bool may_meet(const Body *a, const Body *b) {
     return !share_group(a, b) && !is_excluded_by_joint(a->engine, b->engine);
 }
 
-// The velocity of the centre of mass where a motion begins [m a step].
+// The velocity of the centre of mass where a motion begins [m a sub-step].
 static Vec center_rate(const Mover *mover) {
     return velocity_at(mover->rate, sub(mover->pose.p, mover->pivot));
 }
@@ -73,7 +73,7 @@ static bool collide(const Mover *one, const Mover *other) {
            may_meet(one->body, other->body);
 }
 
-// By how far two movers approach in the rest of the step, at most [m].
+// By how far two movers approach in the rest of the sub-step, at most [m].
 static double approach_left(const Mover *one, const Mover *other) {
     double distance = length(sub(center_rate(one), center_rate(other)));
     distance += fabs(one->rate.w) * one->turning + fabs(other->rate.w) * other->turning;
@@ -127,7 +127,7 @@ static int by_share(const void *one, const void *other) {
 }
 
 // The common motion of the members of an island, with the momentum and angular momentum that they have: its centre of
-// mass, its displacement and their rotation in a step.
+// mass, its displacement and their rotation in a sub-step.
 static Twist common_motion(const Sweep *sweep, const int *members, int count, double share, Vec *center) {
     double mass = 0.0, moment = 0.0, angular = 0.0;
     Vec sum = {0.0, 0.0}, momentum = {0.0, 0.0};

@@ -9,7 +9,8 @@
 // Whether two bodies collide: no joint between them, and no group, excludes that.
 bool may_meet(const Body *a, const Body *b);
 
-// Merge bodies that meet in the coming step into islands, starting from `fast`: bodies that could pass through others.
+// Merge bodies that meet in the coming sub-step into islands, starting from `fast`: bodies that could pass through
+// others.
 void join_impacts(Sweep *sweep, const int *fast, int count);
 
 #endif

@@ -1,14 +1,14 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Loads outlive impacts: the next step starts from the impulses of loads, not from those of impacts.
+// Loads outlive impacts: the next sub-step starts from the impulses of loads, not from those of impacts.
 //
-// Problem: the solver starts from the impulses of the step before (warm starting), which for a load are nearly those of
-// now. The impulse of an impact acts once; a solver that starts from it has to take it back, and few iterations do not:
-// a disc of clay that falls on a light plate on the floor is thrown up by half a metre.
-// Method: our own. A load grows step by step, an impact comes at once. A contact starts the next step with at most four
-// times the impulse with which it started this one, and what stops the slowest impact; one that begins starts the next
-// with none, or with the least number that tells a one-way body that it has carried one.
+// Problem: the solver starts from the impulses of the sub-step before (warm starting), which for a load are nearly
+// those of now. The impulse of an impact acts once; a solver that starts from it has to take it back, and few
+// iterations do not: a disc of clay that falls on a light plate on the floor is thrown up by half a metre.
+// Method: our own. A load grows step by step, an impact comes at once. A contact starts the next sub-step with at most
+// four times the impulse with which it started this one, and what stops the slowest impact; one that begins starts the
+// next with none, or with the least number that tells a one-way body that it has carried one.
 // Law: each contact is bounded by itself, so that a pile bears its load while things still fall onto it.
 // Limit: with a bound of twice the impulse, one crowd in a hundred gains 5 % of its energy, since more of the loads are
 // bounded beside others that are not.
@@ -21,7 +21,7 @@
 #include "stages.h"
 #include <float.h>
 
-// Growth of a load in a step, at most.
+// Growth of a load in a sub-step, at most.
 static const double growth = 4.0;
 
 typedef struct Load {

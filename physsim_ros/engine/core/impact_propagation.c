@@ -3,20 +3,20 @@
 
 // Impact propagation: elastic contacts next to each other are solved one after the other.
 //
-// Problem: Chipmunk takes the restitution of a contact from the approach velocity before the step and solves all
+// Problem: Chipmunk takes the restitution of a contact from the approach velocity before the sub-step and solves all
 // contacts together. The second of two touching balls has no approach velocity against the third when the first hits
 // it, so that contact is solved as inelastic, and the row takes the impact as one body. Where a body is in two
 // impacts at once, the ten iterations of the solver do not converge, and energy is lost or gained.
 // Method: sequential impacts: pairwise Newton restitution, the fastest approach first, each round being one step of
 // Chipmunk (Smith, Kaufman, Vouga, Tamstorf and Grinspun, "Reflections on Simultaneous Impact", SIGGRAPH 2012,
-// section 3, Gauss-Seidel impacts). A contact is deferred by a step while one of its bodies is in a faster impact.
-// The next step finds the velocity that the impact has given, and passes it on.
+// section 3, Gauss-Seidel impacts). A contact is deferred by a sub-step while one of its bodies is in a faster impact.
+// The next sub-step finds the velocity that the impact has given, and passes it on.
 // Scope: contacts of a restitution from `elastic` on. Contacts under load, as in a stack, and deep ones are not
 // deferred, nor contacts that are equally fast: what is symmetric stays so. Each decision depends on the contacts in
-// this step of the two bodies, and of those that rigid joints tie to them.
+// this sub-step of the two bodies, and of those that rigid joints tie to them.
 // Cost: 20 ns an elastic contact.
 // Without it laws 17 (Newton's cradle), 21 (elastic discs keep their energy) and 36 (elastic rows) fail.
-// Limits: a contact that is deferred sinks by a step of the impact. Elastic piles overlap for another reason: four
+// Limits: a contact that is deferred sinks by a sub-step of the impact. Elastic piles overlap for another reason: four
 // iterations in a sub-step do not carry an impact through a column (`docs/physics.md`, Piles).
 
 #include "contact.h"
@@ -28,7 +28,7 @@
 static const double elastic = 0.75;
 // Approach velocities of this ratio are equal but for rounding.
 static const double alike = 1.0 - 1e-9;
-// Share of the impact next to a contact that its impulse of the last step has to stop, so that it is under load.
+// Share of the impact next to a contact that its impulse of the last sub-step has to stop, so that it is under load.
 static const double load_share = 0.05;
 
 static double depth_of(const cpArbiter *arbiter) {
@@ -82,17 +82,17 @@ static double *fastest_impacts(World *world) {
     return impacts;
 }
 
-// Exclude a contact from this step, unless it is as fast as the impact or under load.
+// Exclude a contact from this sub-step, unless it is as fast as the impact or under load.
 //
 // `bounce` is set to e v_n by `cpArbiterPreStep`, v_n < 0 being approach; the solver seeks an impulse `jnAcc` >= 0 for
-// which v_n >= -bounce, from that of the step before on. An infinite `bounce` permits any approach.
+// which v_n >= -bounce, from that of the sub-step before on. An infinite `bounce` permits any approach.
 static void defer(cpArbiter *arbiter, double impact) {
     for (int number = 0; number < arbiter->count; number++) {
         const cpContact *point = arbiter->contacts + number;
         if (-point->bounce >= alike * impact * arbiter->e) {
             return;
         }
-        // An impulse of the last step where bodies do not part is a load, as in a stack.
+        // An impulse of the last sub-step where bodies do not part is a load, as in a stack.
         if (point->bounce < slowest_impact * arbiter->e && point->jnAcc > load_share * impact * point->nMass) {
             return;
         }
@@ -108,8 +108,8 @@ static double impact_of(const World *world, const double *impacts, const cpArbit
     return greatest(impacts[place_of(world, arbiter->body_a)], impacts[place_of(world, arbiter->body_b)]);
 }
 
-// Whether a contact is next to a faster impact. One that is deeper than two steps of the impact take it is solved with
-// the others.
+// Whether a contact is next to a faster impact. One that is deeper than two sub-steps of the impact take it is solved
+// with the others.
 static bool is_weaker(const World *world, const cpArbiter *arbiter, double impact) {
     double deepest = slop_of(arbiter) + 2.0 * impact * world->dt;
     return is_elastic(arbiter) && approach_of(arbiter) < alike * impact && depth_of(arbiter) < deepest;

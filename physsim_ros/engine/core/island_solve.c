@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// One island in one step: what the solvers of velocities and of positions share.
+// One island in one sub-step: what the solvers of velocities and of positions share.
 
 #include "island_solve.h"
 

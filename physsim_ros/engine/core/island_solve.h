@@ -13,14 +13,14 @@ static const double limit_slop = 1e-4;
 // joints that contradict each other move their bodies no further than that.
 static const double fastest_correction = 20.0;
 
-// One island in one step.
+// One island in one sub-step.
 typedef struct Solve {
     Arena *arena;
     double dt;           // [s]
     double overlap_kept; // share of an overlap that is not pushed out in a sub-step
     const Island *island;
     System system;
-    Twist *velocities;   // (body_count): of this step
+    Twist *velocities;   // (body_count): of this sub-step
     Pose *poses;         // (body_count)
     double *excess;      // (joint_row_count): C [m, rad]
     Jacobian *jacobians; // (link_count): where the step of Chipmunk ends

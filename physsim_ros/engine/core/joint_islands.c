@@ -230,7 +230,7 @@ static int number_in(Numbering *numbering, int place) {
         numbering->places[number] = place;
         numbering->numbers[place] = number + 1;
         island->engine[number] = body->engine;
-        island->jointed[number] = body->ties.jointed;
+        island->jointed[number] = body->own->jointed;
         island->inverses[number] = (Inverse){body->engine->m_inv, body->engine->i_inv};
         island->turns[number] = (Turn){0.0, {1.0, 0.0}};
     }

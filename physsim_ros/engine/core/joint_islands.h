@@ -23,7 +23,7 @@ typedef struct Bearing {
     double slop;             // overlap that stays [m]
     double slide;            // velocity across the normal of the surfaces against their bodies [m/s]
     double closing;          // impulse along the normal by which an overlap was closed [N s]
-    double remaining;        // of the step after the impact; 0 for a contact that does not begin [s]
+    double remaining;        // of the sub-step after the impact; 0 for a contact that does not begin [s]
     double rolling;          // arm of the load ahead of a disc that rolls; 0 is none [m]
     RollingRow *rolling_row; // NULL is none
 } Bearing;
@@ -41,8 +41,8 @@ typedef struct Island {
     Row **rows;                 // (joint_row_count)
     const Joint **joint_of_row; // (joint_row_count): NULL of rolling resistance
     double **impulses;          // (joint_row_count): where Chipmunk stores them [N s, N m s]
-    double *last;               // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]
-    double **closing;           // (joint_row_count): where those of the positions are stored [N s, N m s]
+    double *last;     // (row_count): impulses before Chipmunk's solver, those of the sub-step before [N s, N m s]
+    double **closing; // (joint_row_count): where those of the positions are stored [N s, N m s]
     Bearing *bearings;
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
     bool *jointed;   // (body_count)

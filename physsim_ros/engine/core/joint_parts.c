@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// The constraints that a joint consists of in Chipmunk: what they need before a step, and where their impulses are.
+// The constraints that a joint consists of in Chipmunk: what they need before a sub-step, and where their impulses are.
 
 #include "joint_parts.h"
 #include "joint_rows.h"

@@ -11,9 +11,9 @@
 // The displacement then changes velocities as far as it takes energy from the bodies, seen from what holds them (the
 // velocity update of position based dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007).
 // Law: a gap never becomes energy.
-// Reports: the impulses of that change are reported, but the next step does not start from them. Where rows contradict
-// each other they are of any size and cancel in these poses alone; a step that started from them after a turn of its
-// bodies would gain the difference.
+// Reports: the impulses of that change are reported, but the next sub-step does not start from them. Where rows
+// contradict each other they are of any size and cancel in these poses alone; a sub-step that started from them after a
+// turn of its bodies would gain the difference.
 
 #include "island_solve.h"
 #include "mixed_lcp.h"
@@ -36,8 +36,8 @@ typedef struct Displacement {
     Pose *start, *pushed; // (body_count): before it, and after the pushes of other contacts
     double *excess;       // (joint_row_count): C at the poses of now
     Jacobian *jacobians;  // (link_count): of joints there
-    double *gaps;         // (joint_row_count): C, less what is not closed in this step
-    double *deferred;     // (joint_row_count): parts of gaps that are too wide to be closed in one step
+    double *gaps;         // (joint_row_count): C, less what is not closed in this sub-step
+    double *deferred;     // (joint_row_count): parts of gaps that are too wide to be closed in one sub-step
     double *room;         // (bearing_count): distance by which contacts may approach at the start [m]
     double *distances;    // (bearing_count): the same now, < 0 where they overlap
     double *impulses;     // (row_count): λ [kg m, kg m²]
@@ -63,7 +63,7 @@ static Twist displacement(Pose from, Pose to) {
 }
 
 // Move jointed bodies by the pushes of contacts that are no rows here. Those of the rows' own contacts are removed,
-// since their overlaps are solved here. What has no joints is moved by Chipmunk in the next step.
+// since their overlaps are solved here. What has no joints is moved by Chipmunk in the next sub-step.
 static void take_pushes(Solve *solve) {
     const Island *island = solve->island;
     Twist *momenta = TAKE(solve->arena, Twist, island->body_count);
@@ -112,7 +112,7 @@ static Displacement begin_displacement(Solve *solve) {
         double gap = gap_of(island->rows[row], solve->holds[row], move.excess[row]);
         move.deferred[row] = gap - clamped(gap, -most, most);
     }
-    // Of an overlap Chipmunk's share of a step is pushed out; nothing gets deeper.
+    // Of an overlap Chipmunk's share of a sub-step is pushed out; nothing gets deeper.
     for (int number = 0; number < island->bearing_count; number++) {
         const Bearing *bearing = island->bearings + number;
         Ends ends = island->ends[normal_row(island, number)];
@@ -273,16 +273,11 @@ void solve_positions(Solve *solve) {
     size_t mark = arena_mark(solve->arena);
     Displacement move = begin_displacement(solve);
     Best best = {INFINITY, TAKE(solve->arena, Pose, island->body_count), TAKE(solve->arena, double, island->row_count)};
-    bool has_steps = false;
-    for (int number = 0; number <= MOST_STEPS; number++) {
+    // Where no sum is a number, bodies stay.
+    memcpy(best.poses, solve->poses, (size_t)island->body_count * sizeof(Pose));
+    int number = 0;
+    for (;; number++) {
         measure_gaps(solve, &move);
-        if (number == 0) {
-            // Where no sum is a number, bodies stay.
-            memcpy(best.poses, solve->poses, (size_t)island->body_count * sizeof(Pose));
-        }
-        if (number > 0 && move.widest <= closed) {
-            best.sum = INFINITY;
-        }
         keep_better(solve, &move, &best);
         if (number == MOST_STEPS || move.widest <= (number > 0 ? closed : negligible)) {
             break;
@@ -300,9 +295,8 @@ void solve_positions(Solve *solve) {
         }
         arena_release(solve->arena, step);
         read_rows(island, solve->poses, move.excess, move.jacobians);
-        has_steps = true;
     }
-    if (has_steps) {
+    if (number > 0) {
         memcpy(solve->poses, best.poses, (size_t)island->body_count * sizeof(Pose));
         read_rows(island, solve->poses, move.excess, move.jacobians);
         turn_momenta(solve, &move, best.impulses);

@@ -12,7 +12,7 @@
 // what bears the contacts that stay its own. Without them a stack on a platform that hangs by rods has nothing below it
 // (law 18): ten boxes sink by 7 cm.
 // Scope: impulses of springs without dampers, and contacts between bodies without joints, stay Chipmunk's.
-// Cost: 5 µs a step for a pendulum, 150 µs for a chain of fifty axles.
+// Cost: 5 µs a sub-step for a pendulum, 150 µs for a chain of fifty axles.
 // Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail.
 
 #include "island_solve.h"
@@ -29,7 +29,7 @@ static bool of_springs(const Island *island) {
 }
 
 // Move the upper bounds that have a rate: by that as long as the joint holds, else no further than to where x will be
-// in the next step.
+// in the next sub-step.
 static void move_bounds(const Solve *solve) {
     const Island *island = solve->island;
     for (int number = 0; number < island->joint_row_count; number++) {

@@ -7,12 +7,12 @@
 // Method: the impulses that Chipmunk gave to the rows are taken back, and all are found together
 // (`velocity_rows.c`), with the bounces of contacts (`joint_bounces.c`).
 //
-// Curvature: a point on a circle leaves its tangent in half a step, so that rows are solved for
+// Curvature: a point on a circle leaves its tangent in half a sub-step, so that rows are solved for
 // J v = - dt / 2 (dJ/dt) v, as SHAKE has it (Ryckaert, Ciccotti and Berendsen, J. Comput. Phys. 23, 1977); without that
-// a pendulum loses (w dt)² / 2 of its energy in a step. An island gets no more energy by this than its rows take from
-// the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
-// pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that holds, as a taut
-// rope does, also gets the curvature term if that loads it more.
+// a pendulum loses (w dt)² / 2 of its energy in a sub-step. An island gets no more energy by this than its rows take
+// from the velocities with which the sub-step began: those of a point that follows its circle are half a sub-step
+// behind it, and pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that
+// holds, as a taut rope does, also gets the curvature term if that loads it more.
 // Cost: that of `joint_solver.c`.
 
 #include "joint_bounces.h"
@@ -62,7 +62,7 @@ static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *ve
     for (int body = 0; body < island->body_count; body++) {
         straight[body] = twist_plus(velocities[body], solution->changes[body], 1.0);
         halfway[body] = moved(solve->poses[body], straight[body], solve->dt / 2.0);
-        begun[body] = body_of(island->engine[body])->scratch.twist;
+        begun[body] = body_of(island->engine[body])->own->twist;
     }
     double *excess = TAKE(arena, double, island->joint_row_count);
     Jacobian *jacobians = TAKE(arena, Jacobian, solve->system.link_count);
@@ -88,7 +88,7 @@ static void bend(Solve *solve, VelocityRows *rows, Solution *solution, Twist *ve
     }
 }
 
-// Find the displacements in the rest of the step since impacts (`rest_of_step.c`). The rows of an impact get the
+// Find the displacements in the rest of the sub-step since impacts (`rest_of_step.c`). The rows of an impact get the
 // difference of velocities that their bodies have by it; what holds beside them holds on these displacements, too.
 static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solution *solution,
                               const Twist *velocities) {

@@ -9,8 +9,8 @@
 // strictly monotone linear complementarity problems", 1994): all rows that are on the wrong side change it at once.
 // Scope: at most `LCP_ROWS` rows. `mixed_lcp.c` has the same method for the rows of a machine, each of which couples
 // few bodies of many: its factors are sparse, and laid out once for thousands of steps. Impacts are others in each
-// step, of a few points that all couple each other: a dense matrix on the stack is solved in less time than a layout is
-// made in.
+// sub-step, of a few points that all couple each other: a dense matrix on the stack is solved in less time than a
+// layout is made in.
 
 #include "lcp.h"
 #include <assert.h>

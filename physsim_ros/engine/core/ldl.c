@@ -40,21 +40,12 @@ static int reach(const Ldl *ldl, int column, const int *parents, int *marks, int
     return count;
 }
 
-void ldl_analyse(Ldl *ldl, Arena *arena) {
-    int size = ldl->size;
-    ldl->changed = TAKE(arena, bool, size);
-    ldl->parents = TAKE(arena, int, size);
-    ldl->pattern_starts = TAKE(arena, int, size + 1);
-    ldl->factor_starts = TAKE(arena, int, size + 1);
-    ldl->inverse_pivots = TAKE(arena, double, size);
-    ldl->work = TAKE(arena, double, size);
-    int *parents = ldl->parents, *marks = TAKE(arena, int, size);
-    // The parent of a column in the elimination tree is the first row below it in L.
-    int *counts = TAKE(arena, int, size);
-    for (int column = 0; column < size; column++) {
-        parents[column] = NO_PARENT;
+// Find the elimination tree: the parent of a column is the first row below it in L. `counts` has the entries of columns
+// of L then, and `pattern_starts` those of rows.
+static void find_elimination_tree(Ldl *ldl, int *marks, int *counts) {
+    for (int column = 0; column < ldl->size; column++) {
+        ldl->parents[column] = NO_PARENT;
         marks[column] = column + 1;
-        ldl->changed[column] = true;
         int row_count = 0;
         for (int entry = ldl->starts[column]; entry < ldl->starts[column + 1]; entry++) {
             int node = ldl->rows[entry];
@@ -63,27 +54,21 @@ void ldl_analyse(Ldl *ldl, Arena *arena) {
                 marks[node] = column + 1;
                 counts[node]++;
                 row_count++;
-                if (parents[node] == NO_PARENT) {
-                    parents[node] = column;
+                if (ldl->parents[node] == NO_PARENT) {
+                    ldl->parents[node] = column;
                 }
-                node = parents[node];
+                node = ldl->parents[node];
             }
         }
         ldl->pattern_starts[column + 1] = ldl->pattern_starts[column] + row_count;
     }
-    for (int column = 0; column < size; column++) {
-        ldl->factor_starts[column + 1] = ldl->factor_starts[column] + counts[column];
-        counts[column] = ldl->factor_starts[column];
-        marks[column] = 0;
-    }
-    int total = ldl->factor_starts[size];
-    ldl->pattern = TAKE(arena, int, total);
-    ldl->places = TAKE(arena, int, total);
-    ldl->factor_rows = TAKE(arena, int, total);
-    ldl->factors = TAKE(arena, double, total);
-    for (int row = 0; row < size; row++) {
+}
+
+// List the columns of each row of L, and where each entry is in its column, whose next place is in `counts`.
+static void find_pattern(Ldl *ldl, int *marks, int *counts) {
+    for (int row = 0; row < ldl->size; row++) {
         int *found = ldl->pattern + ldl->pattern_starts[row];
-        int count = reach(ldl, row, parents, marks, found);
+        int count = reach(ldl, row, ldl->parents, marks, found);
         sort_ascending(found, count);
         for (int k = 0; k < count; k++) {
             int place = counts[found[k]]++;
@@ -92,6 +77,30 @@ void ldl_analyse(Ldl *ldl, Arena *arena) {
             ldl->factor_rows[place] = row;
         }
     }
+}
+
+void ldl_analyse(Ldl *ldl, Arena *arena) {
+    int size = ldl->size;
+    ldl->changed = TAKE(arena, bool, size);
+    ldl->parents = TAKE(arena, int, size);
+    ldl->pattern_starts = TAKE(arena, int, size + 1);
+    ldl->factor_starts = TAKE(arena, int, size + 1);
+    ldl->inverse_pivots = TAKE(arena, double, size);
+    ldl->work = TAKE(arena, double, size);
+    int *marks = TAKE(arena, int, size), *counts = TAKE(arena, int, size);
+    find_elimination_tree(ldl, marks, counts);
+    for (int column = 0; column < size; column++) {
+        ldl->factor_starts[column + 1] = ldl->factor_starts[column] + counts[column];
+        counts[column] = ldl->factor_starts[column];
+        marks[column] = 0;
+        ldl->changed[column] = true;
+    }
+    int total = ldl->factor_starts[size];
+    ldl->pattern = TAKE(arena, int, total);
+    ldl->places = TAKE(arena, int, total);
+    ldl->factor_rows = TAKE(arena, int, total);
+    ldl->factors = TAKE(arena, double, total);
+    find_pattern(ldl, marks, counts);
 }
 
 static void factor_row(Ldl *ldl, int row) {

@@ -273,14 +273,14 @@ FluidForce fluid_force(World *world, const Media *media, Body *body, Pose pose, 
     const Region *air = media->air;
     int count = 0, reached_count = find_reached(media, pose.p, body->reach);
     Share *shares = TAKE(arena, Share, 2 * reached_count + 1);
-    body->scratch.afloat = false;
-    body->scratch.stirred = air != NULL && air->gusty;
+    body->own->afloat = false;
+    body->own->stirred = air != NULL && air->gusty;
     for (const Reached *each = media->reached, *end = each + reached_count; each < end; each++) {
         const Basin *basin = media->basins + each->basin;
         bool outlined = resists(basin->region) || (air != NULL && resists(air));
         Immersion wet = immersed(body, pose, each->containment == INSIDE ? NULL : basin, outlined, arena);
-        body->scratch.afloat = body->scratch.afloat || each->containment == CROSSING;
-        body->scratch.stirred = body->scratch.stirred || basin->region->gusty || basin->moves;
+        body->own->afloat = body->own->afloat || each->containment == CROSSING;
+        body->own->stirred = body->own->stirred || basin->region->gusty || basin->moves;
         shares[count++] = (Share){wet, basin->region, media->currents[each->basin], 1.0};
         if (air != NULL) {
             shares[count++] = (Share){wet, air, media->wind, -1.0};

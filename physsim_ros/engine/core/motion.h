@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Rigid motions in the coming step; time is a share of the step.
+// Rigid motions in the coming sub-step; time is a share of the sub-step.
 
 #ifndef PHYSSIM_MOTION_H
 #define PHYSSIM_MOTION_H
@@ -37,7 +37,7 @@ static inline Box box_ahead(const Body *body, double seconds) {
     return box_of_way(start, add(start, scaled(body->engine->v, seconds)), body->reach);
 }
 
-// A body, or a shape that never moves, in the coming step.
+// A body, or a shape that never moves, in the coming sub-step.
 typedef struct Mover {
     Body *body;
     const cpShape *shape; // the only one that counts; NULL is all of the body
@@ -46,15 +46,15 @@ typedef struct Mover {
     int island;           // first member of the island of what has met
     int next;             // following member of the island; -1 is none
     int leader;           // what the island of this first member moves as; -1 is none
-    double since;         // share of the step from which on the motion holds
+    double since;         // share of the sub-step from which on the motion holds
     Pose pose;            // then
     Vec pivot;            // centre of rotation then [m]
-    Twist rate;           // displacement of the centre of rotation, and rotation, in a whole step [m, rad]
-    double depth;         // how far it may be entered in a step unseen [m]
+    Twist rate;           // displacement of the centre of rotation, and rotation, in a whole sub-step [m, rad]
+    double depth;         // how far it may be entered in a sub-step unseen [m]
     double turning;       // how far out its turning counts [m]
     double shapes;        // count of its convex shapes
     double corners;       // of these, the cost of comparing it
-    double horizon;       // share of the step up to which it is followed
+    double horizon;       // share of the sub-step up to which it is followed
     Vec start, end;       // centres at the beginning of the motion and at the horizon [m]
     Vec half;             // half the size of its box at a moment, about the line between them [m]
     Box box;              // of the whole motion
@@ -64,7 +64,7 @@ static inline double yaw_at(const Mover *mover, double share) {
     return mover->pose.yaw + mover->rate.w * (share - mover->since);
 }
 
-// Where a body is at a share of the step, and its centre of rotation.
+// Where a body is at a share of the sub-step, and its centre of rotation.
 static inline Pose pose_at(const Mover *mover, double share, Vec *pivot) {
     double lapse = share - mover->since;
     *pivot = add(mover->pivot, scaled(mover->rate.v, lapse));

@@ -9,9 +9,9 @@
 // Constraints", GDC 2011; `b2MakeSoft` and `mouse_joint.c` in Box2D v3): a spring of 5 Hz, the default of
 // `b2MouseJointDef`, damped critically, which acts on the effective mass at the grip, so that its response is the
 // same for any mass and anchor. It is solved implicitly for the pose and velocity that Chipmunk's step will have,
-// and applied as a force of that step, before contacts and joints. Several hands on one body are solved by projected
-// Gauss-Seidel, as many sweeps as hands, and at most as many as the iterations of Chipmunk's solver.
-// Cost: 0.1 µs a step for each grip.
+// and applied as a force of that sub-step, before contacts and joints. Several hands on one body are solved by
+// projected Gauss-Seidel, as many sweeps as hands, and at most as many as the iterations of Chipmunk's solver.
+// Cost: 0.1 µs a sub-step for each grip.
 // Without it nothing can be dragged.
 
 #include "stages.h"
@@ -19,7 +19,7 @@
 // Undamped frequency of the spring [Hz], and its damping ratio: 1 is critical.
 static const double frequency = 5.0, damping_ratio = 1.0;
 
-// The spring in one step (`b2MakeSoft`).
+// The spring in one sub-step (`b2MakeSoft`).
 typedef struct Softness {
     double bias_rate; // [1/s]
     double mass_scale, impulse_scale;
@@ -54,7 +54,7 @@ static Vec solve_grip(const World *world, const Body *body, const Grip *grip, So
     return impulse;
 }
 
-// Add the forces of all hands on one body; its weight and wrench act in the same step.
+// Add the forces of all hands on one body; its weight and wrench act in the same sub-step.
 static void pull_body(World *world, Body *body, const Grip *grips, int count) {
     Arena *arena = &world->own->arena;
     size_t mark = arena_mark(arena);
@@ -63,7 +63,7 @@ static void pull_body(World *world, Body *body, const Grip *grips, int count) {
     // Chipmunk moves bodies first, and accelerates them then.
     Twist twist = twist_of(body->engine);
     Pose pose = moved(pose_of(body->engine), twist, world->dt);
-    twist = twist_plus(twist_scaled(twist, world->own->kept), body->scratch.lead, 2.0);
+    twist = twist_plus(twist_scaled(twist, world->own->kept), body->own->lead, 2.0);
     Rotation by = rotation(pose.yaw);
     Softness soft = softness(world->dt);
     for (int number = 0; number < count; number++) {

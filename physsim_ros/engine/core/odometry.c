@@ -44,7 +44,7 @@ void reckon_odometry(World *world) {
         Robot *robot = world->robots + number;
         const Body *body = world->bodies + robot->body;
         Vec travel = scaled(robot->mean.v, world->dt), measured = travel;
-        double turn = body->engine->a - body->scratch.begin.yaw, drift = 0.0, distance = length(travel);
+        double turn = body->engine->a - body->own->begin.yaw, drift = 0.0, distance = length(travel);
         if (robot->noise != NULL) {
             const cpVect noise = scaled(robot->noise[world->own->call_step], 1.0 / sqrt(SUB_STEPS));
             double share = distance > 0.0 ? 1.0 + noise.x * robot->slip[0] / sqrt(distance) : 1.0;

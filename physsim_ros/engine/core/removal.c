@@ -4,7 +4,7 @@
 // Removal of bodies: the shapes of many leave the engine together.
 //
 // Problem: for each shape that is removed, Chipmunk searches all contacts that it caches (`cpSpaceFilterArbiters`), and
-// for each contact that it finds there, those of the last step. Of 13,000 discs that touch, half took 5 s.
+// for each contact that it finds there, those of the last sub-step. Of 13,000 discs that touch, half took 5 s.
 // Method: the contacts of all these shapes are given to one of them. The others are removed while the cache has no
 // size, so that a search goes through no list (`cpHashSetFilter`), and that one last, by the only search. Bodies that
 // touched one of them may have lost their support.

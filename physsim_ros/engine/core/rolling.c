@@ -8,9 +8,9 @@
 // other: c is the greater coefficient of the two, r the radius, N the load (rolling friction of Box2D 3.1; the load
 // acts c r ahead of the centre). It is a row of Chipmunk's iterations, after the contacts, which bound it by their
 // loads of the moment; the contacts of jointed bodies have theirs in the joint solver (`joint_islands.c`). Before the
-// first iteration it is solved once with the loads of the step before: a disc at rest on a slope is then in balance
+// first iteration it is solved once with the loads of the sub-step before: a disc at rest on a slope is then in balance
 // from the start. Munk2D has no hook in its iterations but that of constraints: the class of the hook constraint is
-// replaced within a step.
+// replaced within a sub-step.
 // Law: a disc of radius of gyration k rolls on for v² (1 + k²/r²) / (2 c g), a cart of light wheels for v² / (2 c g),
 // and both stand on slopes below c.
 // Cost: 5 ns a contact, nothing where no body has it.

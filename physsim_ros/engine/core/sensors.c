@@ -3,8 +3,8 @@
 
 // Sensors see what crosses them within a sub-step, and when.
 //
-// Problem: Chipmunk tells of what overlaps a sensor where a step ends. A ball of 4 cm is past a gate of 1 cm after a
-// sub-step at 50 m/s.
+// Problem: Chipmunk tells of what overlaps a sensor where a sub-step ends. A ball of 4 cm is past a gate of 1 cm after
+// a sub-step at 50 m/s.
 // Method: the displacement of a body in the sub-step is swept (`swept_boxes.h`) where it is further than the body may
 // be entered unseen, and its time of impact with each sensor on it looked for (`time_of_impact.h`). That time is also
 // when a sensor begins to overlap something, however slow.
@@ -31,12 +31,12 @@ typedef struct Search {
 // The displacement of a body in the sub-step.
 static Twist displacement_in_step(const Body *body) {
     Pose end = pose_of(body->engine);
-    return (Twist){sub(end.p, body->scratch.begin.p), end.yaw - body->scratch.begin.yaw};
+    return (Twist){sub(end.p, body->own->begin.p), end.yaw - body->own->begin.yaw};
 }
 
 // A body as the sub-step began, with its displacement since.
 static Mover mover_in_step(Body *body) {
-    return mover_of(body, body->scratch.begin, displacement_in_step(body));
+    return mover_of(body, body->own->begin, displacement_in_step(body));
 }
 
 static double meeting_of(World *world, const Mover *body, const Mover *sensor) {

@@ -31,18 +31,18 @@ static double most_of(Twist twist) {
 
 static bool moves_on(const Body *body) {
     Twist now = twist_of(body->engine);
-    if (most_of(body->scratch.under) > 0.0 || body->scratch.stirred) {
+    if (most_of(body->own->under) > 0.0 || body->own->stirred) {
         return true;
     }
-    double slowest = body->ties.on_spring || body->scratch.afloat ? rest_speed : INFINITY;
+    double slowest = body->own->on_spring || body->own->afloat ? rest_speed : INFINITY;
     return (body->state.free && most_of(now) > 0.0) || most_of(now) > slowest;
 }
 
 void ignore_jitter(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         const Body *body = active_at(world, number);
-        if (body->dynamic && body->scratch.idle > 0.0 && !sleeps(body) && body->engine->idle_time == 0.0) {
-            body->engine->idle_time = greatest(body->scratch.idle - taken_back * world->dt, 0.0);
+        if (body->dynamic && body->own->idle > 0.0 && !sleeps(body) && body->engine->idle_time == 0.0) {
+            body->engine->idle_time = greatest(body->own->idle - taken_back * world->dt, 0.0);
         }
     }
 }

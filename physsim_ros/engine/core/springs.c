@@ -23,7 +23,7 @@ static void mark_sprung(World *world) {
     bool *swings = TAKE(&world->own->arena, bool, world->body_count);
     bool *turns = TAKE(&world->own->arena, bool, world->body_count);
     for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].ties.on_spring = false;
+        world->bodies[place].own->on_spring = false;
     }
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
@@ -41,7 +41,7 @@ static void mark_sprung(World *world) {
                 int root = root_of(parents, ends[end]);
                 hangs[root] = hangs[root] || !world->bodies[ends[1 - end]].dynamic;
                 swings[root] = swings[root] || elastic;
-                body->ties.on_spring = body->ties.on_spring || elastic;
+                body->own->on_spring = body->own->on_spring || elastic;
             }
         }
     }
@@ -51,8 +51,8 @@ static void mark_sprung(World *world) {
     }
     for (int place = 0; place < world->body_count; place++) {
         int root = root_of(parents, place);
-        world->bodies[place].ties.sprung = hangs[root] && swings[root];
-        world->bodies[place].ties.motored = hangs[root] && turns[root];
+        world->bodies[place].own->sprung = hangs[root] && swings[root];
+        world->bodies[place].own->motored = hangs[root] && turns[root];
     }
 }
 

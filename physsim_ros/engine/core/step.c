@@ -8,11 +8,11 @@
 
 static void begin_body(Body *body) {
     assert(body_of(body->engine) == body);
-    body->scratch.begin = pose_of(body->engine);
-    body->scratch.carried = body->scratch.remaining_move = (Twist){0};
-    body->scratch.remaining = body->scratch.since = 0.0;
-    body->scratch.bounces = body->scratch.has_remaining_move = false;
-    body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
+    body->own->begin = pose_of(body->engine);
+    body->own->carried = body->own->remaining_move = (Twist){0};
+    body->own->remaining = body->own->since = 0.0;
+    body->own->bounces = body->own->has_remaining_move = false;
+    body->own->idle = sleeps(body) ? -1.0 : body->engine->idle_time;
 }
 
 static void begin_bodies(World *world) {
@@ -27,7 +27,7 @@ static void begin_sleepers(World *world) {
         Body *body = world->own->now.awake[number];
         if (sleeps(body)) {
             begin_body(body);
-            body->scratch.twist = twist_of(body->engine);
+            body->own->twist = twist_of(body->engine);
             body->state.free = false;
         }
     }
@@ -37,8 +37,8 @@ static void begin_sleepers(World *world) {
 static void save_start(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
-        body->scratch.twist = twist_of(body->engine);
-        body->scratch.thrown = body->state.thrown;
+        body->own->twist = twist_of(body->engine);
+        body->own->thrown = body->state.thrown;
         body->state.thrown = body->state.released = false;
     }
 }
@@ -52,8 +52,8 @@ static bool is_lost(const cpBody *engine, double farthest) {
 static void find_lost(World *world) {
     for (int number = 0; number < active_count(world); number++) {
         Body *body = active_at(world, number);
-        body->scratch.lost = is_lost(body->engine, world->farthest);
-        world->has_lost = world->has_lost || body->scratch.lost;
+        body->lost = is_lost(body->engine, world->farthest);
+        world->has_lost = world->has_lost || body->lost;
     }
 }
 
@@ -119,7 +119,7 @@ static void step_chipmunk(World *world) {
 static const Stage sub_step_stages[] = {
     {begin_fields, STAGE_FIELDS},            // leads by fields, of bodies that requests have changed
     {begin_flights, 0},                      // leads; which bodies are in free flight, and their velocities
-    {begin_bodies, 0},                       // scratch, and the pose that the sub-step begins with
+    {begin_bodies, 0},                       // the poses of the beginning; what stages have found of bodies is cleared
     {apply_forces, 0},                       // forces, of commands and of bodies
     {pull_grips, 0},                         // forces
     {apply_fields, STAGE_FIELDS},            // forces, and half of what they change velocities by
@@ -149,7 +149,7 @@ static const Stage sub_step_stages[] = {
     {keep_awake, 0},                         // idle times
     {remove_closing_impulses, STAGE_JOINTS}, // impulses that the next sub-step starts from
     {remove_impact_impulses, STAGE_LOADS},   // the same
-    {begin_sleepers, 0},                     // scratch of bodies that have fallen asleep
+    {begin_sleepers, 0},                     // the same, of bodies that have fallen asleep
     {NULL, 0},
 };
 

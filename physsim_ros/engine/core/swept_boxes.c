@@ -1,12 +1,12 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Swept boxes: which bodies could meet in the coming step, at a bounded cost.
+// Swept boxes: which bodies could meet in the coming sub-step, at a bounded cost.
 //
-// Problem: boxes of fast bodies span the world, so that n bodies make n² pairs in a step that no signal ends.
+// Problem: boxes of fast bodies span the world, so that n bodies make n² pairs in a sub-step that no signal ends.
 // Method: an island has a budget of pairs, shared by its fast bodies. A body whose swept box meets more than its
-// share is followed not to the end of the step, but to a *horizon*, at which the box meets its share; Chipmunk's own
-// result holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in
+// share is followed not to the end of the sub-step, but to a *horizon*, at which the box meets its share; Chipmunk's
+// own result holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in
 // Box2D, 2 m a step; Jolt's `mMaxLinearVelocity`), but here every finite velocity is a velocity.
 // Laws: a horizon follows from what a body itself could meet, and a body that meets little is followed to the end,
 // however fast it is and however many others there are elsewhere.
@@ -161,7 +161,7 @@ void cut_horizons(Sweep *sweep, const int *bodies, int count) {
     }
 }
 
-// The centre of a box at a share of the step, on a straight line [m].
+// The centre of a box at a share of the sub-step, on a straight line [m].
 static Vec center_at(const Mover *mover, double share) {
     double lapse = mover->horizon - mover->since;
     double part = (share - mover->since) / (lapse > 0.0 ? lapse : 1.0);

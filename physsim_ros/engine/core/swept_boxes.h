@@ -13,7 +13,7 @@ typedef struct Statics {
     Tree tree;
 } Statics;
 
-// The coming step: bodies, then shapes that never move.
+// The coming sub-step: bodies, then shapes that never move.
 typedef struct Sweep {
     World *world;
     int count; // of bodies
@@ -31,7 +31,7 @@ static inline Mover *mover_at(const Sweep *sweep, int number) {
 // Return the shapes that never move, but sensors.
 const Statics *statics_of(World *world);
 
-// The displacement and the rotation of a body in the step [m, rad].
+// The displacement and the rotation of a body in the sub-step [m, rad].
 typedef Twist DisplacementOf(const World *world, const Body *body);
 
 static inline bool is_solid(const Body *body) {
@@ -49,10 +49,10 @@ static inline bool is_far(const World *world, const Body *body, Twist displaceme
     return is_solid(body) && farthest_displaced(body, displacement) > world->own->least_depth / 2.0;
 }
 
-// A body that moves from a pose by a displacement in the step.
+// A body that moves from a pose by a displacement in the sub-step.
 Mover mover_of(Body *body, Pose begin, Twist displacement);
 
-// All bodies, each with its displacement in the step.
+// All bodies, each with its displacement in the sub-step.
 Sweep sweep_of(World *world, DisplacementOf *displacement_of);
 
 // Bound the displacement of a body from where its motion begins to its horizon.

@@ -4,16 +4,16 @@
 // Tight boxes: Chipmunk's broad phase lists pairs of bodies that are near, however fast they are.
 //
 // Problem: `cpBBTree` extends the box of a shape by its displacement in a tenth of a second (`GetBB`), so that a box of
-// the tree need not change in each step. Fast bodies overlap in the tree then wherever they are (Munk2D as in Pymunk
-// 7.3.1): 12,000 discs of 20 km/s that touch nothing make pairs of 930 MB and steps of 1.6 s, 40 lists of 900
+// the tree need not change in each step. Fast bodies overlap in the tree then wherever they are (Munk2D as in
+// Pymunk 7.3.1): 12,000 discs of 20 km/s that touch nothing make pairs of 930 MB and steps of 1.6 s, 40 lists of 900
 // spheres of 1 km/s steps of 40 to 60 s. That is so in a free fall of some minutes, too.
-// Method: a body whose extended boxes overlap more others than indexing it in each step would cost is indexed
-// where the coming step ends, at rest: the tree's box is extended by a tenth of its size only (`GetBB`), and
+// Method: a body whose extended boxes overlap more others than indexing it in each sub-step would cost is indexed
+// where the coming sub-step ends, at rest: the tree's box is extended by a tenth of its size only (`GetBB`), and
 // Chipmunk finds it valid. Position, angle and velocity are as they were to the bit.
 // Scope: it depends on what is near a body: a crowd that falls, a single fast body, and one that slides over tiles
 // are left to Chipmunk.
 // Cost: some 0.5 µs for the count of each body that is fast enough for that many pairs (10 m/s with a half width of 5
-// cm), and as much for each that is indexed, in each step.
+// cm), and as much for each that is indexed, in each sub-step.
 // Without it `test/engine/stages/test_tight_boxes.py` fails.
 // It can go once Pymunk has `cpBBTreeSetVelocityFunc`.
 
@@ -36,7 +36,7 @@ typedef struct Near {
 // overlaps k² / 2 others at most, where bodies of a size fill the plane.
 static bool is_fast_in_crowd(const Body *body) {
     double distance = length(body->engine->v) * extension;
-    double most = distance * distance / (2.0 * body->half_width * body->half_width);
+    double most = distance * distance / (2.0 * body->inner * body->inner);
     return !body->anchored && body->pieces * most > most_pairs;
 }
 

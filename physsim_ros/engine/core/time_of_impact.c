@@ -3,10 +3,11 @@
 
 // Time of impact of pairs of convex shapes in rigid motion.
 //
-// Problem: when two bodies that move and turn first meet, within a step.
+// Problem: when two bodies that move and turn first meet, within a sub-step.
 // Method: conservative advancement (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, 2.3).
 // The separation of two shapes, found by separating axes, divided by the greatest speed at which it can shrink, is a
-// time in which they cannot meet. Both advance by it, again and again, until they overlap by the skin or the step ends.
+// time in which they cannot meet. Both advance by it, again and again, until they overlap by the skin or the sub-step
+// ends.
 // Scope: an impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the
 // start meets where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not
 // at all where it overlaps by more than the lesser inner radius, since either side may be the nearer one then. What is
@@ -16,13 +17,13 @@
 #include "time_of_impact.h"
 #include "one_way.h"
 
-// Advances of a pair in a step, at most: straight motion takes two or three, a fast turning stick that grazes a disc
-// about twenty. A pair that takes more ends its step where the last one has brought it.
+// Advances of a pair in a sub-step, at most: straight motion takes two or three, a fast turning stick that grazes a
+// disc about twenty. A pair that takes more ends its sub-step where the last one has brought it.
 enum { ADVANCES = 24 };
 // Shapes have met when they overlap to within this share of the skin.
 static const double tolerance = 0.1;
 
-// A shape in the coming step.
+// A shape in the coming sub-step.
 typedef struct MovingShape {
     const Mover *mover;
     int count;
@@ -122,9 +123,9 @@ static Separation separation_of(const MovingShape *a, const MovingShape *b) {
     return size > 0.0 && distance > best.distance ? (Separation){distance, axis, false} : best;
 }
 
-// The greatest speed at which the separation along an axis can shrink [m a step]. The axis may be held in the world, or
-// turn with either body; the least bound is taken. A body that turns sees a point move by its distance from the pivot
-// only.
+// The greatest speed at which the separation along an axis can shrink [m a sub-step]. The axis may be held in the
+// world, or turn with either body; the least bound is taken. A body that turns sees a point move by its distance from
+// the pivot only.
 static double speed_bound(const MovingShape *a, const MovingShape *b, Vec axis, double lapse) {
     const MovingShape *sides[2] = {a, b};
     Vec relative = sub(a->mover->rate.v, b->mover->rate.v);
@@ -143,12 +144,12 @@ static double speed_bound(const MovingShape *a, const MovingShape *b, Vec axis, 
     return bound;
 }
 
-// How far a point of a body would go along an axis in a whole step [m].
+// How far a point of a body would go along an axis in a whole sub-step [m].
 static double rate_along(const MovingShape *side, Vec point, Vec axis) {
     return dot(velocity_at(side->mover->rate, sub(point, side->pivot)), axis);
 }
 
-// The velocity at which two shapes approach along an axis where they meet [m a step].
+// The velocity at which two shapes approach along an axis where they meet [m a sub-step].
 static double approach(const MovingShape *a, const MovingShape *b, const Separation *found) {
     const MovingShape *cornered = found->of_first ? b : a;
     Vec axis = found->of_first ? negated(found->axis) : found->axis;
@@ -162,8 +163,8 @@ static bool are_closed(const MovingShape *a, const MovingShape *b, Vec axis, dou
            is_closed(b->mover->body, yaw_at(b->mover, share), negated(axis));
 }
 
-// The share of the step at which two shapes first overlap by the skin. `passing` is whether an overlap from the start
-// is that of a body which passes a one-way body.
+// The share of the sub-step at which two shapes first overlap by the skin. `passing` is whether an overlap from the
+// start is that of a body which passes a one-way body.
 static double advance(MovingShape *a, MovingShape *b, double radii, double skin, double depth, bool passing) {
     double share = greatest(a->mover->since, b->mover->since), target = -skin;
     for (int number = 0; number < ADVANCES; number++) {
@@ -194,7 +195,7 @@ static double advance(MovingShape *a, MovingShape *b, double radii, double skin,
             return INFINITY;
         }
     }
-    // It may meet later; its step ends where the way is known to be clear.
+    // It may meet later; its sub-step ends where the way is known to be clear.
     return share;
 }
 

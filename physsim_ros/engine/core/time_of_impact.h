@@ -6,8 +6,8 @@
 
 #include "motion.h"
 
-// The share of the step at which two movers first overlap by the skin, and would still approach by more than `depth`
-// [m]; INFINITY if never.
+// The share of the sub-step at which two movers first overlap by the skin, and would still approach by more than
+// `depth` [m]; INFINITY if never.
 double first_impact(World *world, const Mover *one, const Mover *other, double depth);
 
 #endif

@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// A contact that begins in this step, read from Chipmunk and written to it.
+// A contact that begins in this sub-step, read from Chipmunk and written to it.
 
 #include "touch.h"
 #include "contact.h"

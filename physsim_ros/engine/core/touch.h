@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// A contact that begins in this step, in the middle of it.
+// A contact that begins in this sub-step, in the middle of it.
 
 #ifndef PHYSSIM_TOUCH_H
 #define PHYSSIM_TOUCH_H
@@ -16,7 +16,7 @@ typedef struct Touch {
     int count;        // of points
     Vec normal;       // from the first body to the second
     Vec points[2][2]; // of both points (first index) on either body (second) [m]
-    double met;       // when the shapes first met, as a share of the step; 0 where that is not known
+    double met;       // when the shapes first met, as a share of the sub-step; 0 where that is not known
     int cornered;     // the shape, of which a corner met the other one then; a disc has but one
     bool on_face;     // whether that was at a face
 } Touch;

@@ -3,13 +3,13 @@
 
 // Contacts are those of the impact.
 //
-// Problem: Chipmunk finds a contact where the step ends. Until then the line of centres of two discs has turned, and a
-// corner has come in by v dt: through the side of a tile, or so far that a face overlaps several tiles.
-// Method: a disc is a corner that is rounded by its radius. The displacement of a corner in the step, as the other body
-// sees it, is a line. The contact gets normal and arms of the moment at which a corner of one shape first meets the
-// other on that (Ericson, "Real-Time Collision Detection", 5.5.7).
-// Scope: pairs that overlap where the step begins keep those of Chipmunk. So do polygons that meet by faces, and those
-// that approach slowly; and segments, of which Chipmunk knows the neighbours in a chain.
+// Problem: Chipmunk finds a contact where the sub-step ends. Until then the line of centres of two discs has turned,
+// and a corner has come in by v dt: through the side of a tile, or so far that a face overlaps several tiles.
+// Method: a disc is a corner that is rounded by its radius. The displacement of a corner in the sub-step, as the other
+// body sees it, is a line. The contact gets normal and arms of the moment at which a corner of one shape first meets
+// the other on that (Ericson, "Real-Time Collision Detection", 5.5.7).
+// Scope: pairs that overlap where the sub-step begins keep those of Chipmunk. So do polygons that meet by faces, and
+// those that approach slowly; and segments, of which Chipmunk knows the neighbours in a chain.
 // Cost, and what fails without it: `first_touch.c`.
 
 #include "contact.h"
@@ -25,14 +25,14 @@ typedef struct CornerHit {
     bool on_face;
 } CornerHit;
 
-// Where a disc, or else the body of a shape, was as the step began, where it would be freely as it ends, and where it
-// is. That a disc turns does not matter.
+// Where a disc, or else the body of a shape, was as the sub-step began, where it would be freely as it ends, and where
+// it is. That a disc turns does not matter.
 typedef struct Moments {
     Vec begin, end, now;
     double begin_yaw, end_yaw, now_yaw;
 } Moments;
 
-// The first impact of two shapes in the step.
+// The first impact of two shapes in the sub-step.
 typedef struct FirstImpact {
     CornerHit hit;
     int side;   // of the shape whose corner meets the other one
@@ -45,7 +45,7 @@ static Moments moments_of(const World *world, const Touch *touch, int side) {
     const Body *body = body_of(touch->engines[side]);
     bool is_disc = kind_of(shape) == SHAPE_CIRCLE;
     Vec offset = is_disc ? ((const cpCircleShape *)shape)->c : vec(0.0, 0.0);
-    Pose poses[3] = {body->scratch.begin, moved(body->scratch.begin, body->scratch.twist, world->dt),
+    Pose poses[3] = {body->own->begin, moved(body->own->begin, body->own->twist, world->dt),
                      pose_of(touch->engines[side])};
     Vec points[3];
     for (int number = 0; number < 3; number++) {
@@ -91,7 +91,7 @@ static CornerHit first_hit(Vec start, Vec displacement, const cpShape *shape, do
     return hit;
 }
 
-// By how far two bodies can have approached in the step, at most [m].
+// By how far two bodies can have approached in the sub-step, at most [m].
 static double approach_in_step(const World *world, const Touch *touch) {
     double distance = 0.0;
     for (int side = 0; side < 2; side++) {
@@ -118,7 +118,7 @@ static void keep_first_impact(const Touch *touch, const Moments *moments, int si
     double radius = radius_of(shape) + radius_of(struck);
     for (int number = 0; number < corner_count(shape); number++) {
         Vec corner = kind_of(shape) == SHAPE_CIRCLE ? vec(0.0, 0.0) : corner_on_body(shape, number).point;
-        // The displacement of the corner in the frame that the other shape has where the step ends.
+        // The displacement of the corner in the frame that the other shape has where the sub-step ends.
         Vec start = rotated(sub(add(own->begin, rotated(corner, at_begin)), other->begin), from_begin);
         Vec stop = rotated(sub(add(own->end, rotated(corner, at_end)), other->end), from_end);
         Vec displacement = sub(stop, start);

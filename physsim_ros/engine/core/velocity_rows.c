@@ -10,12 +10,12 @@
 // multibody dynamics", Mathematical Programming 105, 2006). A contact that slides by v would lift by μ |v|; its target
 // is lowered by that, until v is what the solution has (De Saxcé and Feng, "The bipotential method", Mathematical and
 // Computer Modelling 28, 1998). Load that statics does not determine stays where it was: each contact is drawn to its
-// impulse of the step before (proximal point method: Rockafellar, SIAM Journal on Control and Optimization 14, 1976).
-// `docs/decisions/joint_friction.md` has what else was tried.
+// impulse of the sub-step before (proximal point method: Rockafellar, SIAM Journal on Control and Optimization 14,
+// 1976). `docs/decisions/joint_friction.md` has what else was tried.
 //
-// Springs: those with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the
-// impulse of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the
-// damper; Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
+// Springs: those with a damper, and those that are too stiff for the sub-step (`joints/stiffness.py`), are soft rows:
+// the impulse of the sub-step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of
+// the damper; Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
 // Cost: that of `joint_solver.c`.
 
 #include "velocity_rows.h"
@@ -24,7 +24,7 @@
 #include <string.h>
 
 // E, as a share of `softness_unit`. Of joints it keeps the impulses of those that contradict each other from being of
-// any size. Of contacts it draws λ to that of the step before; a belt of 75 links is solved with a third of the
+// any size. Of contacts it draws λ to that of the sub-step before; a belt of 75 links is solved with a third of the
 // factorisations that 1e-4 needs.
 static const double joint_softness = 1e-6, contact_softness = 1e-2;
 // Refinements of a solution against E where contacts are soft. The curvature brings one more.
@@ -38,7 +38,7 @@ static const double rounding_of_edges = 1e-9;
 static const double least_slip = 1e-3;
 // Difference of slips that needs no further solution, in m/s and as a share of the slip.
 static const double slip_error = 1e-4, slip_share = 1e-3;
-// Share of its rate that a damper takes in a step, at least: the row of a spring without one is soft by this, and
+// Share of its rate that a damper takes in a sub-step, at least: the row of a spring without one is soft by this, and
 // swings on for a million seconds.
 static const double least_damping = 1e-9;
 
@@ -72,7 +72,7 @@ static Jacobian edge_jacobian(Jacobian normal, Jacobian tangent, double share) {
     return (Jacobian){twist_plus(normal.a, tangent.a, share), twist_plus(normal.b, tangent.b, share)};
 }
 
-// λ of the step before.
+// λ of the sub-step before.
 static double *last_impulses(const Solve *solve) {
     const Island *island = solve->island;
     double *last = TAKE(solve->arena, double, island->row_count);
@@ -99,8 +99,8 @@ static void begin_joints(const Solve *solve, VelocityRows *rows, double *soft) {
     }
 }
 
-// The rows of contacts. A slip begins as that of the step before, less what friction can stop: where rest is possible,
-// it is found.
+// The rows of contacts. A slip begins as that of the sub-step before, less what friction can stop: where rest is
+// possible, it is found.
 static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft, double *prior, const Twist *without) {
     const Island *island = solve->island;
     for (int number = 0; number < island->bearing_count; number++) {
@@ -116,8 +116,7 @@ static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft,
         prior[left] = rows->last[left];
         prior[right] = rows->last[right];
         rows->free_slips[number] = link_rate(across, ends, without) + bearing->slide;
-        Twist begun[] = {body_of(island->engine[ends.a])->scratch.twist,
-                         body_of(island->engine[ends.b])->scratch.twist};
+        Twist begun[] = {body_of(island->engine[ends.a])->own->twist, body_of(island->engine[ends.b])->own->twist};
         // Restitution is of approaches. Chipmunk permits bodies that part to approach by e times that velocity, so that
         // an elastic contact under a load trembles.
         rows->bounce[number] = greatest(-bearing->point->bounce, 0.0);
@@ -181,8 +180,8 @@ static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution 
     return changed;
 }
 
-// Guess the sides of rows: of joints by λ of the step before, of contacts by the impulses that Chipmunk found, since
-// a body that rattles on a machine touches it in every other step.
+// Guess the sides of rows: of joints by λ of the sub-step before, of contacts by the impulses that Chipmunk found,
+// since a body that rattles on a machine touches it in every other sub-step.
 static void guess_sides(const Solve *solve, const VelocityRows *rows, int8_t *sides) {
     const Island *island = solve->island;
     for (int row = 0; row < island->joint_row_count; row++) {

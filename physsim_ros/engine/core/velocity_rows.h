@@ -13,10 +13,10 @@ typedef struct VelocityRows {
     Jacobian *jacobians;            // (link_count)
     double *wanted, *lower, *upper; // of the problem
     double *rates;                  // (row_count): J v without impulses
-    double *last;                   // (row_count): λ of the step before
+    double *last;                   // (row_count): λ of the sub-step before
     double *bounce;                 // (bearing_count): least velocity along the normal that Chipmunk seeks [m/s]
     double *free_slips;             // (bearing_count): velocity across the normal without impulses [m/s]
-    double *slips;                  // (bearing_count): greatness of the same after the step
+    double *slips;                  // (bearing_count): greatness of the same after the sub-step
 } VelocityRows;
 
 // The rows of an island, given its velocities without their impulses (body_count).

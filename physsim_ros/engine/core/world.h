@@ -11,6 +11,39 @@
 #include "vector.h"
 #include <stdbool.h>
 
+// What the core keeps of a body, by the file that writes it. That of a sleeping body stays until it wakes.
+typedef struct BodyPrivate {
+    // As long as the joints are these.
+    uint8_t jointed;   // `core.c`: a joint with rows ends on it
+    uint8_t sprung;    // `springs.c`: in an island of joints that a spring holds to something fixed
+    uint8_t motored;   // in one that a motor holds to something fixed
+    uint8_t on_spring; // a spring pulls it, and forces move it
+    // Within a sub-step, in the order of the stages; `step.c` clears what not every sub-step finds.
+    // `applied_forces.c`, also before a step
+    Twist lead; // half a sub-step of gravity and all forces: by it the velocity of a body in free flight leads
+    // `step.c`, as the sub-step begins
+    Pose begin;
+    double idle; // for which it has been at rest; < 0 while it sleeps [s]
+    // `fields.c`, with `media.c`
+    Twist field;     // half of what fields change its velocity by in this sub-step
+    uint8_t afloat;  // the surface of a medium crosses it
+    uint8_t stirred; // fields act on it that change while it rests
+    // `floor.c`
+    Twist under;            // mean velocity of the floor under it
+    Twist without_contacts; // velocity after the sub-step without contacts
+    // `continuous.c`
+    double remaining; // of the sub-step after it has been stopped [s]
+    Twist carried;    // displacement with what has stopped it, in that time [m, rad]
+    // `step.c`, as Chipmunk's step begins
+    Twist twist;
+    uint8_t thrown; // its velocity was set before this sub-step
+    // `rest_of_step.c`
+    double since;               // time from its first impact to the end of its motion [s]
+    uint8_t bounces;            // its impact throws it off, so gravity acts on the new velocity
+    Twist remaining_move;       // displacement that remains after its impact [m, rad]
+    uint8_t has_remaining_move; // that displacement has been found
+} BodyPrivate;
+
 // The results of stages that later stages of the same sub-step use, in the memory of the arena.
 typedef struct SubStep {
     struct Pair *loaded; // `find_loaded`: pairs of shapes, one of a one-way body, that carry a load
@@ -29,6 +62,7 @@ typedef struct SubStep {
 
 typedef struct Private {
     Arena arena;
+    BodyPrivate *bodies; // (body_count)
     SubStep now;
     cpConstraint *hook;
     cpConstraintClass *hook_class, rolling_class; // its own class, and that within a step (`rolling.c`)
@@ -118,7 +152,7 @@ static inline Twist twist_of(const cpBody *body) {
 
 // The velocity of a body without its half-step lead, before the engine has solved.
 static inline Twist true_twist(const cpBody *body) {
-    Twist lead = body_of(body)->scratch.lead, twist = twist_of(body);
+    Twist lead = body_of(body)->own->lead, twist = twist_of(body);
     bool flies = body_of(body)->state.free;
     return flies ? (Twist){{twist.v.x - lead.v.x, twist.v.y - lead.v.y}, twist.w - lead.w} : twist;
 }
