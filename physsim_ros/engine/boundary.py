@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from physsim_ros.engine.bodies import set_surface
+from physsim_ros.engine.pymunk_bodies import set_surface
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.settings import WorldSettings
 import pymunk

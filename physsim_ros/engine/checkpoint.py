@@ -17,7 +17,8 @@ from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
-from physsim_ros.engine.bodies import BODY_STATE, build_body, RigidBody, scattered
+from physsim_ros.engine.bodies import BODY_STATE, RigidBody
+from physsim_ros.engine.pymunk_bodies import build_body, scattered
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, write_impulses
 from physsim_ros.model.checkpoint import Checkpoint

@@ -13,16 +13,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 import math
 
-from physsim_ros.engine.bodies import build_body, RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.body_set import BodySet, wake_bodies
-from physsim_ros.engine.body_table import BodyTable
+from physsim_ros.engine.body_table import BodyTable, CoreTables
 from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.commands import CommandSet
 from physsim_ros.engine.core import lib
-from physsim_ros.engine.core_tables import CoreTables
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.pymunk_bodies import build_body
 from physsim_ros.engine.scene_columns import check_columns, check_floor
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds

@@ -7,7 +7,7 @@ import math
 import time
 
 import numpy as np
-from physsim_ros.engine import bodies
+from physsim_ros.engine import pymunk_bodies
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Anchored
 from physsim_ros.model.requests import Command, Delete
@@ -246,9 +246,9 @@ def test_many_pieces_in_a_row_enter_the_engine_in_any_place_of_its_tree(monkeypa
     (chain,) = world.scene.bodies
 
     def duration(block: int) -> float:
-        monkeypatch.setattr(bodies, '_BLOCK', block)
+        monkeypatch.setattr(pymunk_bodies, '_BLOCK', block)
         pm_space = pymunk.Space()
-        made = [bodies.build_body(chain).pm_body for _ in range(6)]
+        made = [pymunk_bodies.build_body(chain).pm_body for _ in range(6)]
         for number, pm_body in enumerate(made):
             pm_body.position = 0.0, 3.0 * number
         began = time.thread_time()
@@ -256,5 +256,5 @@ def test_many_pieces_in_a_row_enter_the_engine_in_any_place_of_its_tree(monkeypa
             pm_space.add(pm_body, *pm_body.shapes)
         return time.thread_time() - began
 
-    block = bodies._BLOCK  # noqa: SLF001 - what is tested
+    block = pymunk_bodies._BLOCK  # noqa: SLF001 - what is tested
     assert min(duration(block) for _ in range(3)) < 0.7 * min(duration(1000) for _ in range(3))

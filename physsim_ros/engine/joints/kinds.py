@@ -17,8 +17,9 @@ from itertools import chain, pairwise
 import math
 from typing import NamedTuple
 
-from physsim_ros.engine.bodies import handles_of, RigidBody
+from physsim_ros.engine.bodies import RigidBody
 from physsim_ros.engine.core import lib
+from physsim_ros.engine.pymunk_bodies import handles_of
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.rope_path import arc

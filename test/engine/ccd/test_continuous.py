@@ -6,8 +6,8 @@
 import math
 
 import numpy as np
-from physsim_ros.engine.bodies import build_body
 from physsim_ros.engine.core import lib
+from physsim_ros.engine.pymunk_bodies import build_body
 from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.settings import WorldSettings
