@@ -65,7 +65,7 @@ static void find_elimination_tree(Ldl *ldl, int *marks, int *counts) {
 }
 
 // List the columns of each row of L, and where each entry is in its column, whose next place is in `counts`.
-static void find_pattern(Ldl *ldl, int *marks, int *counts) {
+static void find_entries(Ldl *ldl, int *marks, int *counts) {
     for (int row = 0; row < ldl->size; row++) {
         int *found = ldl->pattern + ldl->pattern_starts[row];
         int count = reach(ldl, row, ldl->parents, marks, found);
@@ -100,7 +100,7 @@ void ldl_analyse(Ldl *ldl, Arena *arena) {
     ldl->places = TAKE(arena, int, total);
     ldl->factor_rows = TAKE(arena, int, total);
     ldl->factors = TAKE(arena, double, total);
-    find_pattern(ldl, marks, counts);
+    find_entries(ldl, marks, counts);
 }
 
 static void factor_row(Ldl *ldl, int row) {
