@@ -112,7 +112,7 @@ def failed(tree: Path, words: list[str]) -> str:
         return 'tests that do not end'
     if done.returncode in {0, pytest.ExitCode.NO_TESTS_COLLECTED}:
         return ''
-    found = re.search(r'^(?:FAILED|ERROR) (\S+)', done.stdout, re.MULTILINE)
+    found = re.search(r'^(?:FAILED|ERROR) (.+?)(?: - .*)?$', done.stdout, re.MULTILINE)
     return found[1] if found else 'pytest'
 
 
