@@ -216,7 +216,7 @@ def sleepers(world: World) -> list[str]:
 def check_begins_alike(state: WorldState, physics_rate: float) -> None:
     """Compare a world that begins with a state at any step and one that was built ahead."""
     now, ahead = World(physics_rate=physics_rate), World(physics_rate=physics_rate)
-    ahead.put_ahead(beginning_of(state, physics_rate))
+    ahead.keep_built(beginning_of(state, physics_rate))
     for world in (now, ahead):
         world.step(7)
         world.apply(Restore(state=state))

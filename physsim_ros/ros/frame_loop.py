@@ -94,8 +94,8 @@ class FrameLoop:
         :param now_ns: steady time, monotonic [ns]
         """
         began, tick_time = time.perf_counter_ns(), _TickTime()
-        self._handle_messages()
-        self._note_readers()
+        self.handle_messages()
+        self._find_readers()
         self._submit_commands()
         if not self._fleet.update_topics(tick_time.is_overdue):
             self._simulation.playback.clock.restart()
@@ -144,14 +144,14 @@ class FrameLoop:
         # By a service, as a reset, after which a robot may be gone, or its scan.
         return (simulation.frame,) if simulation.frames.is_changed else ()
 
+    def handle_messages(self) -> None:
+        """Carry out messages of pages, within none of them."""
+        if self._outputs.sketchpad is not None:
+            self._outputs.sketchpad.handle_messages()
+
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
-        self._handle_messages()
-        self.make_frame()
-
-    def make_frame(self) -> None:
-        """Advance the world by one publish period, also within a message; show the frame."""
-        self._note_readers()
+        self._find_readers()
         self._submit_commands()
         self._show(self._simulation.advance_frame())
 
@@ -163,8 +163,7 @@ class FrameLoop:
         """
         if not count:
             return 0
-        self._handle_messages()
-        self._note_readers()
+        self._find_readers()
         self._submit_commands()
         if self._simulation.frames.is_read:
             return 0
@@ -175,7 +174,7 @@ class FrameLoop:
 
     def apply_requests(self) -> tuple[Answer, ...]:
         """Apply the waiting requests without advancing time; show and return the answers."""
-        self._note_readers()
+        self._find_readers()
         frame = self._simulation.apply_requests()
         if frame is not None:
             self._show(frame)
@@ -187,15 +186,15 @@ class FrameLoop:
         self._outputs.show(frame)
         self._fleet.update_topics()
 
-    def apply_in_time(self) -> bool:
+    def apply_ready(self) -> bool:
         """
-        Apply the requests before a seek that there is time for; return whether none waits.
+        Apply the requests that need not wait, in the time for them; return whether none waits.
 
         Before the start nothing is applied, and True is returned.
         """
         if not self.started:
             return True
-        return self._simulation.requests.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
+        return self._simulation.applier.apply_ready(_RequestTime(self._rest_ns).is_spent)
 
     def make_call(
         self,
@@ -209,29 +208,27 @@ class FrameLoop:
         :param on_told: called when its answers are told
         :raises Busy: too many requests wait
         """
-        self._simulation.requests.submit_call(call, wait, on_told)
+        if not self.started and wait is Wait.TO_READ:
+            # No tick goes on with the call.
+            wait = Wait.FOR_SEEK
+        self._simulation.applier.make_call(call, wait, on_told)
         if self.started:
-            self.apply_in_time()
+            self.apply_ready()
         elif wait is not Wait.NONE:
-            self._simulation.requests.finish_calls()
-            # No tick goes on with a replay that the call began.
-            self._simulation.ticks.finish_work(lambda: False)
+            self._simulation.applier.apply_all()
+            # Nor with a replay that the call began.
+            self._simulation.ticks.continue_work(lambda: False)
 
     def bring_up_to_date(self) -> Snapshot:
         """Apply the requests that there is time for, and return the snapshot that is shown."""
-        if self.apply_in_time():
+        if self.apply_ready():
             self.apply_requests()
         shown = self._outputs.frame
         return self._simulation.world.snapshot() if shown is None else shown.snapshot
 
     def finish_short_seek(self) -> None:
         """Have a seek be done at once if it is short; else the next ticks go on with it."""
-        self._simulation.ticks.finish_work(_TickTime().is_overdue)
-
-    def _handle_messages(self) -> None:
-        """Carry out messages of pages."""
-        if self._outputs.sketchpad is not None:
-            self._outputs.sketchpad.handle_messages()
+        self._simulation.ticks.continue_work(_TickTime().is_overdue)
 
     def _submit_commands(self) -> None:
         """Submit commands of robots, which the past refuses."""
@@ -239,7 +236,7 @@ class FrameLoop:
             in_past=self._simulation.speed < 0.0 or self._simulation.is_past
         )
 
-    def _note_readers(self) -> None:
+    def _find_readers(self) -> None:
         """Make frames, and record contacts, while somebody reads them."""
         outputs, fleet = self._outputs, self._fleet
         self._simulation.frames.is_read = outputs.is_read or fleet.is_read
@@ -247,7 +244,7 @@ class FrameLoop:
 
     def _show_without_frame(self) -> tuple[Answer, ...]:
         """Show the answers and the preview that no frame carries; return the answers."""
-        answers = self._simulation.requests.take_answers()
+        answers = self._simulation.applier.take_answers()
         self._outputs.report_answers(answers)
         self._outputs.show_preview()
         return answers

@@ -129,6 +129,5 @@ class Pages:
             executor.create_task(self._handle_now)
 
     def _handle_now(self) -> None:
-        if self._outputs.sketchpad is not None:
-            self._outputs.sketchpad.handle_messages()
+        self._loop.handle_messages()
         self._loop.apply_requests()

@@ -106,7 +106,7 @@ class NodeTimeControl:
         """Go to a simulation time [ns], in place of a seek under way; its end is answered."""
         self._statistics.reset_pace()
         self._simulation.requests.submit_seek(stamp, origin)
-        self._loop.apply_in_time()
+        self._loop.apply_ready()
 
     def _step(self) -> str:
         """
@@ -114,11 +114,11 @@ class NodeTimeControl:
 
         :raises Running: time is running
         """
-        if self._simulation.speed == 0 and not self._loop.apply_in_time():
+        if self._simulation.speed == 0 and not self._loop.apply_ready():
             return _at(self._simulation.playback.queue_frame())
-        return self.advance_frame()
+        return self.step_now()
 
-    def advance_frame(self) -> str:
+    def step_now(self) -> str:
         """
         Advance a paused world by one frame, after a seek that is under way.
 
@@ -126,7 +126,7 @@ class NodeTimeControl:
         """
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
-        self._loop.make_frame()
+        self._loop.advance_frame()
         return _at(self._simulation.stamp)
 
     async def reset(self) -> str:

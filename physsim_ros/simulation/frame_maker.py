@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.sensing import SensedFrame
+from physsim_ros.simulation.applier import Applier
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_queue import RequestQueue
 
 # Simulation time at speed 1 after which a frame is made even if nobody reads it [s].
 LONGEST_UNREAD = 1.0
@@ -26,17 +26,17 @@ class FrameMaker:
 
     :param past: of the world
     :param playback: the moment that is shown
-    :param requests: with the answers of the next frame
+    :param applier: with the answers of the next frame
 
     :ivar is_read: whether somebody reads each frame of `Ticks`; else one is made where something
         but the time has changed, and every `LONGEST_UNREAD`
     """
 
-    def __init__(self, past: Past, playback: Playback, requests: RequestQueue) -> None:
+    def __init__(self, past: Past, playback: Playback, applier: Applier) -> None:
         self.is_read = True
         self._past = past
         self._playback = playback
-        self._requests = requests
+        self._applier = applier
         self._sensed: SensedFrame | None = None
         # The last state before the next frame, where no frame of it was made.
         self._passed: Snapshot | None = None
@@ -57,7 +57,7 @@ class FrameMaker:
     def is_due(self) -> bool:
         """Whether a frame of now is to be made, after steps."""
         sensed, past, playback = self._sensed, self._past, self._playback
-        is_told = playback.changed or self._requests.has_answers or past.reports
+        is_told = playback.changed or self._applier.has_answers or past.reports
         if self.is_read or is_told or sensed is None:
             return True
         most = LONGEST_UNREAD * past.physics_rate * max(1.0, abs(playback.speed))
@@ -87,7 +87,7 @@ class FrameMaker:
         :param before: snapshot of another time that was shown before it; None if there is none
         """
         self._sensed = SensedFrame(frame, before)
-        self._playback.note_frame()
+        self._playback.begin_frame()
 
     def make(self) -> Frame:
         """Make the frame of now, with all answers; fit the past into its budget."""
@@ -100,13 +100,13 @@ class FrameMaker:
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if past.reports_contacts else None,
-            answers=(*self._requests.take_answers(), *past.take_reports()),
+            answers=(*self._applier.take_answers(), *past.take_reports()),
             speed=playback.speed,
             stepped=playback.stepped,
             past=not playback.is_newest,
             course=past.tree.course,
         )
-        playback.note_frame()
+        playback.begin_frame()
         before, last = self._passed, self._sensed
         if last is not None and (before is None or before.step == snapshot.step):
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before

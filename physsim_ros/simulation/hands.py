@@ -76,7 +76,7 @@ class Hands:
             gesture = hand.gesture
         if isinstance(request, Grab | MoveHand):
             request = replace(request, paused=self._playback.speed == 0.0)
-        self._playback.seek_shown()
+        self._playback.send_cursor()
         answer = self._past.apply(request, gesture, author)
         match request:
             case Grab(hand=name):

@@ -62,9 +62,9 @@ class Playback:
             self.drop_frames()
         self._complete_frame()
 
-    def note_reporting(self, reports_contacts: bool) -> None:  # noqa: FBT001 - a state
-        """Note that contacts are reported from the next step on, or no longer."""
-        self._lacks_contacts = reports_contacts
+    def report_contacts(self, reports_contacts: bool) -> None:  # noqa: FBT001 - a state
+        """Have frames have contacts from the next step on, and that of a paused world, or none."""
+        self._past.reports_contacts = self._lacks_contacts = reports_contacts
         self._complete_frame()
 
     def _complete_frame(self) -> None:
@@ -72,12 +72,8 @@ class Playback:
         if self._lacks_contacts and self.speed == 0 and not self.frames_due:
             self._seek_step(self.step)
 
-    def note_change(self) -> None:
-        """Note that the next frame differs from the last one."""
-        self.changed = True
-
-    def note_frame(self) -> None:
-        """Note that the frame of this moment was made, from which the next one may differ."""
+    def begin_frame(self) -> None:
+        """Compare the next frame with that of this moment, which was made."""
         self.changed = self.stepped = False
 
     # The moment that is shown
@@ -154,7 +150,7 @@ class Playback:
 
     def arrive(self) -> World:
         """Send the world to the moment that is shown, finish the way there, and return it."""
-        self.seek_shown()
+        self.send_cursor()
         return self._past.cursor.arrive()
 
     @property
@@ -201,7 +197,7 @@ class Playback:
         frame = self._past.frames.cached_frame(step)
         if frame is None:
             self._past.cursor.seek(step)
-        self.note_jump()
+        self.show_cursor()
         self._shown, self._lacks_contacts = frame, False
 
     def _show_requests(self) -> None:
@@ -210,7 +206,7 @@ class Playback:
         if serial > self._past.line.serial_shown_at(step):
             self._observe_world()
 
-    def seek_shown(self) -> None:
+    def send_cursor(self) -> None:
         """Send the world to the moment that is shown."""
         if self._shown is not None:
             step, self._shown = self._shown.snapshot.step, None
@@ -222,10 +218,10 @@ class Playback:
 
         Nothing is done while a cached frame is shown in place of the goal.
         """
-        while self._shown is None and self._past.cursor.continue_work():
+        while self._shown is None and self._past.cursor.carry_out_slice():
             yield
 
-    def note_jump(self) -> None:
+    def show_cursor(self) -> None:
         """Show the moment of the cursor, which is another than the one that was shown."""
         self._shown = None
         self.clock.restart()
@@ -275,14 +271,14 @@ class Playback:
         :return: whether a frame may be shown; else the rest of the steps up to the next one is
             work under way
         """
-        self.seek_shown()
+        self.send_cursor()
         self._lacks_contacts, self.stepped = False, True
         cursor = self._past.cursor
         while steps > 0:
             some = 1 if by_steps else min(steps, self.steps_to_period)
             cursor.begin_advance(some)
             cursor.build_ahead(some)
-            while cursor.continue_work():
+            while cursor.carry_out_slice():
                 yield False
             steps -= some
             yield True

@@ -61,7 +61,8 @@ class Robot:
         self.simulation = simulation
         self.name = name
         # After the requests that wait, one of which may spawn it.
-        robot_of_name(simulation.requests.settle().cursor.arrive().space, name)
+        simulation.applier.apply_all()
+        robot_of_name(simulation.world.space, name)
         simulation.reports_contacts = True
 
     @property

@@ -10,8 +10,7 @@ replaces it comes after the requests that wait; a refusal changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 import math
 from numbers import Integral
@@ -27,6 +26,7 @@ from physsim_ros.model.timeline import stamp_of, TimelineStatus
 from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.sensing import SensedFrame
+from physsim_ros.simulation.applier import Applier
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.playback import Playback
@@ -93,7 +93,8 @@ class Simulation:
     :ivar frame_steps: number of steps in a frame at speed 1
     :ivar past: the lines of events, cached frames, and their budget of memory
     :ivar playback: the moment that is shown
-    :ivar requests: queue of the requests that wait for the next frame, and what applies them
+    :ivar requests: queue of the requests that wait for the next frame
+    :ivar applier: applies them
     :ivar frames: makes the frames of that moment
     :ivar ticks: advances its time
     """
@@ -134,9 +135,10 @@ class Simulation:
         self.frame_steps = past.frame_steps
         self.past = past
         self.playback = Playback(past, speed=speed)
-        self.requests = RequestQueue(past, self.playback)
-        self.frames = FrameMaker(past, self.playback, self.requests)
-        self.ticks = Ticks(past, self.playback, self.requests, self.frames)
+        self.requests = RequestQueue()
+        self.applier = Applier(self.requests, past, self.playback)
+        self.frames = FrameMaker(past, self.playback, self.applier)
+        self.ticks = Ticks(past, self.playback, self.applier, self.frames)
 
     # Reading
 
@@ -169,7 +171,7 @@ class Simulation:
     def speed(self, speed: float) -> None:
         self.playback.speed = speed
         if self.playback.speed < 0.0:
-            self.requests.let_go()
+            self.applier.let_go()
 
     @property
     def sensed(self) -> SensedFrame:
@@ -208,12 +210,12 @@ class Simulation:
         :raises Refusal: it is out of range
         """
         length = self.past.steps_of('history', seconds)
-        past = self.requests.settle()
+        self._world_now()
         # The times of a paused world are told anew.
-        self.playback.note_change()
-        if not past.cursor.keep_within(length):
-            self.playback.note_jump()
-            self.requests.report_oldest()
+        self.playback.changed = True
+        if not self.past.cursor.keep_within(length):
+            self.playback.show_cursor()
+            self.applier.report_oldest()
 
     def limit_memory(self, megabytes: float) -> None:
         """
@@ -222,7 +224,7 @@ class Simulation:
         :raises Refusal: it is out of range
         """
         self.past.budget.megabytes = megabytes
-        self.playback.note_change()
+        self.playback.changed = True
 
     @property
     def reports_contacts(self) -> bool:
@@ -232,14 +234,13 @@ class Simulation:
     @reports_contacts.setter
     def reports_contacts(self, reports_contacts: bool) -> None:
         if reports_contacts != self.past.reports_contacts:
-            self.past.reports_contacts = reports_contacts
-            self.playback.note_reporting(reports_contacts)
+            self.playback.report_contacts(reports_contacts)
 
     # Time
 
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
-        self.requests.apply_waiting()
+        self.applier.apply_all()
         return self.frames.make() if self.frames.is_changed else None
 
     def advance_frame(self) -> Frame:
@@ -277,7 +278,7 @@ class Simulation:
 
     def keep_driving(self, command: DriveRobot) -> None:
         """Have a robot drive on by a command, until it gets another one or is gone."""
-        self.requests.driving[command.name] = command
+        self.applier.drives.commands[command.name] = command
 
     def perform(self, request: Request, gesture: int | None = None) -> str:
         """
@@ -287,10 +288,10 @@ class Simulation:
         :raises Refusal: the request is refused, and has changed nothing
         """
         OfClass(Request)(request, 'request')
-        self.requests.settle()
+        self.applier.apply_all()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
-        message = self.requests.apply_now(request, gesture).message
-        self.playback.note_change()
+        message = self.applier.apply_one(request, gesture).message
+        self.playback.changed = True
         return message
 
     def place(self, name: str, x: float, y: float, yaw: float = 0.0) -> None:
@@ -303,7 +304,7 @@ class Simulation:
         :raises UnknownBody: no body has that name
         :raises Malformed: a number is not finite
         """
-        rigid = self.requests.settle().cursor.arrive().space.bodies.by_name.get(name)
+        rigid = self._world_now().space.bodies.by_name.get(name)
         # An anchored body takes a pose only.
         twists = np.zeros((0 if rigid is not None and rigid.body.anchored else 1, 3))
         self.perform(Command(names=(name,), poses=np.array(((x, y, yaw),)), twists=twists))
@@ -316,15 +317,9 @@ class Simulation:
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
         OfClass(WorldState)(state, 'state')
-        self.requests.apply_waiting()
+        self.applier.apply_all()
         self.past.begin(state.at_rate(self.physics_rate))
-        self._note_beginning()
-        self.requests.note_jump()
-
-    def _note_beginning(self) -> None:
-        """Note that the world is another one, which nobody drags, drives or has seen."""
-        self.requests.let_go()
-        self.frames.forget()
+        self._show_beginning()
 
     def load(self, world: WorldState | Beginning) -> str:
         """
@@ -335,18 +330,24 @@ class Simulation:
         :raises Malformed: the value is neither
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
-        state, ahead = self._to_begin_with(world)
-        self.requests.settle().cursor.arrive().put_ahead(ahead)
-        message = self.perform(Restore(state=state))
-        self.requests.let_go()
+        OfClass(WorldState | Beginning)(world, 'world')
+        self._world_now()
+        message = self.perform(Restore(state=self._state_to_begin(world)))
+        self.applier.let_go()
         return message
 
-    def _to_begin_with(self, world: WorldState | Beginning) -> tuple[WorldState, Beginning | None]:
-        """Return a state, and its beginning if that is built."""
-        OfClass(WorldState | Beginning)(world, 'world')
+    def _state_to_begin(self, world: WorldState | Beginning) -> WorldState:
+        """Return the state that the world is to begin with now, and keep its beginning built."""
         if isinstance(world, WorldState):
-            return world.at_rate(self.physics_rate), None
-        return world.state, world
+            return world.at_rate(self.physics_rate)
+        self.past.keep_built(world)
+        return world.state
+
+    def _show_beginning(self) -> None:
+        """Show the world that has begun, which nobody drags, drives or has seen."""
+        self.applier.let_go()
+        self.frames.forget()
+        self.applier.show_jump()
 
     def save(self) -> WorldState:
         """
@@ -360,7 +361,7 @@ class Simulation:
 
     def saver(self) -> Callable[[], WorldState]:
         """Return a function that returns, on any thread, the state of the world as it is now."""
-        return self.requests.settle().cursor.arrive().saver()
+        return self._world_now().saver()
 
     def saver_of_run(self) -> Callable[[], WorldState]:
         """
@@ -368,7 +369,8 @@ class Simulation:
 
         A world that begins with this state, and gets no request, repeats the run.
         """
-        return self.requests.settle().saver_of_run()
+        self.applier.apply_all()
+        return self.past.saver_of_run()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """
@@ -395,19 +397,19 @@ class Simulation:
 
         :raises InPast: the past is shown
         """
-        past = self.requests.settle()
+        self._world_now()
         if self.frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
-        self.requests.hands.clear()
-        self.requests.release_grips()
+        self.applier.hands.clear()
+        self.applier.release_grips()
         frame = self.frame
-        checkpoint = past.cursor.add_keyframe()
+        checkpoint = self.past.cursor.add_keyframe()
         return SavedMoment(
             checkpoint=checkpoint,
             loaded=self.loaded,
             frame=frame,
             before=self.sensed.before,
-            driving=tuple(self.requests.driving.values()),
+            driving=tuple(self.applier.drives.commands.values()),
             physics_rate=self.physics_rate,
         )
 
@@ -426,10 +428,9 @@ class Simulation:
                 f'at {self.physics_rate:g} Hz',
                 field='physics_rate',
             )
-        self.requests.apply_waiting()
+        self.applier.apply_all()
         self.past.restore(saved.checkpoint, saved.loaded)
-        self._note_beginning()
-        self.requests.note_jump()
+        self._show_beginning()
         for command in saved.driving:
             self.keep_driving(command)
         # Its answers are those of the other simulation.
@@ -444,9 +445,11 @@ class Simulation:
         :param ahead: the beginning of the state, which any thread makes
         :raises BadProperty: the seed is out of range
         """
-        with self._jump() as past:
-            done = past.reset(seed, ahead)
-            self._note_beginning()
+        past = self._past_now()
+        if ahead is not None:
+            past.keep_built(ahead)
+        done = past.reset(seed)
+        self._show_beginning()
         return Text('back at the beginning, time 0' if done else 'at the beginning, time 0')
 
     def open_world(self, world: WorldState | Beginning) -> str:
@@ -456,10 +459,10 @@ class Simulation:
         :param world: the state, or its beginning, which any thread makes
         :raises Refusal: the state is too large, or cannot be simulated; nothing is changed
         """
-        with self._jump() as past:
-            state, ahead = self._to_begin_with(world)
-            past.open_world(state, ahead)
-            self._note_beginning()
+        OfClass(WorldState | Beginning)(world, 'world')
+        past, state = self._past_now(), self._state_to_begin(world)
+        past.open_world(state)
+        self._show_beginning()
         return load_message(state)
 
     def undo(self) -> str:
@@ -468,8 +471,8 @@ class Simulation:
 
         :raises OutOfHistory: no gesture is left to undo
         """
-        with self._jump() as past:
-            undone = past.undo()
+        undone = self._past_now().undo()
+        self.applier.show_jump()
         return Text('undid {gesture}, back at {time}', gesture=undone, time=self.playback.time)
 
     def redo(self) -> str:
@@ -478,8 +481,8 @@ class Simulation:
 
         :raises OutOfHistory: nothing was undone, or a request was applied since
         """
-        with self._jump() as past:
-            redone = past.redo()
+        redone = self._past_now().redo()
+        self.applier.show_jump()
         return Text('redid {gesture}, at {time}', gesture=redone, time=self.playback.time)
 
     def return_to_course(self, number: int) -> str:
@@ -489,9 +492,9 @@ class Simulation:
         :param number: number of the course
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
-        with self._jump() as past:
-            if past.return_to_course(number):
-                self.requests.let_go()
+        if self._past_now().return_to_course(number):
+            self.applier.let_go()
+        self.applier.show_jump()
         return Text('on course {course}, at {time}', course=number, time=self.playback.time)
 
     def seek(self, stamp: int) -> str:
@@ -506,11 +509,18 @@ class Simulation:
         if not isinstance(stamp, Integral):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
         number(stamp, 'clock')
-        self.requests.apply_waiting()
-        return self.requests.seek(stamp)
+        self.applier.apply_all()
+        return self.applier.seek(stamp)
 
-    @contextmanager
-    def _jump(self) -> Iterator[Past]:
-        """Have the block move the cursor, from the moment that is shown after all requests."""
-        yield self.requests.settle()
-        self.requests.note_jump()
+    # After the requests that wait
+
+    def _world_now(self) -> World:
+        """Apply the requests that wait, and return the world at the moment that is shown."""
+        self.applier.apply_all()
+        return self.playback.arrive()
+
+    def _past_now(self) -> Past:
+        """Apply the requests that wait; return the past, its cursor sent to what is shown."""
+        self.applier.apply_all()
+        self.playback.send_cursor()
+        return self.past

@@ -15,13 +15,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 
-from physsim_ros.model.errors import BadProperty, UnknownBody
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.applier import Applier
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_queue import RequestQueue
-from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
@@ -73,21 +71,21 @@ class Ticks:
 
     :param past: of the world
     :param playback: the moment that is shown
-    :param requests: that wait
+    :param applier: applies the requests that wait
     :param frames: of that moment
     """
 
     def __init__(
-        self, past: Past, playback: Playback, requests: RequestQueue, frames: FrameMaker
+        self, past: Past, playback: Playback, applier: Applier, frames: FrameMaker
     ) -> None:
         self._past = past
         self._playback = playback
-        self._requests = requests
+        self._applier = applier
         self._frames = frames
         # Whether steps are under way after which a frame may be made.
         self._is_unfinished = False
 
-    def finish_work(self, is_overdue: Callable[[], bool]) -> bool:
+    def continue_work(self, is_overdue: Callable[[], bool]) -> bool:
         """
         Go on with the work that is under way: a seek, an amendment of the past, or steps.
 
@@ -97,7 +95,7 @@ class Ticks:
         :return: whether it is done
         """
         is_done = self._carry_out(self._playback.slices_of_work(), is_overdue)
-        self._requests.note_arrival()
+        self._applier.tell_arrival()
         return is_done
 
     def _carry_out(self, slices: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
@@ -125,10 +123,11 @@ class Ticks:
         playback, frame_steps = self._playback, self._past.frame_steps
         while count > 0:
             # Robots that drive on are told so in each period.
-            some = 1 if self._requests.driving else count
-            self._drive_on()
-            self._requests.settle()
-            self._requests.release_grips()
+            some = 1 if self._applier.drives.commands else count
+            self._applier.drives.drive_on()
+            self._applier.apply_all()
+            playback.arrive()
+            self._applier.release_grips()
             playback.clock.restart()
             playback.run(playback.steps_to_period + (some - 1) * frame_steps)
             count -= some
@@ -144,28 +143,28 @@ class Ticks:
         :return: the frames, in the order in which they are shown; empty where nothing is due and
             nothing has changed
         """
-        playback, requests, is_overdue = self._playback, self._requests, limits.is_overdue
+        playback, applier, is_overdue = self._playback, self._applier, limits.is_overdue
         self._past.free_slice()
-        if playback.is_world_due or requests.has_requests:
-            playback.seek_shown()
-        if not self.finish_work(is_overdue):
+        if playback.is_world_due or applier.has_requests:
+            playback.send_cursor()
+        if not self.continue_work(is_overdue):
             return ()
         if frame := self._finished_frame():
             return (frame,)
         if playback.speed > 0.0:
-            self._drive_on()
-        requests.apply_up_to_seek(limits.is_spent)
-        if not self.finish_work(is_overdue):
+            applier.drives.drive_on()
+        applier.apply_ready(limits.is_spent)
+        if not self.continue_work(is_overdue):
             return ()
-        if requests.is_in_gesture or (playback.frames_due and requests.is_busy):
+        if applier.is_in_gesture or (playback.frames_due and applier.is_busy):
             playback.clock.restart()
             return ()
         if playback.take_frame():
             self.run(1)
             return (self._frames.make(),)
-        requests.hands.note_time(now_ns, paused=playback.speed == 0)
+        applier.hands.note_time(now_ns, paused=playback.speed == 0)
         if playback.speed > 0:
-            requests.release_grips()
+            applier.release_grips()
         frames = tuple(self._due_frames(now_ns, limits))
         if not frames and playback.changed and not self._is_unfinished:
             return (self._frames.make(),)
@@ -202,18 +201,6 @@ class Ticks:
             return self._frames.make()
         return None
 
-    def _drive_on(self) -> None:
-        """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
-        past, driving = self._past, self._requests.driving
-        for name, drive in [*driving.items()]:
-            try:
-                if not is_driving(self._playback.arrive(), drive, past.frame_steps):
-                    # Nobody undoes a tick.
-                    past.apply_unasked(drive)
-            except (UnknownBody, BadProperty):
-                # Its robot is gone, or has no drive any more.
-                del driving[name]
-
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
         if not self._carry_out(self._playback.rewind(steps), is_overdue):
@@ -221,7 +208,7 @@ class Ticks:
         _finished(self._playback.replay_ahead(steps), is_overdue)
         if self._playback.step <= self._past.line.oldest:
             self._playback.speed = 0.0
-            self._requests.report_oldest('; paused')
+            self._applier.report_oldest('; paused')
         return self._frames.make()
 
 

@@ -146,7 +146,7 @@ class Sketchpad:
         """Carry out messages of pages for a bounded time, between the periodic work and sends."""
         now = time.monotonic()
         with self._boundary.containing('page'):
-            self._simulation.requests.continue_calls()
+            self._simulation.applier.continue_calls()
             self._keep_hands(now)
             self._send_pasts(now)
             with self._boundary.containing('autosave'):

@@ -216,6 +216,7 @@ class PhysSim(ObservedWorld):
                 self._match_new_publishers()
             else:
                 self._match_publishers()
+            self.node.loop.handle_messages()
             # The test itself reads the last frame.
             made = self.node.loop.pass_frames(min(frames - 1, self._frames_to_match))
             if not made:

@@ -72,7 +72,7 @@ def costs_of_rebuilds(world: Simulation, state: WorldState) -> dict[str, float]:
     world.open_world(state)
     world.past.undo()
     # Steps have parts of their own, at most 50 ms each.
-    undo = parts_of(iter(cursor.continue_work, False))
+    undo = parts_of(iter(cursor.carry_out_slice, False))
     return {'checkpoint': sum(checkpoint), 'longest part': max(*checkpoint, *undo)}
 
 

@@ -40,7 +40,7 @@ from physsim_ros.ros.requests.conversions import (
 )
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.runtime.error_boundary import ErrorBoundary
-from physsim_ros.simulation import waiting_entries
+from physsim_ros.simulation import request_queue
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, command, delete, delete_all, marker, point
 import pytest
@@ -412,7 +412,7 @@ def test_markers_of_an_array_wait_within_the_memory_that_they_have(
     for each in markers:
         each.points = POINTS
     array = MarkerArray(markers=markers)
-    monkeypatch.setattr(waiting_entries, 'MOST_BYTES', 3 * memory_of(markers[0]))
+    monkeypatch.setattr(request_queue, 'MOST_BYTES', 3 * memory_of(markers[0]))
     topics.receive['~/spawn_array'](serialize_message(array))
     frame = simulation.apply_requests()
     assert frame is not None

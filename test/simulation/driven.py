@@ -104,8 +104,8 @@ def world_after(*timed: tuple[int, str, Request], frames: int = 60) -> Simulatio
 def take_back(simulation: Simulation, author: str) -> Answer:
     """Have the last gesture of a person be taken back, and return the answer."""
     simulation.requests.submit(TakeBack(), Origin('~/undo', author=author))
-    simulation.requests.apply_waiting()
-    (answer,) = (each for each in simulation.requests.take_answers() if each.topic == '~/undo')
+    simulation.applier.apply_all()
+    (answer,) = (each for each in simulation.applier.take_answers() if each.topic == '~/undo')
     return answer
 
 

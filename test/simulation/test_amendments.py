@@ -216,7 +216,7 @@ def test_what_broke_is_not_told_again_where_the_way_takes_several_ticks():
         ticks += 1
         frames = simulation.advance(ticks, OVERDUE)
         told = [answer for frame in frames for answer in frame.answers]
-        told += simulation.requests.take_answers()
+        told += simulation.applier.take_answers()
 
     assert [answer.code for answer in told] == ['not_alone']
     assert ticks > 1

@@ -197,7 +197,7 @@ def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs():
     sim.requests.submit(Grab(hand='l', point=(0.0, 0.0)), Origin(TOPIC))
     sim.apply_requests()
 
-    hands = sim.requests.hands
+    hands = sim.applier.hands
     assert [hand for hand in ('h', 'k', 'l') if hand in hands] == ['l']
 
 

@@ -122,7 +122,7 @@ def test_the_release_of_a_silent_hand_is_undone_with_the_gesture_before_which_is
     sim = holding()
     sim.advance_frame()
     sim.perform(spawning('b/0', DISC, (5.0, 0.0, 0.0)))
-    sim.requests.hands.clear()
+    sim.applier.hands.clear()
     sim.advance_frame()
     assert not sim.world.grips
 

@@ -78,7 +78,7 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(
     # Up to the first seek, and to the second, which begins when the first is done.
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 150
-    answers = list(simulation.requests.take_answers())
+    answers = list(simulation.applier.take_answers())
     while 'early/0' not in frame.snapshot.scene.names:
         _, frame = ticks_to_a_frame(simulation, ticks * SECOND)
     answers += frame.answers
@@ -98,7 +98,7 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulatio
         return [Answer(topic='~/clear', message=simulation.perform(DeleteAll()))]
 
     requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
-    requests.submit_call(clear, Wait.FOR_SEEK)
+    simulation.applier.make_call(clear, Wait.FOR_SEEK)
     requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), topic='~/spawn')
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 50
@@ -145,7 +145,7 @@ def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation, di
 
 def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
-    assert not simulation.requests.apply_up_to_seek()
+    assert not simulation.applier.apply_ready()
     times = [simulation.playback.queue_frame(), simulation.playback.queue_frame()]
     assert times == [round(step * SECOND / 240) for step in (484, 488)]
     steps = []
@@ -155,7 +155,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, d
             steps.append(frame.snapshot.step)
             assert simulation.world.digest() == digests[frame.snapshot.step]
     assert steps == [484, 488]
-    assert simulation.requests.apply_up_to_seek()
+    assert simulation.applier.apply_ready()
 
 
 def test_another_seek_takes_the_place_of_one_and_of_its_frames(simulation, digests):
@@ -180,7 +180,7 @@ def test_another_seek_takes_the_place_of_one_under_way(simulation, digests):
 
 def told_of_seeks(simulation: Simulation) -> list[tuple[str, str]]:
     """Return who was answered what, as a node tells it between frames."""
-    answers = simulation.requests.take_answers()
+    answers = simulation.applier.take_answers()
     return [(each.asker, each.message) for each in answers if each.topic == '~/seek']
 
 
@@ -196,7 +196,7 @@ def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_plac
     match other:
         case 'seek':
             simulation.requests.submit_seek(SECOND, Origin('~/seek', asker='2'))
-            assert not simulation.requests.apply_up_to_seek()
+            assert not simulation.applier.apply_ready()
             assert told_of_seeks(simulation) == [('1', 'superseded by a seek to 1.000 s')]
         case 'undo':
             simulation.undo()
@@ -225,21 +225,21 @@ def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewher
         def call() -> list[Answer]:
             return [Answer(topic='~/undo', message=simulation.undo())]
 
-        simulation.requests.submit_call(call, Wait.BEHIND_REQUESTS, lambda: told.append(name))
+        simulation.applier.make_call(call, Wait.BEHIND_REQUESTS, lambda: told.append(name))
 
     undo('first')
     for tick in range(50):
         assert not simulation.advance(tick * SECOND // 60, OVERDUE)
         assert not told
-        assert not simulation.requests.take_answers()
+        assert not simulation.applier.take_answers()
     match ends_by:
         case 'seek':
             simulation.requests.submit_seek(SECOND, Origin('~/seek'))
         case 'another undo':
             undo('second')
-    simulation.requests.apply_up_to_seek()
+    simulation.applier.apply_ready()
     assert told == ([] if ends_by == 'replay' else ['first'])
-    answers = simulation.requests.take_answers() + simulation.advance_frame().answers
+    answers = simulation.applier.take_answers() + simulation.advance_frame().answers
     undone = [each.message for each in answers if each.topic == '~/undo']
     assert undone[0] == 'undid spawn late/1, back at 2.500 s'
     assert told == ['first', 'second'][: len(undone)]
@@ -255,9 +255,9 @@ def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, di
         assert (ticks, frame.snapshot.step) == (1, step)
         # On the way to the moment before, another one is sought.
         assert not simulation.advance(now + SECOND // 2, OVERDUE)
-        assert cursor.continue_work()
+        assert cursor.carry_out_slice()
     ticks = 0
-    while cursor.continue_work():
+    while cursor.carry_out_slice():
         assert not simulation.advance(4 * SECOND + ticks, OVERDUE)
         ticks += 1
     assert 10 < ticks < 200
@@ -299,11 +299,11 @@ def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits(monkeypatch)
         for goal in (0, 20):
             # A checkpoint is due, for which the world is built anew in more parts than these.
             cursor.begin_advance(4)
-            assert all(cursor.continue_work() for _ in range(parts))
+            assert all(cursor.carry_out_slice() for _ in range(parts))
             assert simulation.step == 24
             # The way back is given up, too, for another one.
             cursor.seek(goal)
-            assert all(cursor.continue_work() for _ in range(parts))
+            assert all(cursor.carry_out_slice() for _ in range(parts))
             cursor.seek(24)
             assert cursor.arrive().step_count == 24
         simulation.run(0.1)
@@ -376,7 +376,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
         assert sum(steps) <= simulation.frame_steps
         status = simulation.status
         assert (status.now, status.newest, status.state) == (step / 240, step / 240, 'paused')
-        assert not simulation.requests.take_answers()
+        assert not simulation.applier.take_answers()
     _, frame = ticks_to_a_frame(simulation, 400 * SECOND)
     told = [(each.topic, each.message, each.asker) for each in frame.answers]
     assert told[0] == ('~/undo', 'undid spawn Anna/0', 'anna')
@@ -417,13 +417,13 @@ def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
             simulation.undo()
         case 'queued':
             simulation.requests.submit_seek(SECOND, Origin('~/seek'))
-            assert not simulation.requests.apply_up_to_seek()
+            assert not simulation.applier.apply_ready()
             assert simulation.past.cursor.is_amending
         case 'told':
             # An answer changes nothing, and does not wait.
             simulation.requests.tell(Answer(topic='~/speed', message='speed 1'))
-            assert not simulation.requests.apply_up_to_seek()
-            assert [each.message for each in simulation.requests.take_answers()] == ['speed 1']
+            assert not simulation.applier.apply_ready()
+            assert [each.message for each in simulation.applier.take_answers()] == ['speed 1']
             assert simulation.past.cursor.is_amending
         case 'contacts':
             # A paused world makes its last steps again.
@@ -434,5 +434,5 @@ def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
             assert simulation.world.scene.names == ('Ben/0',)
     while len(simulation.requests):
         simulation.apply_requests()
-    told = simulation.requests.take_answers() or simulation.frame.answers
+    told = simulation.applier.take_answers() or simulation.frame.answers
     assert 'undid spawn Anna/0' in [answer.message for answer in told]

@@ -138,7 +138,7 @@ def test_requests_wait_for_the_end_of_the_frame(in_sub_steps):
     simulation.advance(SECOND // 60, OVERDUE)
     assert simulation.past.cursor.is_working
     simulation.requests.submit(spawning('late/0', DISC, (9.0, 1.0, 0.0)), topic='~/spawn')
-    simulation.requests.apply_up_to_seek()
+    simulation.applier.apply_ready()
     assert 'late/0' not in simulation.world
     frames = [frame for _, frame in ticks_to_frames(simulation, 3, 200)]
     assert 'late/0' in frames[-1].snapshot.scene.names

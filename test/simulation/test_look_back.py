@@ -98,7 +98,7 @@ OF_SIMULATION: dict[str, Call] = {
 }
 OF_TICKS: dict[str, Call] = {
     'advance': of_simulation(lambda it: it.ticks.advance(SECOND, OVERDUE)),
-    'finish_work': of_simulation(lambda it: it.ticks.finish_work(lambda: False)),
+    'continue_work': of_simulation(lambda it: it.ticks.continue_work(lambda: False)),
     'pass_frames': of_simulation(lambda it: it.ticks.pass_frames(3)),
     'run': of_simulation(lambda it: it.ticks.run(3)),
 }

@@ -331,7 +331,7 @@ def test_a_checkpoint_is_built_ahead_in_three_quarters_of_the_time_to_it():
 
 def test_a_world_that_was_built_ahead_of_another_one_is_not_begun_with():
     world = World()
-    world.put_ahead(beginning_of(busy_world().save(), world.physics_rate))
+    world.keep_built(beginning_of(busy_world().save(), world.physics_rate))
 
     world.apply(Restore(state=World().save()))
 

@@ -10,9 +10,9 @@ from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.requests import Command, Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
-from physsim_ros.simulation import waiting_entries
+from physsim_ros.simulation import request_queue
+from physsim_ros.simulation.applier import Applier
 from physsim_ros.simulation.entries import Origin, size_of, Wait
-from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -68,7 +68,7 @@ def test_a_seek_to_where_nothing_is_kept_is_refused():
     sim.requests.submit_seek(9 * SECOND, Origin('~/seek'))
 
     assert sim.apply_requests() is None
-    (answer,) = sim.requests.take_answers()
+    (answer,) = sim.applier.take_answers()
     assert (answer.topic, answer.code) == ('~/seek', 'out_of_history')
 
 
@@ -76,7 +76,7 @@ def test_a_seek_to_where_nothing_is_kept_is_refused():
 def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(bound, monkeypatch):
     sim = Simulation(speed=0.0)
     size = size_of(SPAWN)
-    monkeypatch.setattr(waiting_entries, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
+    monkeypatch.setattr(request_queue, bound, 5 if bound == 'MOST_WAITING' else 5 * size)
     for _ in range(2):
         for number in range(7):
             spawn(sim, number)
@@ -93,7 +93,7 @@ def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(bound, monkeypa
 def test_a_gesture_is_carried_out_as_a_whole_or_refused_as_a_whole(bound, room, monkeypatch):
     sim = Simulation(speed=0.0)
     size = size_of(SPAWN)
-    monkeypatch.setattr(waiting_entries, bound, room if bound == 'MOST_WAITING' else room * size)
+    monkeypatch.setattr(request_queue, bound, room if bound == 'MOST_WAITING' else room * size)
     sim.requests.submit_gesture([replace(SPAWN, name=f'a/{n}') for n in range(3)], Origin('t'))
 
     frame = sim.apply_requests()
@@ -120,17 +120,18 @@ def applied(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Return a list of the requests and the stamps of seeks that are applied from now on."""
     applied: list[Any] = []
 
-    def note(_: RequestQueue, what: Any, *__: Any) -> Any:
+    def note(_: Applier, what: Any, *__: Any) -> Any:
         applied.append(what)
         return f'at {what}' if isinstance(what, int) else Answer(topic='')
 
-    monkeypatch.setattr(RequestQueue, 'apply_now', note)
-    monkeypatch.setattr(RequestQueue, 'seek', note)
+    monkeypatch.setattr(Applier, 'apply_one', note)
+    monkeypatch.setattr(Applier, 'seek', note)
     return applied
 
 
 def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out(applied):
-    queue = Simulation().requests
+    sim = Simulation()
+    queue = sim.requests
     move, other = MoveHand(hand='h', point=(1.0, 1.0)), MoveHand(hand='h', point=(9.0, 9.0))
     queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(1, Origin('~/seek'))
@@ -138,38 +139,40 @@ def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out(ap
     queue.submit_seek(2, Origin('~/seek'))
     queue.submit(move, topic='~/drag/feedback')
     queue.submit(other, topic='~/drag/feedback')
-    queue.submit_call(lambda: applied.append('call') or [], Wait.FOR_SEEK)
+    sim.applier.make_call(lambda: applied.append('call') or [], Wait.FOR_SEEK)
     queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(3, Origin('~/seek'))
 
-    queue.apply_waiting()
+    sim.applier.apply_all()
 
     assert applied == [move, 2, other, 'call', move, 3]
 
 
 def test_a_move_of_a_hand_overtakes_nothing_but_moves(applied):
-    queue = Simulation().requests
+    sim = Simulation()
+    queue = sim.requests
     first, second = (MoveHand(hand='h', point=(x, 1.0)) for x in (1.0, 2.0))
     third, other = MoveHand(hand='h', point=(3.0, 1.0)), MoveHand(hand='i', point=(9.0, 9.0))
     delete, keep = Delete(name='a/0'), KeepHand(hand='h')
     for request in (first, other, keep, second, delete, third):
         queue.submit(request, topic='~/drag/feedback')
 
-    queue.apply_waiting()
+    sim.applier.apply_all()
 
     assert applied == [second, other, keep, delete, third]
 
 
 def test_answers_that_are_too_many_are_counted(monkeypatch, applied):
-    monkeypatch.setattr(waiting_entries, 'MOST_WAITING', 5)
-    queue = Simulation().requests
+    monkeypatch.setattr(request_queue, 'MOST_WAITING', 5)
+    sim = Simulation()
+    queue = sim.requests
     queue.submit(SPAWN, topic='~/spawn')
     for stamp in range(100):
         queue.refuse(Malformed('no'), Origin('~/spawn'))
         queue.submit_seek(stamp, Origin('~/seek'))
 
-    queue.apply_waiting()
-    answers = queue.take_answers()
+    sim.applier.apply_all()
+    answers = sim.applier.take_answers()
 
     # Up to twice the bound; seeks beyond it are refused, too.
     assert len(answers) == 11
@@ -178,5 +181,5 @@ def test_answers_that_are_too_many_are_counted(monkeypatch, applied):
     assert answers[-1].message.startswith('191 more')
     # The next are told again.
     queue.refuse(Malformed('no'), Origin('~/spawn'))
-    queue.apply_waiting()
-    assert [each.code for each in queue.take_answers()] == ['malformed']
+    sim.applier.apply_all()
+    assert [each.code for each in sim.applier.take_answers()] == ['malformed']

@@ -86,7 +86,7 @@ def test_each_request_of_a_slice_is_answered_once_and_in_order():
     for number in range(COUNT // SLICE + 1):
         for frame in simulation.advance(number * FRAME, spending(SLICE)):
             answers += frame.answers
-        answers += simulation.requests.take_answers()
+        answers += simulation.applier.take_answers()
     assert [answer.subject for answer in answers] == [f'a/{each}' for each in range(COUNT)]
 
 
@@ -117,10 +117,10 @@ def test_a_call_behind_requests_waits_for_them():
         seen.append(len(simulation.world))
         return [Answer(topic='~/undo')]
 
-    simulation.requests.submit_call(call, Wait.BEHIND_REQUESTS)
-    simulation.requests.apply_up_to_seek(spent_after(SLICE))
+    simulation.applier.make_call(call, Wait.BEHIND_REQUESTS)
+    simulation.applier.apply_ready(spent_after(SLICE))
     assert seen == []
-    simulation.requests.submit_call(call, Wait.NONE)
+    simulation.applier.make_call(call, Wait.NONE)
     assert seen == [SLICE]
     for number in range(COUNT // SLICE + 1):
         tick(simulation, number)
@@ -134,7 +134,7 @@ def begin_reading(simulation: Simulation, wait: Wait = Wait.FOR_SEEK) -> Future[
     async def call() -> list[Answer]:
         return [Answer(topic='~/load_world', message=await wrap_future(future))]
 
-    simulation.requests.submit_call(call, wait)
+    simulation.applier.make_call(call, wait)
     late = spawning('late/0', BOX, (0.0, 0.0, 0.0))
     simulation.requests.submit(late, topic='~/spawn')
     return future
@@ -146,13 +146,13 @@ def test_time_goes_on_while_a_call_waits_for_a_file_and_requests_wait_for_the_ca
     future = begin_reading(simulation)
     for number in range(1, 5):
         assert tick(simulation, number) == 1
-        assert not simulation.requests.apply_up_to_seek()
+        assert not simulation.applier.apply_ready()
         assert len(simulation.world) == 0
     future.set_result('loaded')
     (frame,) = simulation.advance(5 * FRAME)
     assert simulation.step == 20
     assert [each.message for each in frame.answers] == ['loaded', 'spawned late/0']
-    assert simulation.requests.apply_up_to_seek()
+    assert simulation.applier.apply_ready()
 
 
 @pytest.mark.parametrize('wait', [Wait.TO_READ, Wait.NONE])
@@ -170,7 +170,7 @@ def test_requests_go_on_while_a_file_is_written_and_only_calls_that_read_it_wait
         return []
 
     for each in (Wait.FOR_SEEK, Wait.NONE):
-        simulation.requests.submit_call(partial(call, each), each)
+        simulation.applier.make_call(partial(call, each), each)
     tick(simulation, 2)
     assert seen == [Wait.NONE, Wait.FOR_SEEK][: 1 if wait is Wait.TO_READ else 2]
     future.set_result('written')
@@ -194,7 +194,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file
 def test_who_wants_the_world_at_once_waits_for_the_file():
     simulation = Simulation(settings=NOWHERE)
     future = begin_reading(simulation)
-    assert not simulation.requests.apply_up_to_seek()
+    assert not simulation.applier.apply_ready()
     Thread(target=future.set_result, args=('loaded',)).start()
     simulation.advance_frame()
     assert len(simulation.world) == 1
@@ -231,10 +231,10 @@ def test_a_frame_of_slow_steps_ends_after_any_step_and_later_calls_make_the_othe
         assert [frame.snapshot.step for frame in frames] == [call - 1]
     while fast.step < 4:
         fast.advance_frame()
-    slow.requests.seek(fast.world.stamp)
+    slow.applier.seek(fast.world.stamp)
     assert (slow.step, slow.world.digest()) == (4, fast.world.digest())
     # Where there is time, a frame is whole.
-    slow.requests.seek(round(7e9 / 240))
+    slow.applier.seek(round(7e9 / 240))
     (frame,) = slow.advance(20 * FRAME, TickLimits(frame_end=FrameEnd.STEP))
     (frame,) = slow.advance(21 * FRAME, TickLimits(frame_end=FrameEnd.STEP))
     assert frame.snapshot.step == 8
@@ -251,7 +251,7 @@ def test_slices_of_a_call_that_wait_for_nothing_go_on_while_there_is_time():
         return [Answer(topic='~/call', message='done')]
 
     tick(simulation, 0)
-    simulation.requests.submit_call(call, Wait.FOR_SEEK)
+    simulation.applier.make_call(call, Wait.FOR_SEEK)
     submit(simulation, joined=False)
     # The first slice begins it.
     tick(simulation, 1)

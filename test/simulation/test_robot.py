@@ -165,7 +165,7 @@ def test_a_saved_moment_is_continued_to_the_bit(copied):
     digest = simulation.world.digest()
     for another in (simulation, Simulation(history=0.0)):
         another.restore(saved)
-        assert another.requests.driving['robot/0'] == saved.driving[0]
+        assert another.applier.drives.commands['robot/0'] == saved.driving[0]
         again = Robot(another, 'robot/0')
         assert (another.step, again.bumped, again.read('imu')) == (step, bumped, imu)
         assert wander(again, 60) == first
@@ -325,7 +325,7 @@ def test_a_robot_without_a_drive_cannot_be_driven():
     robot.simulation.perform(Delete(name='robot/0'))
     with pytest.raises(UnknownBody):
         robot.drive(1.0)
-    assert not robot.simulation.requests.driving
+    assert not robot.simulation.applier.drives.commands
 
 
 def queued_seek(simulation: Simulation, stamp: int) -> None:
@@ -356,14 +356,14 @@ def test_another_moment_and_another_world_end_what_a_robot_is_held_to(name):
     robot.drive(0.2)
     robot.simulation.run(1.0)
     ELSEWHERE[name](robot.simulation)
-    assert not robot.simulation.requests.driving
+    assert not robot.simulation.applier.drives.commands
 
 
 def test_a_queued_seek_that_is_refused_ends_no_drive():
     robot = corridor()
     robot.drive(0.2)
     queued_seek(robot.simulation, 99 * BACK)
-    assert robot.simulation.requests.driving
+    assert robot.simulation.applier.drives.commands
 
 
 def test_what_is_no_robot_or_has_no_such_sensor_is_refused():

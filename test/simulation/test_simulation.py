@@ -89,12 +89,12 @@ def test_times_and_speeds_out_of_range_are_refused_and_change_nothing(value):
         assert refused.value.field == name
     sim = Simulation()
     drive = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
-    sim.requests.driving['robot/0'] = drive
+    sim.applier.drives.commands['robot/0'] = drive
     with pytest.raises((BadProperty, Malformed), match='speed'):
         sim.speed = value
     with pytest.raises((BadProperty, Malformed), match='history'):
         sim.limit_history(value)
-    assert (sim.speed, sim.requests.driving) == (1.0, {'robot/0': drive})
+    assert (sim.speed, sim.applier.drives.commands) == (1.0, {'robot/0': drive})
 
 
 def test_a_time_beyond_all_numbers_is_refused():
@@ -440,7 +440,7 @@ def test_what_is_refused_ends_no_drive_no_drag_and_no_frame_that_is_due(name):
     sim.perform(Grab(hand='mouse', point=(0.0, 0.0)))
     # Now there is nothing to undo.
     sim.past.begin(sim.save())
-    sim.requests.driving['robot/0'] = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
+    sim.applier.drives.commands['robot/0'] = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
     sim.playback.queue_frame()
     before = sim.step, sim.world.digest(), sim.status
 
@@ -448,8 +448,8 @@ def test_what_is_refused_ends_no_drive_no_drag_and_no_frame_that_is_due(name):
         REFUSED[name](sim)
 
     assert (sim.step, sim.world.digest(), sim.status) == before
-    assert sim.requests.driving
-    assert 'mouse' in sim.requests.hands
+    assert sim.applier.drives.commands
+    assert 'mouse' in sim.applier.hands
     assert sim.playback.frames_due == 1
 
 

@@ -46,7 +46,7 @@ def test_a_load_is_redone_in_slices() -> None:
     simulation.redo()
     # Not to be asked for the world, which would finish the work.
     cursor, slices = simulation.past.cursor, 1
-    while cursor.continue_work():
+    while cursor.carry_out_slice():
         slices += 1
     # Bodies are built, put into the space, and given shapes.
     assert slices >= 3 * COUNT / SLICE

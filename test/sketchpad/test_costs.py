@@ -171,9 +171,9 @@ def test_no_message_takes_the_thread_of_the_world_for_long(crowded: PhysSim) -> 
             sketchpad._sessions[page].handle(message)  # noqa: SLF001 - no socket
             note(began, kind, 'handled')
             # A tick applies a request after the other while there is time.
-            while node.simulation.requests.has_requests:
+            while node.simulation.applier.has_requests:
                 began = time.thread_time()
-                node.simulation.requests.apply_up_to_seek(lambda: True)
+                node.simulation.applier.apply_ready(lambda: True)
                 note(began, kind, 'applied')
             crowded.step()
     longest.sort(reverse=True)

@@ -10,7 +10,7 @@ from typing import Any
 
 from physsim_ros.files import OwnWorlds
 from physsim_ros.ros import world_files
-from physsim_ros.simulation import request_queue
+from physsim_ros.simulation import applier
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave, message, Role, sketchpad, world_control
 from physsim_ros.sketchpad.autosave import Autosave
@@ -91,7 +91,7 @@ def test_a_message_that_is_read(doors: PageDoors) -> None:
         ('put_back', {'name': 'mine'}, OwnWorlds, 'put_back'),
         ('forget', {}, Autosave, 'forget_unsaved'),
         ('share', {}, Simulation, 'saver'),
-        ('take_back', {}, request_queue, 'take_back'),
+        ('take_back', {}, applier, 'take_back'),
         ('course', {'course': 7}, Simulation, 'return_to_course'),
     ],
 )

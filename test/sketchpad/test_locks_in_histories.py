@@ -72,11 +72,11 @@ def of_teacher(random: Random) -> Message:
 def return_to_newest(physsim: PhysSim, boss: Page) -> None:
     """Have what is under way be done, and the newest moment be shown."""
     simulation = physsim.node.simulation
-    simulation.ticks.finish_work(lambda: False)
+    simulation.ticks.continue_work(lambda: False)
     physsim.settle()
     if not simulation.playback.is_newest:
         assert boss.ask('seek', time=simulation.status.newest)['ok']
-        simulation.ticks.finish_work(lambda: False)
+        simulation.ticks.continue_work(lambda: False)
 
 
 @pytest.mark.parametrize('seed', [0, 1, 2, *map(slow, (3, 4, 5))])

@@ -382,7 +382,7 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     shared, chosen = page.send('share'), page.send('draw_with', density=7.0)
     sketchpad = physsim.node.outputs.sketchpad
     page.until(lambda: sketchpad.handle_messages() or page.answers(chosen))
-    assert not simulation.requests.apply_up_to_seek()
+    assert not simulation.applier.apply_ready()
     assert not page.answers(shared)
     physsim.node.loop.apply_requests()
     page.until(lambda: sketchpad.handle_messages() or page.answers(shared))
@@ -742,7 +742,7 @@ def test_no_message_is_carried_out_within_another(
     taken, within = [], []
 
     async def step() -> tuple[Answer, ...]:
-        control.time.advance_frame()
+        control.time.step_now()
         return ()
 
     def take_noted(inbox: Inbox) -> Any:
@@ -751,7 +751,7 @@ def test_no_message_is_carried_out_within_another(
 
     def handle_noted(session: PageSession, message: Message) -> None:
         # A message that reads a snapshot has this call begin.
-        control.simulation.requests.submit_call(step, Wait.FOR_SEEK)
+        control.simulation.applier.make_call(step, Wait.FOR_SEEK)
         before = len(taken)
         handle(session, message)
         within.append(len(taken) - before)

@@ -90,10 +90,10 @@ class Watched:
 
     def tick_until(self, is_over: Callable[[], bool]) -> None:
         """Tick until something holds and nothing is under way, and twice more."""
-        requests, playback = self.node.simulation.requests, self.node.simulation.playback
+        applier, playback = self.node.simulation.applier, self.node.simulation.playback
         end, more = time.monotonic() + LATEST, 2
         while more:
-            more -= is_over() and playback.is_there and not requests.is_busy
+            more -= is_over() and playback.is_there and not applier.is_busy
             if time.monotonic() > end:
                 raise TimeoutError(f'an operation takes more than {LATEST:g} s')
             self._measure(self._tick)

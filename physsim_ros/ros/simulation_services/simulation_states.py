@@ -126,7 +126,7 @@ class SimulationStates:
         for count in range(1, request.steps + 1):
             if count > 1:
                 await end_slice()
-            message = self._control.time.advance_frame()
+            message = self._control.time.step_now()
             on_frame(count)
         return message
 

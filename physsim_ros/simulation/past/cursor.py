@@ -30,7 +30,7 @@ from physsim_ros.model.translation import Text
 from physsim_ros.runtime.slices import finish
 from physsim_ros.simulation.past.line import Keyframe, LineInForce, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
-from physsim_ros.simulation.world import Beginning, Change, World
+from physsim_ros.simulation.world import Change, World
 
 # Share of the time between two checkpoints in which the bodies for the next one are built [1], so
 # that no frame builds all.
@@ -171,7 +171,7 @@ class Cursor(Replay):
 
     def arrive(self) -> World:
         """Carry out the rest of the work that is under way, and return the world."""
-        while self.continue_work():
+        while self.carry_out_slice():
             pass
         return self._world
 
@@ -210,7 +210,7 @@ class Cursor(Replay):
         self.arrive()
         self._work = _Work(_Kind.AMENDMENT, slices, lambda: self._line.end)
 
-    def continue_work(self) -> bool:
+    def carry_out_slice(self) -> bool:
         """
         Carry out a slice, a frame or a request, and return whether work is still under way.
 
@@ -232,19 +232,18 @@ class Cursor(Replay):
     def finish_amendment(self) -> None:
         """Carry out the rest of an amendment."""
         while self.is_amending:
-            self.continue_work()
+            self.carry_out_slice()
 
     # To another moment
 
-    def begin(self, state: WorldState, ahead: Beginning | None = None) -> None:
+    def begin(self, state: WorldState) -> None:
         """
         Begin a line with a state, at time 0.
 
-        :param ahead: the beginning of the state, if it is built
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         self.finish_amendment()
-        self._world.begin(state, 0, ahead)
+        self._world.begin(state, 0)
         self._begin_line(state, self._world.renew())
 
     def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:

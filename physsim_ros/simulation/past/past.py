@@ -44,7 +44,7 @@ class Past:
     The cursor on the line in force, the cached frames of that line, and all other lines.
 
     Requests, undo and redo apply to the moment of the cursor. While a cached frame of another
-    moment is shown, `Playback.seek_shown` comes first.
+    moment is shown, `Playback.send_cursor` comes first.
 
     :param physics_rate: steps a second of simulation time [Hz]
     :param frame_steps: number of steps in a frame at speed 1
@@ -298,12 +298,15 @@ class Past:
         self.tree.forget()
         self.frames.drop_from(0)
 
-    def reset(self, seed: int | None = None, ahead: Beginning | None = None) -> bool:
+    def keep_built(self, beginning: Beginning) -> None:
+        """Have the cursor's world, when it next begins with the state of a beginning, use that."""
+        self._worlds[0].keep_built(beginning)
+
+    def reset(self, seed: int | None = None) -> bool:
         """
         Return to the state that was loaded last, at time 0.
 
         :param seed: of all noise; None is that of the state
-        :param ahead: the beginning of the state, if it is built
         :return: whether anything had happened since
         :raises BadProperty: the seed is out of range
         """
@@ -314,19 +317,18 @@ class Past:
         if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
-        self._begin_anew(state, Text('reset'), ahead)
+        self._begin_anew(state, Text('reset'))
         return True
 
-    def open_world(self, state: WorldState, ahead: Beginning | None = None) -> None:
+    def open_world(self, state: WorldState) -> None:
         """
         Begin with another state, at time 0; undo reverts it.
 
-        :param ahead: the beginning of the state, if it is built
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
-        self._begin_anew(state, Text('open world'), ahead)
+        self._begin_anew(state, Text('open world'))
 
-    def _begin_anew(self, state: WorldState, words: str, ahead: Beginning | None) -> None:
+    def _begin_anew(self, state: WorldState, words: str) -> None:
         """
         Put a line in force that begins with a state, at time 0.
 
@@ -336,7 +338,7 @@ class Past:
         tree = self.tree
         before = tree.line_left_at(self.cursor.moment)
         try:
-            self.cursor.begin(state, ahead)
+            self.cursor.begin(state)
         except Refusal:
             tree.drop(before)
             raise

@@ -64,7 +64,8 @@ class LiveSpace:
         self.dt = 1.0 / physics_rate
         self._sub_step = sub_step_of(physics_rate)
         self.step_count = 0
-        self._ahead: Beginning | None = None
+        # The beginning that was built last, which only its state can use.
+        self._built: Beginning | None = None
         self._fresh: Beginning | None = None
         self._pool = BodyPool()
         # Each frees a space that was replaced, the first one first.
@@ -149,33 +150,24 @@ class LiveSpace:
         self.step_count = checkpoint.step
         self._retire(old, pool)
 
-    def put_ahead(self, beginning: Beginning | None) -> None:
-        """Have the next request that loads a state find its beginning built; None is not built."""
-        self._ahead = beginning
+    def keep_built(self, beginning: Beginning) -> None:
+        """Have the world, when it next begins with the state of a beginning, use that."""
+        self._built = beginning
 
     def slices_of_beginning(self, state: WorldState) -> Generator[None]:
-        """Build ahead what a request that loads a state begins with; yield after each slice."""
-        self._ahead = yield from _slices_of_beginning(state, self.step_count, self._sub_step)
+        """Build ahead the beginning with a state at this step; yield after each slice."""
+        self._built = yield from _slices_of_beginning(state, self.step_count, self._sub_step)
 
-    def load(self, state: WorldState) -> None:
+    def begin(self, state: WorldState, step: int) -> None:
         """
-        Begin with a saved state at this step, as it was built ahead.
-
-        :raises WorldFull: the state is too large; nothing is changed
-        """
-        ahead, self._ahead = self._ahead, None
-        self.begin(state, self.step_count, ahead)
-
-    def begin(self, state: WorldState, step: int, ahead: Beginning | None = None) -> None:
-        """
-        Replace the space by one that begins with a saved state.
+        Replace the space by one that begins with a saved state, as it was built ahead.
 
         :param step: number of steps that the world has made then
-        :param ahead: a beginning that was built, used if it is that of the same state
         :raises WorldFull: the state is too large; nothing is changed
         """
-        if ahead is not None and ahead.state is state:
-            beginning = ahead.at(step)
+        built, self._built = self._built, None
+        if built is not None and built.state is state:
+            beginning = built.at(step)
         else:
             if self.capacity.checking:
                 check_state(state)

@@ -68,7 +68,7 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
     :raises WorldFull: the state is too large; nothing is changed
     :raises BadProperty: springs are too stiff for the steps; nothing is changed
     """
-    live.load(request.state)
+    live.begin(request.state, live.step_count)
     return Answer(message=load_message(request.state))
 
 

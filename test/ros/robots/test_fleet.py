@@ -269,7 +269,7 @@ def test_topics_of_many_robots_are_made_and_taken_back_tick_by_tick(
     for number in range(5):
         robot = spawning(f'robot/{number}', DISC, (number, 0.0, 0.0), robot=drive)
         node.simulation.requests.submit(robot, topic='~/spawn')
-    node.simulation.requests.apply_waiting()
+    node.simulation.applier.apply_all()
 
     def counts_until(count: int) -> list[int]:
         counts: list[int] = []
