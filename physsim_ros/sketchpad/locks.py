@@ -71,13 +71,43 @@ def check_locked(role: Role, wanted: Iterable[Request], control: WorldControl) -
 
     :raises Frozen: one of them does
     """
-    # A hand lets go anywhere, and at any time.
-    wanted = [each for each in wanted if not isinstance(each, requests.LetGo)]
-    if not wanted or not control.locked_bodies or role is Role.TEACH:
-        return
-    snapshot = control.loop.bring_up_to_date()
+    if wanted := _restricted(role, wanted, control):
+        _check_bodies(wanted, control.loop.bring_up_to_date(), control)
+
+
+def check_locked_in_turn(role: Role, wanted: Iterable[Request], control: WorldControl) -> None:
+    """
+    Refuse requests whose turn has come as `check_locked` does, by the world as it is then.
+
+    What was applied between the message and its turn, as a long seek, may have put locked bodies
+    where it points to.
+
+    :raises Frozen: one of them concerns a locked body
+    """
+    if wanted := _restricted(role, wanted, control):
+        _check_bodies(wanted, control.simulation.world.snapshot(), control)
+
+
+def _restricted(role: Role, wanted: Iterable[Request], control: WorldControl) -> list[Request]:
+    """Return the requests that locks may refuse: a hand lets go anywhere, and at any time."""
+    if not has_locks(role, control):
+        return []
+    return [each for each in wanted if not isinstance(each, requests.LetGo)]
+
+
+def _check_bodies(wanted: Iterable[Request], snapshot: Snapshot, control: WorldControl) -> None:
+    """
+    Refuse requests that concern locked bodies of a snapshot.
+
+    :raises Frozen: one of them does
+    """
     _check_newest(control)
     _check_names((name for each in wanted for name in _bodies_of(each, snapshot)), control)
+
+
+def has_locks(role: Role, control: WorldControl) -> bool:
+    """Return whether there are bodies that a page of a role does not change."""
+    return bool(control.locked_bodies) and role is not Role.TEACH
 
 
 def check_unchanged(role: Role, locked: Collection[str], control: WorldControl) -> None:
@@ -94,11 +124,11 @@ def check_unchanged(role: Role, locked: Collection[str], control: WorldControl) 
 
 def check_moment(role: Role, control: WorldControl) -> None:
     """
-    Refuse what replaces all bodies, by those of another moment or world, but for a teacher.
+    Refuse what replaces all bodies in its turn, by another moment or world, but for a teacher.
 
     :raises Frozen: a body of this world is locked
     """
-    check_locked(role, (requests.DeleteAll(),), control)
+    check_locked_in_turn(role, (requests.DeleteAll(),), control)
 
 
 def check_taken_back(
@@ -111,7 +141,7 @@ def check_taken_back(
     :param snapshot: of now
     :raises Frozen: one of them does
     """
-    if not gestures or not control.locked_bodies or role is Role.TEACH:
+    if not gestures or not has_locks(role, control):
         return
     _check_newest(control)
     nodes = control.simulation.past.line.nodes_of(gestures)

@@ -10,7 +10,7 @@ Law: a session changes nothing itself; it submits requests, and every message ha
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from functools import partial
+from functools import cache, partial
 import time
 from typing import Any, NamedTuple
 
@@ -28,7 +28,7 @@ from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Opened
-from physsim_ros.sketchpad.locks import check_locked, check_unchanged
+from physsim_ros.sketchpad.locks import check_locked, check_locked_in_turn, check_unchanged
 from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts
 from physsim_ros.sketchpad.person import author_of, Person
@@ -170,7 +170,7 @@ class PageSession:
         """
         requests = tuple(requests)
         check_locked(self.role, requests, self.control)
-        simulation = self.control.simulation
+        simulation, origin = self.control.simulation, self.checked_in_turn(origin, requests)
         return submit_told(simulation, requests, origin, message=message, gesture=gesture)
 
     def use_hand(self, origin: Origin, request: HandRequest) -> None:
@@ -180,8 +180,22 @@ class PageSession:
         :raises Frozen: it grabs a locked body
         """
         check_locked(self.role, (request,), self.control)
+        origin = self.checked_in_turn(origin, (request,))
         self.control.simulation.requests.submit(request, origin)
         self._hand_used = None if isinstance(request, LetGo) else time.monotonic()
+
+    def checked_in_turn(self, origin: Origin, requests: Sequence[Request]) -> Origin:
+        """Have locks be checked again in the turn of the first of requests, for all of them."""
+
+        @cache
+        def check_all() -> None:
+            check_locked_in_turn(self.role, requests, self.control)
+
+        def check() -> None:
+            origin.check()
+            check_all()
+
+        return origin._replace(check=check)
 
     # Answers
 

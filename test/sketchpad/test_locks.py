@@ -5,17 +5,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.drawing import Tool
+from physsim_ros.drawing import SceneQuery, Tool
 from physsim_ros.model import names, requests
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import Frozen
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.motor_command import CommandPoint, MotorCommand
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.world.world import HANDLERS
 from physsim_ros.sketchpad import page_session, Role
@@ -416,3 +419,54 @@ def test_a_gesture_that_is_taken_back_is_looked_up_in_its_turn(
     assert pupil.answers(first)[0]['ok']
     assert pupil.answers(second)[0]['code'] == 'frozen'
     assert states_of(browser.physsim, ['a/*']) == before
+
+
+def test_a_body_is_locked_where_it_is_when_the_turn_of_a_request_comes(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A seek is under way when the message comes, and the page shows the moment before it."""
+    pupil, boss = opened(browser, tmp_path)
+    node = browser.physsim.node
+    spawn = requests.Spawn(name='a/9', shape=Disc(radius=0.5), pose=(0.0, 30.0, 0.0))
+    node.simulation.perform(spawn)
+    node.simulation.perform(requests.Command(names=('a/9',), twists=[[10.0, 0.0, 0.0]]))
+    browser.physsim.run(1.0)
+    newest = node.simulation.status.newest
+    assert boss.ask('seek', time=newest - 1.0)['ok']
+    # As between two ticks.
+    monkeypatch.setattr(node.loop, 'started', True)
+    node.control.time.submit_seek(round(newest * 1e9), Origin('~/seek'))
+    assert not node.simulation.playback.is_there
+    sent = pupil.send('grab', point=[10.0, 30.0])
+    heard = pupil.send('drop')
+    handle = node.outputs.sketchpad.handle_messages
+    pupil.until(lambda: handle() or pupil.answers(heard))
+    assert not pupil.answers(sent)
+    node.loop.apply_requests()
+    assert not node.simulation.world.grips
+    pupil.until(lambda: pupil.answers(sent))
+    assert pupil.answers(sent)[0]['code'] == 'frozen'
+
+
+AT_POINT: tuple[Callable[[Point, str], requests.Request], ...] = (
+    *(
+        partial(lambda kind, point, frame: kind(point=point, frame=frame), kind)
+        for kind in (requests.Anchor, requests.Release, requests.Pin, requests.Axle)
+    ),
+    lambda point, frame: requests.Grab(hand='h', point=point, frame=frame),
+    lambda point, frame: requests.Join(
+        name='j/0', kind=JointKind.PIN, points=(point,), frame=frame
+    ),
+)
+
+
+@pytest.mark.parametrize('make', AT_POINT)
+def test_a_request_concerns_the_bodies_at_its_points_in_the_world(
+    physsim: PhysSim, make: Callable[[Point, str], requests.Request]
+) -> None:
+    for number, x in enumerate((0.0, 10.0)):
+        spawn = requests.Spawn(name=f'a/{number}', shape=Disc(radius=0.5), pose=(x, 0.0, 0.0))
+        physsim.node.simulation.perform(spawn)
+    query = SceneQuery(physsim.node.simulation.world.snapshot())
+    assert [*make((0.0, 0.0), 'a/1').concerned(query)] == [*make((10.0, 0.0), '').concerned(query)]
+    assert 'a/1' in make((0.0, 0.0), 'a/1').concerned(query)

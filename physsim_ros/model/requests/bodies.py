@@ -182,14 +182,15 @@ class Release(AtPoint):
 
     def concerned(self, world: Query) -> Iterable[str]:
         """Return the topmost body, and those that lose a pin or an axle."""
-        top, scene = world.bodies_at(self.point)[:1], world.snapshot.scene
+        point, scene = world.resolve_point(self.point, self.frame), world.snapshot.scene
+        top = world.bodies_at(point)[:1]
         reach = max((each.click_reach for each in scene.bodies if each.name in top), default=0.0)
         removed = (
             joint.bodies
             for joint in scene.joints
             if joint.kind in (JointKind.PIN, JointKind.AXLE)
             and not {*top}.isdisjoint(joint.bodies)
-            and math.dist(world.pivot(joint), self.point) <= reach
+            and math.dist(world.pivot(joint), point) <= reach
         )
         return chain(top, *removed)
 

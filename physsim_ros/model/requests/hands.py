@@ -58,7 +58,8 @@ class Grab(HandRequest):
 
     def concerned(self, world: Query) -> Iterable[str]:
         """Return the topmost dynamic body at the point, or else the topmost one."""
-        under, bodies = world.bodies_at(self.point), world.snapshot.scene.bodies
+        point, bodies = world.resolve_point(self.point, self.frame), world.snapshot.scene.bodies
+        under = world.bodies_at(point)
         dynamic = {body.name for body in bodies if body.dynamic}
         return tuple(name for name in under if name in dynamic)[:1] or under[:1]
 

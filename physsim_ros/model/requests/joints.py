@@ -116,7 +116,9 @@ class Join(Request):
         joined = (
             each
             for name, point in zip(names, places, strict=True)
-            for each in ((name,) if name else world.bodies_at(point)[:1])
+            for each in (
+                (name,) if name else world.bodies_at(world.resolve_point(point, self.frame))[:1]
+            )
         )
         carrier = () if properties.carrier is None else (properties.carrier,)
         return (*joined, *carrier, *Request.concerned(self, world))

@@ -32,6 +32,14 @@ class Query(Protocol):
     def pivot(self, axle: Joint) -> Point:
         """Return the place of a weld or an axle [m]."""
 
+    def resolve_point(self, point: Point, frame: str) -> Point:
+        """
+        Return a point of a frame in the world [m].
+
+        :param frame: '' for the world, or a body's name
+        :raises UnknownFrame: there is no such body
+        """
+
     def machine(self, name: str) -> tuple[str, ...]:
         """Return the names of a robot and its links for each of them; of another body its own."""
 
@@ -115,7 +123,7 @@ class AtPoint(Request):
 
     def concerned(self, world: Query) -> Iterable[str]:
         """Return the topmost bodies at the point."""
-        return world.bodies_at(self.point)[: self.TOPMOST]
+        return world.bodies_at(world.resolve_point(self.point, self.frame))[: self.TOPMOST]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

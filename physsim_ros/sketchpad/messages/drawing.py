@@ -109,6 +109,7 @@ def _submit(
         raise
     page.send(_reading_content(origin, reading.confidences, reading))
     reading = replace(reading, requests=page.person.with_material(reading.requests))
+    origin = page.checked_in_turn(origin, reading.requests)
     submit_reading(page.control.simulation, page.person.drawing, reading, origin)
 
 

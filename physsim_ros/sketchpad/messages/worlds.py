@@ -18,7 +18,7 @@ from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced, with_checks
 from physsim_ros.simulation.entries import Origin, Wait
-from physsim_ros.sketchpad.locks import check_moment
+from physsim_ros.sketchpad.locks import check_moment, has_locks
 from physsim_ros.sketchpad.message import answer_content, message, Optional, request_of
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
@@ -95,6 +95,9 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
 def _replace_bodies(page: PageSession, origin: Origin, action: Sliced[str], wait: Wait) -> None:
     """Perform an action unless a body is locked, be it while a thread reads the file."""
     check = partial(check_moment, page.role, page.control)
+    if has_locks(page.role, page.control):
+        # The check reads the world.
+        wait = Wait.FOR_SEEK
     page.perform(origin, partial(with_checks, action, check), wait)
 
 
