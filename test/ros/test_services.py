@@ -174,7 +174,9 @@ def test_a_world_that_waits_to_be_loaded_is_that_which_was_named_before(
     assert parameter(physsim, 'world_file') == 'second'
 
 
-@pytest.mark.parametrize(('name', 'value'), [('gravity', [0.0, -1.0]), ('tool', 'anchor')])
+@pytest.mark.parametrize(
+    ('name', 'value'), [('gravity', [0.0, -1.0]), ('history', 300.0), ('tool', 'anchor')]
+)
 def test_a_parameter_waits_for_the_end_of_a_seek_where_the_world_has_it(
     physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, name: str, value: object
 ) -> None:

@@ -42,6 +42,8 @@ _TOPIC = '~/set_parameters'
 _TYPES = {each.value for each in Type}
 # Parameters that a call may be about: twice as many as there are. To set one takes 1.3 ms.
 MOST_PARAMETERS = 100
+# Parameters whose effect needs the world at the moment that is shown.
+_OF_WORLD = {*WorldSettings.FIELDS, 'history'}
 _READING = (DescribeParameters, GetParameters, GetParameterTypes, ListParameters)
 
 
@@ -104,8 +106,8 @@ class ParameterServices(ParameterService):
             return [Answer.refused(refusal, topic=_TOPIC)]
 
         _replace_unknown_types(messages)
-        changes_world = any(each.name in WorldSettings.FIELDS for each in messages)
-        wait = Wait.FOR_SEEK if changes_world and not too_many else Wait.BEHIND_REQUESTS
+        needs_world = any(each.name in _OF_WORLD for each in messages)
+        wait = Wait.FOR_SEEK if needs_world and not too_many else Wait.BEHIND_REQUESTS
         return self._calls.add(Call(_TOPIC, response, perform, refuse, wait))
 
     def _set_together(
