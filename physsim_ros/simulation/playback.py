@@ -33,6 +33,7 @@ class Playback:
     :ivar clock: the speed, and the steps that are due
     :ivar changed: whether the next frame differs from the last one without a step
     :ivar stepped: whether steps, forward or back, have led from the last frame to this moment
+    :ivar starts: count of the times that time has begun to run
     :ivar frames_due: count of single frames to be made in a paused world, one in each call
     """
 
@@ -42,6 +43,7 @@ class Playback:
         )
         self.changed = True
         self.stepped = False
+        self.starts = 0
         self.frames_due = 0
         self._past = past
         # Whether the steps of the frame that is shown were made before contacts were reported.
@@ -58,6 +60,7 @@ class Playback:
     def speed(self, speed: float) -> None:
         before, self.clock.speed = self.clock.speed, speed
         self.changed |= self.clock.speed != before
+        self.starts += before == 0 != self.clock.speed
         if self.clock.speed:
             self.drop_frames()
         self._complete_frame()

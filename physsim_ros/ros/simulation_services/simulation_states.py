@@ -61,8 +61,8 @@ class SimulationStates:
         self._control = control
         self._worlds = worlds
         self._quits = False
-        # The world that was paused while it was stopped, and has not run since then.
-        self._begins_paused: WorldState | None = None
+        # The world that was paused while it was stopped, and how often time had begun to run then.
+        self._begins_paused: tuple[WorldState | None, int] = None, 0
 
     def features(self, _: Any, response: Any) -> str:
         """Tell what of the standard there is."""
@@ -96,7 +96,11 @@ class SimulationStates:
             reason = 'no world is loaded' if now == _NO_WORLD else 'the program ends'
             raise coded(reason, codes.INCORRECT_TRANSITION)
         begins_paused = (now, target) == (_STOPPED, _PAUSED)
-        self._begins_paused = self._control.simulation.loaded if begins_paused else None
+        simulation = self._control.simulation
+        self._begins_paused = (
+            simulation.loaded if begins_paused else None,
+            simulation.playback.starts,
+        )
         if target == _PLAYING:
             return self._control.time.play()
         message = self._control.time.pause()
@@ -151,7 +155,7 @@ class SimulationStates:
         self._worlds.check_loaded()
         scope = request.scope
         if scope in _ALL:
-            self._begins_paused = None
+            self._begins_paused = None, 0
             return await self._control.time.reset()
         simulation = self._control.simulation
         loaded = simulation.loaded
@@ -178,7 +182,7 @@ class SimulationStates:
             return int(_NO_WORLD)
         simulation = self._control.simulation
         if simulation.speed != 0:
-            self._begins_paused = None
             return int(_PLAYING)
-        is_paused = simulation.step or self._begins_paused is simulation.loaded
-        return int(_PAUSED if is_paused else _STOPPED)
+        world, starts = self._begins_paused
+        begins_paused = world is simulation.loaded and starts == simulation.playback.starts
+        return int(_PAUSED if simulation.step or begins_paused else _STOPPED)

@@ -112,6 +112,23 @@ def test_time_is_stopped_played_and_paused(caller: Caller) -> None:
     assert names_in(caller.physsim) == ()
 
 
+@pytest.mark.parametrize('is_asked_meanwhile', [False, True])
+def test_the_state_does_not_depend_on_whether_it_was_asked_for(
+    caller: Caller, is_asked_meanwhile: bool
+) -> None:
+    physsim = caller.physsim
+    stopped, playing, paused = range(3)
+    assert caller.code('SetSimulationState', state__state=paused) == OK
+    physsim.node.control.time.play()
+    physsim.run(0.5)
+    if is_asked_meanwhile:
+        assert caller('GetSimulationState').state.state == playing
+    physsim.node.control.time.pause()
+    physsim.node.simulation.seek(0)
+    physsim.settle()
+    assert caller('GetSimulationState').state.state == stopped
+
+
 def test_a_paused_world_goes_on_by_steps(caller: Caller) -> None:
     world = caller.physsim.node.simulation
     assert caller.code('StepSimulation', steps=3) == OK
