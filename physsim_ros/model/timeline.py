@@ -84,7 +84,7 @@ class TimelineStatus:
     :param newest: the last simulation time that was reached [s]
     :param course: number of the course of events that is in force
     :param line: number of the line of events in force, which undo and redo change, too
-    :param parts: simulation time from which on it may differ from the line before [s]
+    :param differs_from: simulation time from which on it may differ from the line before [s]
     :param undo: phrase for the gesture that `undo` would undo; '' is none
     :param redo: phrase for the gesture that `redo` would repeat; '' is none
     :param courses: those that were left, in the order of their numbers
@@ -97,7 +97,7 @@ class TimelineStatus:
     newest: float
     course: int
     line: int
-    parts: float
+    differs_from: float
     undo: str = ''
     redo: str = ''
     courses: tuple[CourseSpan, ...] = ()

@@ -55,7 +55,7 @@ class CallsUnderWay:
 
     def begin(self, call: Call) -> None:
         """Carry out the first slice of a call."""
-        self._carry_out(call, in_slices(call.call))
+        self._carry_out(call, in_slices(call.function))
 
     def go_on(self) -> bool:
         """Carry out a slice of each that has what it waits for; return whether there is any."""

@@ -95,12 +95,12 @@ class Call:
     """
     Call a function that reads or replaces the world.
 
-    :param call: the function; it returns answers, and may have slices
+    :param function: returns answers, and may have slices
     :param wait: the time at which it is called
     :param on_told: called when its answers are told
     """
 
-    call: Sliced[Sequence[Answer]]
+    function: Sliced[Sequence[Answer]]
     wait: Wait
     on_told: Callable[[], object]
 

@@ -107,7 +107,7 @@ class Hands:
                 events.append(Answer(topic='~/drag/feedback', subject=grip.body, message=message))
         return events
 
-    def note_time(self, now_ns: int, *, paused: bool) -> None:
+    def drop_silent(self, now_ns: int, *, paused: bool) -> None:
         """
         Drop the hands that have been silent for too long.
 

@@ -142,7 +142,7 @@ class Playback:
             newest=past.line.head / rate,
             course=past.tree.course,
             line=past.frames.line_number,
-            parts=past.frames.parts / rate,
+            differs_from=past.frames.differs_from / rate,
             undo=undo and Text('undo {gesture}', gesture=undo),
             redo=redo and Text('redo {gesture}', gesture=redo),
             courses=tuple(
@@ -180,7 +180,7 @@ class Playback:
         frame = CachedFrame(snapshot, contacts)
         # The first frame of this step has the contacts.
         cache.add_frame(frame if self.stepped else cache.with_first_contacts(frame))
-        self._past.line.note_shown(*cursor.moment)
+        self._past.line.mark_shown(*cursor.moment)
         return frame
 
     # To another moment

@@ -6,6 +6,10 @@ The simulation, the front of the core: a world, its frames, and what people do w
 
 Laws: a request in the past begins another course. What moves the world to another moment or
 replaces it comes after the requests that wait; a refusal changes nothing.
+
+The world is replaced by another one in five ways: `load` is a request, and time goes on; `reset`
+and `open_world` begin a line of events at time 0, which undo leaves; `begin` and `restore` forget
+the past, at time 0 or at a saved moment.
 """
 
 from __future__ import annotations

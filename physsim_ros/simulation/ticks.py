@@ -162,7 +162,7 @@ class Ticks:
         if playback.take_frame():
             self.run(1)
             return (self._frames.make(),)
-        applier.hands.note_time(now_ns, paused=playback.speed == 0)
+        applier.hands.drop_silent(now_ns, paused=playback.speed == 0)
         if playback.speed > 0:
             applier.release_grips()
         frames = tuple(self._due_frames(now_ns, limits))

@@ -79,7 +79,7 @@ def timeline_content(status: TimelineStatus) -> dict[str, Any]:
         'newest': status.newest,
         'course': status.course,
         'line': status.line,
-        'parts': status.parts,
+        'parts': status.differs_from,
         'undo': status.undo,
         'redo': status.redo,
         'undo_text': text_content(status.undo),

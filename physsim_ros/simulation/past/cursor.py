@@ -412,9 +412,9 @@ class Cursor(Replay):
         """Make steps that the line has not reached before; yield where they take long."""
         world, tree = self._world, self._tree
         for _ in world.slices_of_steps(end - world.step_count):
-            tree.note_step(world.step_count)
+            tree.reach(world.step_count)
             yield
-        tree.note_step(end)
+        tree.reach(end)
         for name in world.take_lost():
             message = Text('{body} left the range of numbers and was removed', body=name)
             self._report('body_lost', message, name)

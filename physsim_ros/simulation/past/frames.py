@@ -65,12 +65,12 @@ class FrameCache:
 
     :ivar size: memory that the frames take [bytes]
     :ivar line_number: of the line in force: each that is put in force gets the next one
-    :ivar parts: the first step at which that line may differ from the one before
+    :ivar differs_from: the first step at which that line may differ from the one before
     """
 
     def __init__(self, replay: Replay, world: World, line: LineInForce, budget: Budget) -> None:
         self.size = 0
-        self.line_number = self.parts = 0
+        self.line_number = self.differs_from = 0
         self._replay = replay
         self._world = world
         self._line = line
@@ -118,7 +118,7 @@ class FrameCache:
     def drop_from(self, step: int) -> list[CachedFrame]:
         """Drop the frames from a step on, where a line parts; return them in the order of time."""
         self._segment = None
-        self.line_number, self.parts = self.line_number + 1, step
+        self.line_number, self.differs_from = self.line_number + 1, step
         return self._drop(bisect_left(self._steps, step), len(self._steps))
 
     def cached_frame(self, step: int) -> CachedFrame | None:

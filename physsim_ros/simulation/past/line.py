@@ -257,7 +257,7 @@ class LineInForce:
         self.keyframes.append(keyframe)
 
     def reach(self, step: int) -> None:
-        """Note that the world has reached a step."""
+        """Extend the line to a step, which the world has reached."""
         self.tip.end = max(self.tip.end, step)
         self.head = max(self.head, step)
 
@@ -269,8 +269,8 @@ class LineInForce:
         # No `finally`: an exception in the block has put another line in force.
         self.head = reached
 
-    def note_shown(self, step: int, serial: int) -> None:
-        """Note that a step was shown with the requests up to a serial."""
+    def mark_shown(self, step: int, serial: int) -> None:
+        """Mark the requests of a step up to a serial as shown."""
         place = serial - self._first
         while place > 0 and self.nodes[place].step == step and not self.nodes[place].shown:
             self.nodes[place].shown = True

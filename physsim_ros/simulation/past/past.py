@@ -342,7 +342,7 @@ class Past:
         except Refusal:
             tree.drop(before)
             raise
-        tree.note_reset(before, words)
+        tree.keep_before_reset(before, words)
         self.frames.drop_from(0)
 
     def words(self, moment: Moment) -> tuple[str, str]:
@@ -405,7 +405,7 @@ class Past:
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
         tree, moment = self.tree, self.cursor.moment
-        self.line.note_shown(*moment)
+        self.line.mark_shown(*moment)
         if number == tree.course:
             return False
         line = next((line for line, _ in tree.courses_left() if line.course == number), None)
@@ -434,5 +434,5 @@ class Past:
             self.reports.append(Answer(topic='history', message=message))
         for frame in line.frames:
             self.frames.add_frame(frame)
-        tree.note_return(line)
+        tree.put_in_force(line)
         return left, frames

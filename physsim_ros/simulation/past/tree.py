@@ -206,8 +206,8 @@ class Tree:
         self.size += keyframe.size
         return keyframe
 
-    def note_step(self, step: int) -> None:
-        """Note that the world has reached a step."""
+    def reach(self, step: int) -> None:
+        """Extend the line in force to a step, where the world has reached it first."""
         is_new = step > self.line.head
         self.line.reach(step)
         if is_new:
@@ -227,11 +227,11 @@ class Tree:
         self.course = self._courses
         return left
 
-    def note_reset(self, before: Line, words: str) -> None:
+    def keep_before_reset(self, before: Line, words: str) -> None:
         """
-        Note that the line in force has begun anew, as another course.
+        Keep the line before that in force, which has begun anew, as another course.
 
-        :param before: the line before, to which an undo returns
+        :param before: that line, to which an undo returns
         :param words: phrase for the reset
         """
         self.drop_undone()
@@ -239,8 +239,8 @@ class Tree:
         self._courses += 1
         self.course, self.reset_count = self._courses, self.reset_count + 1
 
-    def note_return(self, line: Line) -> None:
-        """Note that a line was put in force again, which is no longer kept beside it."""
+    def put_in_force(self, line: Line) -> None:
+        """Have a line whose events are in force again be kept no longer beside these."""
         self.course, self.reset_count = line.course, line.reset_count
         self.drop(line)
 

@@ -48,7 +48,7 @@ _FREED = object()
 
 class LiveSpace:
     """
-    The space that a world steps, and the number of its steps.
+    The space that a world steps, and the number of its steps: what a handler of requests may use.
 
     :param settings: of the world
     :param physics_rate: steps a second of simulation time [Hz]

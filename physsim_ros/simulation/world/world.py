@@ -131,7 +131,7 @@ class Change(NamedTuple):
 
 class World(LiveSpace):
     """
-    A world of bodies, stepped at a fixed rate.
+    A world of bodies, stepped at a fixed rate: a live space, with requests, steps and snapshots.
 
     :param physics_rate: steps a second of simulation time [Hz]
     :param frame_steps: number of steps in a frame
