@@ -12,7 +12,7 @@ from physsim_ros.maps import occupancy_grid
 from physsim_ros.model import attraction, body_properties, checks, names, settings, texts
 from physsim_ros.model.shapes import validation
 from physsim_ros.ros.requests import conversions, parameter_services, request_topics
-from physsim_ros.simulation import waiting_entries
+from physsim_ros.simulation import request_queue
 from physsim_ros.simulation.past import amendment
 from physsim_ros.simulation.world import capacity
 from physsim_ros.sketchpad import autosave, inbox, message
@@ -36,9 +36,9 @@ PROMISES = {
         ('{:,} topics of robots', capacity.MOST_ROBOT_TOPICS),
         ('{:,} hands', capacity.MOST_HANDS),
         ('{:,} bodies that attract each other', attraction.MOST_ATTRACTING),
-        ('more than {:,} requests', waiting_entries.MOST_WAITING),
-        ('{:g} MB of requests', waiting_entries.MOST_BYTES / 1e6),
-        ('Beyond {:,} waiting answers', 2 * waiting_entries.MOST_WAITING),
+        ('more than {:,} requests', request_queue.MOST_WAITING),
+        ('{:g} MB of requests', request_queue.MOST_BYTES / 1e6),
+        ('Beyond {:,} waiting answers', 2 * request_queue.MOST_WAITING),
         ('more than {:,} samples of a stroke', settings.MOST_SAMPLES),
         ('more than {:,} parameters in a call', parameter_services.MOST_PARAMETERS),
         ('a message above {:g} MiB', max(request_topics.MOST_BYTES.values()) / MIB),
