@@ -70,7 +70,7 @@ def chain(
     return tuple(requests)
 
 
-def message(requests: tuple[Request, ...], ends: tuple[str, str]) -> str:
+def message(requests: tuple[Request, ...], ends: tuple[str, str]) -> Text:
     """
     Return the message about a chain.
 

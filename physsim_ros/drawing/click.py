@@ -21,7 +21,7 @@ from physsim_ros.model.errors import BadSize, nothing_at, UnknownBody
 from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import Point
-from physsim_ros.model.translation import Text
+from physsim_ros.model.translation import NOTHING, Text
 
 # The least length that clicks can draw, in shares of `snap`: 15 mm by default.
 SLIP = 0.1
@@ -65,7 +65,7 @@ class ClickResult:
     """
 
     requests: tuple[Request, ...] = ()
-    message: str = ''
+    message: Text = NOTHING
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,7 @@ class Click:
         if not self.body:
             raise nothing_at(self.point, 'point')
         if self.body not in scene.names:
-            raise UnknownBody(Text('{body} no longer exists', body=self.body), field='point')
+            raise UnknownBody('{body} no longer exists', field='point', body=self.body)
         return self.body
 
     def current_point(self, scene: SceneQuery) -> Point:
@@ -130,8 +130,8 @@ def checked_length(length: float, settings: DrawingSettings, name: str) -> float
     """
     least = _least(settings)
     if length < least:
-        template = '{line} is {length:.3g} m long; below {least:.3g} m it is a slip of the hand'
-        raise BadSize(Text(template, line=name, length=length, least=least), field='point')
+        template = '{edge} is {length:.3g} m long; below {least:.3g} m it is a slip of the hand'
+        raise BadSize(template, field='point', edge=name, length=length, least=least)
     return length
 
 

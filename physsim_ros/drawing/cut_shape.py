@@ -39,7 +39,6 @@ from physsim_ros.model.shapes import (
     Triangles,
 )
 from physsim_ros.model.transform import cross, dots, next_vertices, norms, Point
-from physsim_ros.model.translation import Text
 
 # Corners of the polygon that a disc is cut as: its rim is off by 0.3 % of the radius.
 _CORNERS = 32
@@ -78,7 +77,8 @@ def check_count(count: int) -> None:
     :raises WorldFull: there are too many for one cut
     """
     if count > MOST_PIECES:
-        raise WorldFull(f'one cut makes at most {MOST_PIECES} pieces, not {count} or more')
+        template = 'one cut makes at most {most} pieces, not {count} or more'
+        raise WorldFull(template, most=MOST_PIECES, count=count)
 
 
 def _cut_solid(
@@ -87,8 +87,11 @@ def _cut_solid(
     parts = _outlines(shape)
     if len(parts) > 1 and (corners := sum(map(len, parts))) > MOST_CORNERS:
         raise WorldFull(
-            f'the parts of the body have {corners} corners, a disc {_CORNERS}; the knife cuts at '
-            f'most {MOST_CORNERS}'
+            'the parts of the body have {corners} corners, a disc {disc}; the knife cuts at most '
+            '{most}',
+            corners=corners,
+            disc=_CORNERS,
+            most=MOST_CORNERS,
         )
     least = _ROUNDING * shape.form.area
     pieces: list[Floats] = []
@@ -197,7 +200,7 @@ def _triangles(outlines: list[Floats]) -> Polygon | Triangles:
     # The least width of a triangle is its height on its longest side.
     kept = doubled > SMALLEST * longest
     if doubled[~kept].sum() / 2 > _SLIVERS * whole or not kept.any():
-        raise BadSize(Text('a part is thinner than {least:g} m', least=SMALLEST), field='points')
+        raise BadSize('a part is thinner than {least:g} m', field='points', least=SMALLEST)
     return Triangles(vertices=as_tuples(fans[kept].reshape(-1, 2)))
 
 
@@ -237,7 +240,7 @@ def _cut_chain(chain: Chain, start: Floats, end: Floats) -> Iterator[Chain]:
         return
     check_count(len(spans))
     if min(last - first for first, last in spans) < SMALLEST:
-        raise BadSize(f'a part is shorter than {SMALLEST:g} m', field='points')
+        raise BadSize('a part is shorter than {least:g} m', field='points', least=SMALLEST)
     lines = [_between(points, length, *span) for span in spans]
     if np.array_equal(points[0], points[-1]):
         # The pieces beside the seam of a ring are one.

@@ -19,6 +19,7 @@ from physsim_ros.model.checks import check_point
 from physsim_ros.model.preview import Line, Preview
 from physsim_ros.model.shapes import as_tuples
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # Number of sides of the circle around the first corner of a polygon.
 _SIDES = 24
@@ -51,7 +52,9 @@ class Gesture:
         :raises Refusal: the gesture cannot be drawn; it is dropped
         """
         if self.tool is Tool.NONE:
-            return ClickResult(message='ignored: no tool is in hand; parameter tool takes one')
+            return ClickResult(
+                message=Text('ignored: no tool is in hand; parameter tool takes one')
+            )
         check_point(point, 'point')
         in_world = scene.resolve_point(point, frame)
         check_point(in_world, 'point')

@@ -34,7 +34,6 @@ from physsim_ros.model.rope_path import spans
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import cross, Point, rotated
-from physsim_ros.model.translation import Text
 
 # Difference of the areas of a body and of its pieces above which material was lost, in shares.
 _SAME_AREA = 1e-9
@@ -63,9 +62,10 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
         for name in near:
             if _pieces(name, start, end, scene):
                 template = '{body} is a robot, a part of one or an actor, which no knife cuts'
-                raise NothingThere(Text(template, body=name), field='point', body=name)
-        message = Text('the stroke passes right through no body, rope, rod or spring')
-        raise NothingThere(message, field='point')
+                raise NothingThere(template, field='point', body=name, concerns=name)
+        raise NothingThere(
+            'the stroke passes right through no body, rope, rod or spring', field='point'
+        )
     new = scene.new_bodies()
     parts: list[ChangeBody | Spawn] = []
     names: dict[str, dict[str, Shape]] = {}
@@ -100,8 +100,12 @@ def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shap
     try:
         pieces = cut_shape(shape, scene.local(name, start), scene.local(name, end))
     except (BadOutline, BadSize) as error:
-        message = Text('a piece of {body} would be too thin to be simulated', body=name)
-        raise BadSize(message, field='point', body=name) from error
+        raise BadSize(
+            'a piece of {body} would be too thin to be simulated',
+            field='point',
+            body=name,
+            concerns=name,
+        ) from error
     return [] if pieces == [shape] else pieces
 
 

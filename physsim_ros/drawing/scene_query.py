@@ -40,7 +40,6 @@ from physsim_ros.model.transform import (
     Twist,
     world_to_local,
 )
-from physsim_ros.model.translation import Text
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
@@ -243,8 +242,9 @@ class SceneQuery:
         """
         strength = math.hypot(*self.settings.gravity)
         if strength == 0.0:
-            message = Text('there is no gravity to turn; set the parameter gravity first')
-            raise BadProperty(message, field='gravity')
+            raise BadProperty(
+                'there is no gravity to turn; set the parameter gravity first', field='gravity'
+            )
         return strength
 
     def new_bodies(self) -> Iterator[str]:

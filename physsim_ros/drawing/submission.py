@@ -12,6 +12,7 @@ from physsim_ros.drawing.strokes.stages import Reading
 from physsim_ros.model.answer import Answer, request_count
 from physsim_ros.model.errors import values_of
 from physsim_ros.model.requests import Request
+from physsim_ros.model.translation import NOTHING, Text
 from physsim_ros.simulation.entries import Amend, Origin
 from physsim_ros.simulation.simulation import Simulation
 
@@ -47,7 +48,7 @@ def submit_told(
     requests: Sequence[Request],
     origin: Origin,
     *,
-    message: str = '',
+    message: Text = NOTHING,
     gesture: int | None = None,
 ) -> int:
     """

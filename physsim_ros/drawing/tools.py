@@ -101,7 +101,7 @@ def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
         return _finished(new_bodies.polygon(scene.next_body(), corners, settings))
     if len(points) > MOST_POINTS:
         # No polygon of more corners could be closed, and each click looks at all points.
-        raise BadOutline(f'a polygon has at most {MOST_POINTS} corners', field='point')
+        raise BadOutline('a polygon has at most {most} corners', field='point', most=MOST_POINTS)
     count = len(without_repeats(points, settings))
     done = 'a corner is set' if count == 1 else f'{count} corners are set'
     return _next_click(done, Text('the next corner, or the first one again to close it'))
@@ -125,8 +125,9 @@ def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettin
     """Set the velocity of a body: the body, then the tip of an arrow from there, 1 m for 1 m/s."""
     name = clicks[0].hit_body(scene)
     if scene.body(name).anchored:
-        message = Text('{body} is anchored; it has no velocity', body=name)
-        raise Anchored(message, field='point', body=name)
+        raise Anchored(
+            '{body} is anchored; it has no velocity', field='point', body=name, concerns=name
+        )
     if len(clicks) < 2:
         return _next_click(f'the arrow begins on {name}', Text('its tip, 1 m for 1 m/s'))
     tail, tip = _points(clicks)
@@ -223,7 +224,7 @@ def pulley(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
         return _finished(join)
     if len(points) > MOST_STOPS:
         # Each click looks at all points.
-        raise BadOutline(f'a rope has at most {MOST_STOPS} points', field='point')
+        raise BadOutline('a rope has at most {most} points', field='point', most=MOST_STOPS)
     where = shown_end(clicks[-1].body or WORLD)
     return _next_click(f'the rope is on {where}', Text('the next wheel or ring; its end twice'))
 
@@ -326,8 +327,9 @@ def _middle(start: Point, end: Point) -> Point:
 
 
 def _no_end(kind: JointKind) -> NothingThere:
-    message = Text('there is no body at either end of the {kind}', kind=Text(kind))
-    return NothingThere(message, field='point')
+    return NothingThere(
+        'there is no body at either end of the {kind}', field='point', kind=Text(kind)
+    )
 
 
 def _next_click(done: str, wanted: Text) -> ClickResult:

@@ -56,27 +56,30 @@ def load_drawing(drawing: str) -> list[tuple[str, Floats]]:
         content = json.loads(read_file(path, _MOST_BYTES))
     except (OSError, ValueError, RecursionError) as error:
         near = nearest_name(drawing, drawings()) if plain else ''
-        raise BadDrawing(f'cannot read {path}: {error}{near}') from error
+        template = 'cannot read {file}: {reason}{near}'
+        raise BadDrawing(template, file=path, reason=str(error), near=near) from error
     strokes = content.get('strokes') if isinstance(content, dict) else None
     if not isinstance(strokes, list) or not 1 <= len(strokes) <= MOST_STROKES:
-        message = f'strokes must be a list of 1 to {MOST_STROKES:,} strokes'
-        raise BadDrawing(message, field='strokes')
+        template = '{field} must be a list of 1 to {most} strokes'
+        raise BadDrawing(template, field='strokes', most=MOST_STROKES)
     return [_stroke(entry, f'strokes[{number}]') for number, entry in enumerate(strokes)]
 
 
 def _stroke(entry: Any, field: str) -> tuple[str, Floats]:
     if not isinstance(entry, dict):
-        raise BadDrawing(f'{field} must be a mapping with points', field=field)
+        raise BadDrawing('{field} must be a mapping with points', field=field)
     name, points = entry.get('name', ''), entry.get('points')
     if not isinstance(name, str):
-        raise BadDrawing(f'{field}.name must be a text', field=f'{field}.name')
+        raise BadDrawing('{field} must be text', field=f'{field}.name')
     if not isinstance(points, list) or not 2 <= len(points) <= MOST_SAMPLES:
-        message = f'{field}.points must be a list of 2 to {MOST_SAMPLES:,} points'
-        raise BadDrawing(message, field=f'{field}.points')
+        template = '{field} must be a list of 2 to {most} points'
+        raise BadDrawing(template, field=f'{field}.points', most=MOST_SAMPLES)
     for number, point in enumerate(points):
         if not _is_point(point):
             each = f'{field}.points[{number}]'
-            raise BadDrawing(f'{each} must be [x, y], each within {FARTHEST:g} m', field=each)
+            raise BadDrawing(
+                '{field} must be [x, y], each within {most:g} m', field=each, most=FARTHEST
+            )
     return abbreviated(name), np.array([(x, y, 0.0) for x, y in points], dtype=np.float64)
 
 

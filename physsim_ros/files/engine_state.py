@@ -206,7 +206,9 @@ def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: f
     if 'driven' in entry:
         driven = _saved(_Driven, entry['driven'], 'driven')
         if body.robot is None:
-            raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
+            raise BadProperty(
+                '{body} is not a robot; nothing has driven it', field='driven', body=body.name
+            )
         kept = {key: getattr(driven, key) for key in RobotState._fields if key != 'until'}
         until = _step_in(driven.seconds, physics_rate)
         state = replace(
@@ -217,7 +219,7 @@ def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: f
     if 'acting' in entry:
         acting = _saved(_Acting, entry['acting'], 'acting')
         if body.actor is None:
-            raise BadProperty(f'{body.name} is not an actor', field='acting')
+            raise BadProperty('{body} is not an actor', field='acting', body=body.name)
         seconds = acting.seconds
         begun = WAITING.begun if seconds is None else -round(seconds * physics_rate)
         state = replace(state, acting=ActorState(begun, acting.reached))

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 import re
 from typing import Any
 
+from physsim_ros.model.translation import Text
+
 # Keys of the files of map_server, of flatland, ir-sim, Tiled and R.U.B.E.: all of a row are there.
 _KEYS = {
     'map': ('image', 'resolution', 'origin'),
@@ -42,19 +44,22 @@ def kind_of(content: Mapping[Any, Any]) -> str:
     return next(kinds, '')
 
 
-def advice_on(content: Mapping[Any, Any]) -> str:
-    """Return what a mapping is, and what to do with it, where it is no world; else ''."""
+def advice_on(content: Mapping[Any, Any]) -> Text | None:
+    """Return what a mapping is, and what to do with it, where it is no world."""
     kind = kind_of(content)
     if kind in CONVERTED:
-        return f'this is a world of {kind}: python -m physsim_ros.convert makes a world file of it'
+        template = (
+            'this is a world of {kind}: python -m physsim_ros.convert makes a world file of it'
+        )
+        return Text(template, kind=kind)
     if kind == 'map':
-        return 'this is a map: name it as `map:` in a world file'
-    return 'this is a drawing: examples/draw.py draws it' if kind == 'drawing' else ''
+        return Text('this is a map: name it as `map:` in a world file')
+    return Text('this is a drawing: examples/draw.py draws it') if kind == 'drawing' else None
 
 
-def advice_on_xml(text: str) -> str:
-    """Return what a text is, if it is XML; else ''."""
+def advice_on_xml(text: str) -> Text | None:
+    """Return what a text is, if it is XML."""
     found = _ROOT.match(text[:10_000])
     if found is None:
-        return ''
-    return f'this is {_ROOTS.get(found[1], "XML")}, and a world file is YAML'
+        return None
+    return Text('this is {kind}, and a world file is YAML', kind=_ROOTS.get(found[1], 'XML'))

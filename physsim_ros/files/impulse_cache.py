@@ -105,7 +105,7 @@ def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray
     """
     kind = np.dtype(dtype)
     if not isinstance(text, str):
-        raise BadProperty(f'{name} is not what was saved: it is not text', field=name)
+        raise BadProperty('{field} is not what was saved: it is not text', field=name)
     try:
         packed = base64.b64decode(text.encode('ascii'), validate=True)
         inflater = zlib.decompressobj()
@@ -113,7 +113,9 @@ def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray
         array = np.frombuffer(data, dtype=kind.newbyteorder('<')).astype(kind)
         array = array if width == 1 else array.reshape(-1, width)
     except (ValueError, binascii.Error, zlib.error) as error:
-        raise BadProperty(f'{name} is not what was saved: {error}', field=name) from error
+        raise BadProperty(
+            '{field} is not what was saved: {error}', field=name, error=error
+        ) from error
     if not inflater.eof:
-        raise BadProperty(f'{name} is not what was saved: it has no end', field=name)
+        raise BadProperty('{field} is not what was saved: it has no end', field=name)
     return array

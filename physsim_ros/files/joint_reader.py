@@ -32,7 +32,6 @@ from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Guide, Joint, Seat
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Point, Pose, REST
-from physsim_ros.model.translation import Text
 from physsim_ros.simulation.world import World
 
 # Range of the numbers of a seat: the yaw of a body that is not lost, times the ratio of a gear,
@@ -71,7 +70,7 @@ def joints_from(
                 raise BadProperty('a joint needs a name', field='name')
             name = canonical(name)
             if name in joints:
-                raise BadProperty(Text('the name appears twice'), field='name')
+                raise BadProperty('the name appears twice', field='name')
             terms = {key: entry[key] for key in entry if key not in OWN_JOINT_KEYS}
             points = point_list(entry.get('points'), 'points')
             joints[name] = None
@@ -119,7 +118,7 @@ def commands_from(
             saved = _COMING([entry['command']] if 'command' in entry else [], 'command')
             saved += _COMING(entry.get('coming', []), 'coming')
             if saved and not joint.properties.effort:
-                raise BadProperty(f'{joint.name} has no motor', field='command')
+                raise BadProperty('{joint} has no motor', field='command', joint=joint.name)
             if any(b.seconds > a.seconds for a, b in itertools.pairwise(saved)):
                 raise BadProperty('commands on their way begin one after another', field='coming')
             for each in saved:
@@ -185,7 +184,7 @@ def _seat(value: object, names: tuple[str, ...]) -> tuple[Seat, tuple[Guide, ...
     own, each = len(Seat._fields), len(Guide._fields) - 1
     count = own + each * len(names)
     if not isinstance(value, list) or len(value) != count:
-        raise BadProperty(f'seat must be {count} numbers', field='seat')
+        raise BadProperty('seat must be {count} numbers', field='seat', count=count)
     numbers = [_IN_SEAT(each, 'seat') for each in value]
     firsts, ends = range(own, count, each), range(own + each, count + 1, each)
     guides = zip(names, firsts, ends, strict=True)

@@ -25,7 +25,7 @@ from physsim_ros.files.world_schema import entries_of
 from physsim_ros.files.yaml12 import load_mapping
 from physsim_ros.maps import Grid, MOST_CELLS, walls_of
 from physsim_ros.model.arrays import Flags
-from physsim_ros.model.checks import number, Numbers, shown, Within
+from physsim_ros.model.checks import must_be, number, Numbers, shown, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 
@@ -87,9 +87,11 @@ def load_map(name: object, folder: Path) -> Grid:
     content = load_mapping(text, field='map')
     for key in _NEEDED:
         if content.get(key) is None:
-            raise BadProperty(f'the map {path.name} has no {key}', field=key)
+            raise BadProperty('the map {file} has no {field}', field=key, file=path.name)
     if content.get('mode', 'trinary') != 'trinary':
-        raise BadProperty(f'mode is trinary, not {shown(content["mode"])}', field='mode')
+        raise BadProperty(
+            'mode is trinary, not {value}', field='mode', value=shown(content['mode'])
+        )
     resolution = Within(SMALLEST, LARGEST, 'm')(content['resolution'], 'resolution')
     thresholds = [_SHARE(content[key], key) for key in ('free_thresh', 'occupied_thresh')]
     if thresholds[0] > thresholds[1]:
@@ -105,27 +107,31 @@ def load_map(name: object, folder: Path) -> Grid:
 def _file_in(folder: Path, name: object, field: str, *, root: Path | None = None) -> Path:
     """Return the path of a file below a root, the folder itself by default."""
     if not isinstance(name, str):
-        raise BadProperty(f'{field} must be the name of a file, not {shown(name)}', field=field)
+        raise must_be('the name of a file', name, field)
     try:
         path = (folder / name).resolve()
     except (OSError, RuntimeError, ValueError) as error:
-        raise BadProperty(f'{field} {shown(name)} is not a path', field=field) from error
+        raise BadProperty(
+            '{field} {value} is not a path', field=field, value=shown(name)
+        ) from error
     if not path.is_relative_to(root or folder):
         raise BadProperty(
-            f'{field} {shown(name)} is neither beside the world file nor below it', field=field
+            '{field} {value} is neither beside the world file nor below it',
+            field=field,
+            value=shown(name),
         )
     return path
 
 
 def _unreadable(path: Path, error: Exception | str, field: str) -> BadProperty:
     reason = error.strerror if isinstance(error, OSError) and error.strerror else error
-    return BadProperty(f'cannot read {path.name}: {reason}', field=field)
+    return BadProperty('cannot read {file}: {reason}', field=field, file=path.name, reason=reason)
 
 
 def _negate(content: Mapping[Any, Any]) -> bool:
     negate = content['negate']
     if negate not in (0, 1):
-        raise BadProperty(f'negate is 0 or 1, not {shown(negate)}', field='negate')
+        raise BadProperty('negate is 0 or 1, not {negate}', field='negate', negate=shown(negate))
     return bool(negate)
 
 
@@ -157,8 +163,12 @@ def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:
 def _check_pixels(path: Path, width: int, height: int) -> None:
     if width * height > MOST_CELLS:
         raise BadProperty(
-            f'{path.name} has {width} by {height} pixels; at most {MOST_CELLS} are allowed',
+            '{file} has {width} by {height} pixels; at most {most} are allowed',
             field='image',
+            file=path.name,
+            width=width,
+            height=height,
+            most=MOST_CELLS,
         )
 
 

@@ -34,14 +34,15 @@ def check_world_name(name: str) -> str:
     if not name.strip():
         raise BadWorldFile('a world needs a name', field='name')
     if len(name) > LONGEST_NAME:
-        raise BadWorldFile(
-            Text('a name has at most {most} characters', most=LONGEST_NAME), field='name'
-        )
+        raise BadWorldFile('a name has at most {most} characters', field='name', most=LONGEST_NAME)
     if not is_plain(name) or '.' in name or '\\' in name or not name.isprintable():
-        message = Text('{name!r} cannot be a name: it has no "/" and no "."', name=name)
-        raise BadWorldFile(message, field='name')
+        raise BadWorldFile(
+            '{name!r} cannot be a name: it has no "/" and no "."', field='name', name=name
+        )
     if len(name.encode()) > LONGEST_FILE:
-        raise BadWorldFile(f'a name has at most {LONGEST_FILE} bytes in UTF-8', field='name')
+        raise BadWorldFile(
+            'a name has at most {most} bytes in UTF-8', field='name', most=LONGEST_FILE
+        )
     return name
 
 
@@ -70,11 +71,13 @@ class OwnWorlds:
         """
         path = self._path(name)
         if is_shipped(name):
-            raise Exists(f'{name} is the name of a world that ships with physsim', field='name')
+            raise Exists(
+                '{name} is the name of a world that ships with physsim', field='name', name=name
+            )
         if not replace and path.exists():
-            raise Exists(f'there is a world {name} already', field='name')
+            raise Exists('there is a world {name} already', field='name', name=name)
 
-    def rename(self, name: str, to: str) -> str:
+    def rename(self, name: str, to: str) -> Text:
         """
         Give a world another name, and return a message about it.
 
@@ -90,7 +93,7 @@ class OwnWorlds:
             self.picture(name).rename(self.picture(to))
         return Text('renamed {world} to {to}', world=name, to=to)
 
-    def delete(self, name: str) -> str:
+    def delete(self, name: str) -> Text:
         """
         Delete a world, and return a message about it.
 
@@ -101,7 +104,7 @@ class OwnWorlds:
         path.replace(kept)
         return Text('deleted the world {world}', world=name)
 
-    def put_back(self, name: str) -> str:
+    def put_back(self, name: str) -> Text:
         """
         Put back the file that was deleted or written over last, and return a message about it.
 
@@ -111,7 +114,7 @@ class OwnWorlds:
         """
         kept = self._kept(name)
         if not kept.is_file():
-            raise BadWorldFile(Text('nothing of {world} is kept', world=name), field='name')
+            raise BadWorldFile('nothing of {world} is kept', field='name', world=name)
         move_and_keep(kept, self._path(name), kept)
         return Text('put back the world {world}', world=name)
 
@@ -122,9 +125,7 @@ class OwnWorlds:
     def _existing(self, name: str) -> Path:
         path = self._path(name)
         if not path.is_file():
-            raise BadWorldFile(
-                Text('there is no world {world} of your own', world=name), field='name'
-            )
+            raise BadWorldFile('there is no world {world} of your own', field='name', world=name)
         return path
 
     def _path(self, name: str) -> Path:

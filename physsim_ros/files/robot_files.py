@@ -16,7 +16,7 @@ from typing import Any
 
 from physsim_ros.files.resources import files_by_name, shipped
 from physsim_ros.files.yaml12 import load_mapping
-from physsim_ros.model.checks import shown
+from physsim_ros.model.checks import must_be, shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.texts import nearest_name
@@ -40,9 +40,11 @@ def shipped_robot(name: str) -> Mapping[Any, Any]:
     files = files_by_name(shipped('robots'), '.yaml')
     if name not in files:
         raise BadProperty(
-            f'there is no robot {shown(name)}{nearest_name(name, files)}; there are '
-            f'{", ".join(files)}',
+            'there is no robot {value}{near}; there are {known}',
             field='robot',
+            value=shown(name),
+            near=nearest_name(name, files),
+            known=', '.join(files),
         )
     return load_mapping(files[name].read_text(encoding='utf-8'), field=files[name].name)
 
@@ -65,7 +67,7 @@ def with_shipped_robot(entry: Mapping[Any, Any], known: Iterable[str]) -> Mappin
     if not isinstance(changes, dict) or name is None:
         return entry
     if not isinstance(name, str):
-        raise BadProperty(f'from must be a name of a robot, not {shown(name)}', field='from')
+        raise must_be('a name of a robot', name, 'from')
     file = shipped_robot(name)
     robot = _merged(file['robot'], {key: changes[key] for key in changes if key != 'from'})
     left_out = {key for keys in _ONE_OF if any(each in entry for each in keys) for key in keys}
@@ -106,13 +108,13 @@ def _changed_by_name(
         if name not in names:
             there = ', '.join(names) or 'none'
             raise BadProperty(
-                f'there is no {noun} {shown(name)}{nearest_name(str(name), names)}; there are '
-                f'{there}',
+                'there is no {noun} {value}{near}; there are {there}',
                 field=f'{noun}s',
+                noun=noun,
+                value=shown(name),
+                near=nearest_name(str(name), names),
+                there=there,
             )
         if not isinstance(change, dict):
-            raise BadProperty(
-                f'the changes of {noun} {name} must be a mapping, not {shown(change)}',
-                field=f'{noun}s',
-            )
+            raise must_be('a mapping', change, f'{noun}s')
     return [{**entry, **changes.get(entry['name'], {})} for entry in entries]

@@ -102,7 +102,7 @@ def find_world(
             # The name is too long, or a directory of the path may not be searched.
             raise _unreadable(name, error) from error
         if other:
-            raise BadWorldFile(f'{name} is not a regular file', field='world_file')
+            raise BadWorldFile('{name} is not a regular file', field='world_file', name=name)
         if found:
             if confined:
                 _check_place(path.resolve(), name, (*own, *ours))
@@ -115,14 +115,14 @@ def find_world(
         else {path.parent for path in paths}
     )
     looked = ', '.join(sorted(str(each) for each in directories))
-    message = Text(
+    raise BadWorldFile(
         'there is no world {world!r}{near}; physsim --help lists the shipped ones; searched in '
         '{looked}',
+        field='world_file',
         world=name,
         near=nearest_name(Path(name).stem, known),
         looked=looked,
     )
-    raise BadWorldFile(message, field='world_file')
 
 
 def worlds_in(directory: Path) -> dict[str, Path]:
@@ -176,12 +176,12 @@ def load_world(
         raise _refused(path.name, text, refusal, _of_file(path, refusal)) from refusal
 
 
-def _of_file(path: Path, refusal: Refusal) -> str:
+def _of_file(path: Path, refusal: Refusal) -> Text:
     """Return the message about the content of a file."""
     return Text('{file}: {wrong}', file=path.name, wrong=refusal.text)
 
 
-def _refused(name: str, text: str, refusal: Refusal, message: str) -> BadWorldFile:
+def _refused(name: str, text: str, refusal: Refusal, message: Text) -> BadWorldFile:
     """
     Return the refusal of a file's content, and in brief: file, line, field and code.
 
@@ -197,14 +197,15 @@ def _refused(name: str, text: str, refusal: Refusal, message: str) -> BadWorldFi
         line = None if found is None else text.count('\n', 0, found.start()) + 1
     # The field of an unknown property is what the file says.
     known = code not in (UnknownProperty.code, '') and field not in ('', name)
-    parts = [name, *([] if line is None else [f'line {line}']), *([field] if known else [])]
-    return BadWorldFile(
-        message,
-        field='world_file' if field == name else field,
-        brief=f'{", ".join(parts)}: {code}',
-        line=line,
-        cause=code,
+    brief = Text(
+        '{file}{place}{key}: {code}',
+        file=name,
+        place='' if line is None else Text(', line {line}', line=line),
+        key=f', {field}' if known else '',
+        code=code,
     )
+    field = 'world_file' if field == name else field
+    return BadWorldFile(message, field=field, brief=brief, line=line, cause=code)
 
 
 def save_world(
@@ -228,18 +229,20 @@ def save_world(
         _check_place(path, name, (world_dir,))
         if path.exists() and not _is_world_file(path):
             raise BadWorldFile(
-                f'{name} exists and is not a world file; it is not overwritten',
+                '{name} exists and is not a world file; it is not overwritten',
                 field='world_file',
+                name=name,
             )
         text = text_of(state, physics_rate)
         make_directory(world_dir)
         write_file(path, text.encode(), kept=kept_path(path))
     except OSError as error:
-        reason = error.strerror or error
-        raise BadWorldFile(f'cannot write {name}: {reason}', field='world_file') from error
+        template, reason = 'cannot write {name}: {reason}', error.strerror or str(error)
+        raise BadWorldFile(template, field='world_file', name=name, reason=reason) from error
     except (RuntimeError, ValueError) as error:
         # A loop of symbolic links, or a NUL character.
-        raise BadWorldFile(f'{name!r} is not a path: {error}', field='world_file') from error
+        template = '{name!r} is not a path: {reason}'
+        raise BadWorldFile(template, field='world_file', name=name, reason=str(error)) from error
     return path
 
 
@@ -279,17 +282,14 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
     below = [path.relative_to(root) for root in roots if path.is_relative_to(root)]
     # A directory is not below itself.
     if not any(each.parts for each in below):
-        raise BadWorldFile(f'{name} lies outside world_dir', field='world_file')
+        raise BadWorldFile('{name} lies outside world_dir', field='world_file', name=name)
     if all(any(part.startswith('.') for part in each.parts) for each in below):
-        raise BadWorldFile(f'{name} is hidden', field='world_file')
+        raise BadWorldFile('{name} is hidden', field='world_file', name=name)
     if not name.isprintable():
         raise BadWorldFile('the name of a world file is not printable', field='world_file')
     if path.suffix != _SUFFIX:
-        raise BadWorldFile(
-            f'{name!r} is not the name of a world: give a plain name, or a path that ends in '
-            f'{_SUFFIX}',
-            field='world_file',
-        )
+        template = '{name!r} is not the name of a world: give a plain name, or a path to a .yaml'
+        raise BadWorldFile(template, field='world_file', name=name)
 
 
 def _is_world_file(path: Path) -> bool:
@@ -304,4 +304,6 @@ def _is_world_file(path: Path) -> bool:
 def _unreadable(name: str, error: OSError | UnicodeDecodeError) -> BadWorldFile:
     # The text of an OSError ends with the path, that of a UnicodeDecodeError has a byte.
     reason = error.strerror if isinstance(error, OSError) else 'it is no text in UTF-8'
-    return BadWorldFile(f'cannot read {name}: {reason}', field='world_file')
+    return BadWorldFile(
+        'cannot read {name}: {reason}', field='world_file', name=name, reason=reason
+    )

@@ -42,7 +42,6 @@ from physsim_ros.model.settings import check_limit, OF_WORLD, WorldSettings
 from physsim_ros.model.shapes import shape_in, SHAPES
 from physsim_ros.model.spelling import canonical
 from physsim_ros.model.transform import Pose
-from physsim_ros.model.translation import Text
 from physsim_ros.simulation.world import steps_covering
 
 # Keys of a body whose values follow from `motion`.
@@ -67,7 +66,7 @@ def state_from(
     for key in content:
         if key in parameters and key not in WORLD_KEYS:
             raise UnknownProperty(
-                f'{key} is a parameter of the node; a world file cannot set it', field=key
+                '{field} is a parameter of the node; a world file cannot set it', field=key
             )
         check_key(key, WORLD_KEYS)
     if 'map' in content:
@@ -75,7 +74,7 @@ def state_from(
             'a map is read from beside a world file, and this world has none', field='map'
         )
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
-        raise BadProperty(Text('format must be {format}', format=FORMAT), field='format')
+        raise BadProperty('format must be {format}', field='format', format=FORMAT)
     changes = {key: content[key] for key in SETTINGS if key in content}
     changes |= {key: None for key in ('bounds', 'datum') if changes.get(key) == []}
     own = {
@@ -131,7 +130,7 @@ def _body_states(
         with naming(entry, 'body', count):
             state, is_unmoved = _body_state(entry, settings, physics_rate)
             if state.body.name in bodies:
-                raise BadProperty(Text('the name appears twice'), field='name')
+                raise BadProperty('the name appears twice', field='name')
             links, of_links = _parts_of(state)
             made = {state.body.name: state}
             if named.isdisjoint(link.name for link in links):

@@ -64,7 +64,7 @@ def entries_of(value: object, name: str) -> list[dict[Any, Any]]:
     if value is None:
         return []
     if not isinstance(value, list) or not all(isinstance(each, dict) for each in value):
-        raise BadProperty(f'{name} must be a list of mappings', field=name)
+        raise BadProperty('{field} must be a list of mappings', field=name)
     return value
 
 
@@ -83,15 +83,13 @@ def naming(entry: Mapping[Any, Any], noun: str = 'body', count: int = 0) -> Iter
         name = entry.get('name')
         which = f'number {count}' if name is None else shown(name)
         raise BadWorldFile(
-            Text(
-                '{kind} {name}: {wrong}',
-                kind=Text(noun),
-                name=which,
-                # Not in English, whose messages name the key.
-                key=refusal.field and f', {refusal.field}',
-                wrong=refusal.text,
-            ),
+            '{kind} {name}: {wrong}',
             field=refusal.field,
+            kind=Text(noun),
+            name=which,
+            # Not in English, whose messages name the key.
+            key=refusal.field and f', {refusal.field}',
+            wrong=refusal.text,
             line=entry.line if isinstance(entry, Located) else None,
             cause=refusal.code,
         ) from refusal

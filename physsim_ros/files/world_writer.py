@@ -47,7 +47,9 @@ def text_of(state: WorldState, physics_rate: float, *, longest: float = math.inf
     for line in _lines(state.at_rate(physics_rate), physics_rate):
         length += len(line)
         if length > longest:
-            raise WorldFull(f'the world as text is longer than {longest} characters')
+            raise WorldFull(
+                'the world as text is longer than {longest} characters', longest=longest
+            )
         lines.append(line)
     return ''.join(lines)
 

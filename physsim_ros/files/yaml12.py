@@ -23,7 +23,6 @@ from types import MappingProxyType
 from typing import Any, ClassVar
 
 from physsim_ros.model.errors import Malformed
-from physsim_ros.model.translation import Text
 from physsim_ros.runtime.garbage_collection import suspended_collection
 import yaml
 from yaml.composer import Composer
@@ -42,8 +41,8 @@ class NotYaml(Malformed):
     :param line: of the text, from 1; None if it is unknown
     """
 
-    def __init__(self, message: str, *, field: str = '', line: int | None = None) -> None:
-        super().__init__(message, field=field)
+    def __init__(self, template: str, /, *, line: int | None = None, **values: Any) -> None:
+        super().__init__(template, line=line, **values)
         self.line = line
 
 
@@ -215,16 +214,14 @@ def load_mapping(
         said = getattr(error, 'problem', None) or str(error) or type(error).__name__
         line = _line(error, text)
         reason = said.partition('\n')[0][:200]
-        message = Text('{file} is not YAML: {reason}', file=field, reason=reason)
+        template = '{field} is not YAML: {reason}'
         if line is not None:
-            template = '{file} is not YAML: {reason}, line {line}'
-            message = Text(template, file=field, reason=reason, line=line)
-        raise NotYaml(message, field=field, line=line) from error
+            template = '{field} is not YAML: {reason}, line {line}'
+        raise NotYaml(template, field=field, reason=reason, line=line) from error
     if value is None:
         return {}
     if not isinstance(value, dict):
-        message = Text('{file} must be a YAML mapping as {{friction: 0.3}}', file=field)
-        raise Malformed(message, field=field)
+        raise Malformed('{field} must be a YAML mapping as {{friction: 0.3}}', field=field)
     return value
 
 

@@ -35,7 +35,7 @@ def drive(robot: Robot, action: NDArray[np.float32]) -> None:
     """
     limits = robot.description.drive
     if limits is None:
-        raise BadProperty(f'{robot.name} has no drive', field='robot')
+        raise BadProperty('{robot} has no drive', field='robot', robot=robot.name)
     speed, turn = np.clip(action, -1.0, 1.0).tolist()
     robot.drive(speed * limits.max_speed, turn * limits.max_turn)
 

@@ -25,10 +25,9 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import BadSize, Malformed, WorldFull
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.scene import Body
-from physsim_ros.model.shapes import Box, contains, LARGEST, piece_box, SMALLEST
+from physsim_ros.model.shapes import Box, checked_length, contains, LARGEST, piece_box
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Pose, rotated_each
-from physsim_ros.model.translation import Text
 
 # Slate, on white and on black.
 _COLOR: Color = (0x5A / 255, 0x64 / 255, 0x70 / 255, 1.0)
@@ -69,19 +68,12 @@ def check_cells(resolution: float, rows: int, columns: int) -> None:
     :raises BadSize: cells or the whole are too small or too large for a shape
     :raises WorldFull: there are more than MOST_CELLS
     """
-    if not np.isfinite(resolution):
-        raise Malformed(f'resolution is {resolution}, not a finite number', field='resolution')
-    if not SMALLEST <= resolution <= LARGEST:
-        template = 'resolution is {value:g} m; it must lie between {least:g} and {most:g} m'
-        message = Text(template, value=resolution, least=SMALLEST, most=LARGEST)
-        raise BadSize(message, field='resolution')
+    checked_length(resolution, 'resolution')
     if rows * columns > MOST_CELLS:
-        raise WorldFull(
-            f'a map of {columns} by {rows} cells has more than {MOST_CELLS}', field='width'
-        )
+        template, field = 'a map of {columns} by {rows} cells has more than {most}', 'width'
+        raise WorldFull(template, field=field, columns=columns, rows=rows, most=MOST_CELLS)
     if max(rows, columns) * resolution > LARGEST:
-        message = Text('the map reaches further than {most:g} m', most=LARGEST)
-        raise BadSize(message, field='width')
+        raise BadSize('the map reaches further than {most:g} m', field='width', most=LARGEST)
 
 
 # Number of cells that are compared with a piece at once, 100 bytes each.

@@ -78,7 +78,11 @@ def rectangles_of(occupied: Flags, most: int) -> Ints:
 
 def _check_count(count: int, most: int) -> None:
     if count > most:
-        raise WorldFull(f'the map has {count} rectangles or more; at most {most} are allowed')
+        raise WorldFull(
+            'the map has {count} rectangles or more; at most {most} are allowed',
+            count=count,
+            most=most,
+        )
 
 
 def _chords(edges: Flags, reflex: Flags) -> _Chords:

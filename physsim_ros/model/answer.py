@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import shown_name
+from physsim_ros.model.translation import NOTHING, Text
 
 # The field of every request with a point or pose, besides the point or pose itself.
 _FRAME = 'header.frame_id'
@@ -35,7 +36,7 @@ class Answer:
 
     topic: str = ''
     subject: str = ''
-    message: str = ''
+    message: Text = NOTHING
     code: str = ''
     field: str = ''
     values: tuple[tuple[str, str], ...] = ()
@@ -57,13 +58,13 @@ class Answer:
         :param field: the only field of the request; '' if it has several
         :param asker: key of the message that asked
         """
-        body = [('body', shown_name(refusal.body))] if refusal.body else []
+        body = [('body', shown_name(refusal.concerns))] if refusal.concerns else []
         return cls(
             topic=topic,
             subject=shown_name(subject),
             message=refusal.text,
             code=refusal.code,
             field=refusal.field if refusal.field == _FRAME or not field else field,
-            values=(*refusal.values, *body),
+            values=(*refusal.details, *body),
             asker=asker,
         )

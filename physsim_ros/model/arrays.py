@@ -46,15 +46,16 @@ def checked_rows(values: Any, count: int, name: str) -> Floats:
         given = np.asarray(values)
     except ValueError as error:
         # Rows of different lengths.
-        raise Malformed(f'each {name} needs 3 numbers', field=name) from error
+        raise Malformed('each {field} needs 3 numbers', field=name) from error
     if given.ndim and not len(given):
         return _NO_ROWS
     if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in 'fiu':
-        raise Malformed(f'each {name} needs 3 numbers', field=name)
+        raise Malformed('each {field} needs 3 numbers', field=name)
     if len(given) != count:
-        raise Malformed(f'{name} has {len(given)} entries for {count} bodies', field=name)
+        template = '{field} has {found} entries for {count} bodies'
+        raise Malformed(template, field=name, found=len(given), count=count)
     rows = np.array(given, dtype=np.float64)
     if not np.isfinite(rows).all():
-        raise Malformed(f'{name} is not finite', field=name)
+        raise Malformed('{field} is not finite', field=name)
     make_read_only(rows)
     return rows

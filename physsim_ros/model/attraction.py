@@ -36,4 +36,8 @@ def check_attraction(bodies: Iterable[Body], settings: WorldSettings) -> None:
         return
     count = sum(attracts(body, settings) for body in bodies)
     if count > MOST_ATTRACTING:
-        raise WorldFull(f'{count} bodies would attract each other; at most {MOST_ATTRACTING} can')
+        raise WorldFull(
+            '{count} bodies would attract each other; at most {most} can',
+            count=count,
+            most=MOST_ATTRACTING,
+        )

@@ -76,13 +76,13 @@ def changed_body(
         body = replace(body, density=body.mass / body.shape.form.area)
     if not LIGHTEST <= body.total_mass <= HEAVIEST:
         field = 'density' if body.mass is None else 'mass'
-        message = Text(
+        raise BadProperty(
             'the body would weigh {value:g} kg; {low:g} to {high:g} kg can be simulated',
+            field=field,
             value=body.total_mass,
             low=LIGHTEST,
             high=HEAVIEST,
         )
-        raise BadProperty(message, field=field)
     _check_role(body)
     return body
 
@@ -98,32 +98,41 @@ def _check_role(body: Body) -> None:
             '{body} is not a sensor; only a sensor can be a conveyor from above; the surface of a '
             'solid body runs by the property belt'
         )
-        raise BadProperty(Text(template, body=body.name), field='surface_velocity')
+        raise BadProperty(template, field='surface_velocity', body=body.name)
     if body.medium is not None and (body.dynamic or not body.sensor):
         template = (
             '{body} is not an anchored or kinematic sensor; only such a body can be filled with a '
             'medium'
         )
-        raise BadProperty(Text(template, body=body.name), field='medium')
+        raise BadProperty(template, field='medium', body=body.name)
     if body.actor is not None and body.anchored:
-        message = Text(
-            '{body} is {noun}; it cannot be anchored', body=body.name, noun=Text('an actor')
+        raise BadProperty(
+            '{body} is {noun}; it cannot be anchored',
+            field='anchored',
+            body=body.name,
+            noun=Text('an actor'),
         )
-        raise BadProperty(message, field='anchored')
     if isinstance(body.actor, Pedestrian) and body.sensor:
-        message = Text('{body} is a pedestrian; it cannot be a sensor', body=body.name)
-        raise BadProperty(message, field='sensor')
+        raise BadProperty(
+            '{body} is a pedestrian; it cannot be a sensor', field='sensor', body=body.name
+        )
     if body.robot is None:
         return
     if body.robot.drive is not None and body.towed is not None:
-        raise BadProperty(f'{body.name} has a drive; a link of it can be towed', field='towed')
+        raise BadProperty(
+            '{body} has a drive; a link of it can be towed', field='towed', body=body.name
+        )
     if body.robot.drive is None and body.actor is not None:
-        raise BadProperty(f'{body.name} is a robot without a drive; it is no actor', field='actor')
+        raise BadProperty(
+            '{body} is a robot without a drive; it is no actor', field='actor', body=body.name
+        )
     # A robot without wheels may stand fast, as an arm does.
     roles = ('sensor',) if body.robot.drive is None else ('anchored', 'kinematic', 'sensor')
     for role in roles:
         if getattr(body, role):
-            raise BadProperty(f'{body.name} is a robot; it cannot be {role}', field=role)
+            raise BadProperty(
+                '{body} is a robot; it cannot be {field}', field=role, body=body.name
+            )
     check_namespace(body.robot.namespace_of(body.name), 'namespace')
 
 
@@ -142,8 +151,7 @@ def changed_twist(body: Body, twist: Twist, request: Spawn | ChangeBody) -> Twis
     properties = request.properties
     moves = (properties.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(properties.spin)
     if body.anchored and moves:
-        message = Text('{body} is anchored; it has no velocity', body=body.name)
-        raise Anchored(message, field='velocity')
+        raise Anchored('{body} is anchored; it has no velocity', field='velocity', body=body.name)
     if body.anchored:
         return REST
     vx, vy = REST[:2] if 'velocity' in request.unset else twist[:2]
@@ -174,9 +182,13 @@ def check_command(body: Body, request: Command) -> None:
     :raises BadProperty: it is kinematic, and forces do not move it
     """
     if body.anchored and (request.twists.size or request.wrenches.size):
-        raise Anchored(f'{body.name} is anchored; it takes a pose only', field='joint_names')
+        raise Anchored(
+            '{body} is anchored; it takes a pose only', field='joint_names', body=body.name
+        )
     if body.kinematic and request.wrenches.size:
-        raise BadProperty(f'{body.name} is kinematic; forces do not move it', field='wrench')
+        raise BadProperty(
+            '{body} is kinematic; forces do not move it', field='wrench', body=body.name
+        )
 
 
 def check_namespaces(bodies: Iterable[Body]) -> None:
@@ -198,9 +210,12 @@ def check_namespaces(bodies: Iterable[Body]) -> None:
             other = taken.setdefault(name, body.name)
             if other != body.name:
                 raise Exists(
-                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
-                    'one of them another namespace',
+                    'the robots {other} and {body} have one topic or frame, /{name}; give one of '
+                    'them another namespace',
                     field='namespace',
+                    other=other,
+                    body=body.name,
+                    name=name,
                 )
 
 

@@ -23,7 +23,7 @@ from physsim_ros.model.checks import (
     FRICTION_WORDS,
     MASS,
     MASS_WORDS,
-    shown,
+    must_be,
     text,
     Vector,
     VELOCITY,
@@ -35,7 +35,6 @@ from physsim_ros.model.media import Medium
 from physsim_ros.model.robots import Robot, Towed, TOWED_WORDS
 from physsim_ros.model.texts import is_printable, Words
 from physsim_ros.model.transform import Point
-from physsim_ros.model.translation import Text
 
 # Greatest charge [C], of either sign: impulses between any two are finite.
 MOST_CHARGE = 1e6
@@ -45,21 +44,21 @@ LONGEST_LABEL = 200
 
 def _group(value: object, name: str) -> int:
     if isinstance(value, bool) or not isinstance(value, int):
-        message = Text('{key} must be a whole number, not {value}', key=name, value=shown(value))
-        raise BadProperty(message, field=name)
+        raise must_be('a whole number', value, name)
     # Chipmunk's cpGroup is an unsigned 64-bit word; negative numbers wrap to distinct words.
     if not -(2**31) <= value < 2**31:
-        raise BadProperty(f'{name} must fit into 32 bits', field=name)
+        raise BadProperty('{field} must fit into 32 bits', field=name)
     return value
 
 
 def _label(value: object, name: str) -> str:
     label = text(value, name, BadProperty)
     if len(label) > LONGEST_LABEL:
-        message = Text('{key} has more than {most} characters', key=name, most=LONGEST_LABEL)
-        raise BadProperty(message, field=name)
+        raise BadProperty(
+            '{field} has more than {most} characters', field=name, most=LONGEST_LABEL
+        )
     if not is_printable(label.replace('\n', '')):
-        raise BadProperty(f'{name} has an unprintable character', field=name)
+        raise BadProperty('{field} has an unprintable character', field=name)
     return label
 
 

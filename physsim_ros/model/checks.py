@@ -77,6 +77,17 @@ def brief(number: float) -> str:
     return re.sub(r'e([-+])0*', lambda sign: 'e-' if sign[1] == '-' else 'e', f'{number:g}')
 
 
+def must_be(wanted: str, value: object, name: str, error: type[Refusal] = BadProperty) -> Refusal:
+    """
+    Return the refusal of a value of another kind than the field has.
+
+    :param wanted: a text, as `a number`, or the template of one
+    :param name: of the field
+    """
+    kind = wanted if isinstance(wanted, Text) else Text(wanted)
+    return error('{field} must be {kind}, not {value}', field=name, kind=kind, value=shown(value))
+
+
 def number(value: object, name: str) -> float:
     """
     Return a finite number.
@@ -87,14 +98,13 @@ def number(value: object, name: str) -> float:
     """
     # Numbers of NumPy are `Real`, too.
     if isinstance(value, bool) or not isinstance(value, int | float | Real):
-        message = Text('{key} must be a number, not {value}', key=name, value=shown(value))
-        raise BadProperty(message, field=name)
+        raise must_be('a number', value, name)
     try:
         result = float(value)
     except OverflowError:
         result = math.inf
     if not math.isfinite(result):
-        raise Malformed(f'{name} is {shown(value)}, not a finite number', field=name)
+        raise Malformed('{field} is {value}, not a finite number', field=name, value=shown(value))
     return result
 
 
@@ -126,15 +136,14 @@ class Within:
         """
         result = number(value, name)
         if not self.low <= result <= self.high:
-            message = Text(
-                '{key} is {value:g}; it must lie between {low:g} and {high:g}{unit}',
-                key=name,
+            raise BadProperty(
+                '{field} is {value:g}; it must lie between {low:g} and {high:g}{unit}',
+                field=name,
                 value=result,
                 low=self.low,
                 high=self.high,
                 unit=self.unit and f' {self.unit}',
             )
-            raise BadProperty(message, field=name)
         return result
 
 
@@ -163,7 +172,9 @@ class Whole:
         """
         low, high = self.low, self.high
         if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-            raise BadProperty(f'{name} must be a whole number, {low} to {high}', field=name)
+            raise BadProperty(
+                '{field} must be a whole number, {low} to {high}', field=name, low=low, high=high
+            )
         return value
 
 
@@ -190,7 +201,12 @@ class Numbers:
             message = Text(template, key=name, value=shown(value), count=count)
             raise BadProperty(message, field=name)
         if len(value) != count:
-            raise Malformed(f'{name} needs {count} numbers, not {len(value)}', field=name)
+            raise Malformed(
+                '{field} needs {count} numbers, not {found}',
+                field=name,
+                count=count,
+                found=len(value),
+            )
         return tuple(check(each, name) for check, each in zip(self.checks, value, strict=True))
 
 
@@ -219,11 +235,14 @@ class ListOf:
         :raises BadProperty: it is no list, or too long; and as the check of an element
         """
         if not isinstance(value, list | tuple):
-            raise BadProperty(
-                f'{name} must be a list of {self.noun}, not {shown(value)}', field=name
-            )
+            raise must_be(Text('a list of {noun}', noun=Text(self.noun)), value, name)
         if len(value) > self.most:
-            raise BadProperty(f'{name} has more than {self.most} {self.noun}', field=name)
+            raise BadProperty(
+                '{field} has more than {most} {noun}',
+                field=name,
+                most=self.most,
+                noun=Text(self.noun),
+            )
         return tuple(self.check(each, name) for each in value)
 
 
@@ -259,14 +278,13 @@ class Vector:
         """
         vector = pair(value, name)
         if math.hypot(*vector) > self.longest:
-            message = Text(
-                '{key} is {beyond} than {most:g}{unit}',
-                key=name,
+            raise BadProperty(
+                '{field} is {beyond} than {most:g}{unit}',
+                field=name,
                 beyond=self.beyond,
                 most=self.longest,
                 unit=self.unit and f' {self.unit}',
             )
-            raise BadProperty(message, field=name)
         return vector
 
 
@@ -291,8 +309,7 @@ def flag(value: object, name: str) -> bool:
     :raises BadProperty: it is neither
     """
     if not isinstance(value, bool):
-        message = Text('{key} must be true or false, not {value}', key=name, value=shown(value))
-        raise BadProperty(message, field=name)
+        raise must_be('true or false', value, name)
     return value
 
 
@@ -304,14 +321,14 @@ def text(value: object, name: str, error: type[Refusal] = Malformed) -> str:
     :param error: that is raised where it is something else
     """
     if not isinstance(value, str):
-        raise error(f'{name} must be text, not {shown(value)}', field=name)
+        raise must_be('text', value, name, error)
     return canonical(value)
 
 
 def texts(value: object, name: str, error: type[Refusal] = Malformed) -> tuple[str, ...]:
     """Return a list of words or names, each as `text`; parameters as of that."""
     if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
-        raise error(f'{name} must be a list of texts, not {shown(value)}', field=name)
+        raise must_be('a list of texts', value, name, error)
     return tuple(map(canonical, value))
 
 
@@ -338,7 +355,9 @@ class OneOf:
         """
         if not isinstance(value, str) or value not in self.words:
             near = nearest_name(shown(value).strip("'"), self.words)
-            raise BadProperty(f'{name} must be one of {self.span}{near}', field=name)
+            raise BadProperty(
+                '{field} must be one of {span}{near}', field=name, span=self.span, near=near
+            )
         return str(value)
 
 
@@ -360,7 +379,7 @@ class OfClass:
         """
         if not isinstance(value, self.classes):
             known = ', '.join(each.__name__ for each in get_args(self.classes) or (self.classes,))
-            raise Malformed(f'{name} must be of class {known}, not {shown(value)}', field=name)
+            raise must_be(Text('of class {known}', known=known), value, name, Malformed)
         return value
 
 
@@ -377,9 +396,14 @@ def check_finite(values: Any, count: int, name: str) -> tuple[float, ...]:
     except (TypeError, OverflowError):
         row, finite = (), False
     if len(row) != count:
-        raise Malformed(f'{name} needs {count} numbers, not {shown(values)}', field=name)
+        raise Malformed(
+            '{field} needs {count} numbers, not {value}',
+            field=name,
+            count=count,
+            value=shown(values),
+        )
     if not finite:
-        raise Malformed(f'{name} is not finite', field=name)
+        raise Malformed('{field} is not finite', field=name)
     return tuple(map(float, row))
 
 
@@ -423,10 +447,9 @@ def check_yaw(yaw: Any, name: str) -> float:
 
 def _check_near(x: float, y: float, name: str) -> None:
     if max(abs(x), abs(y)) > FARTHEST:
-        message = Text('{key} is further away than {most:g} m', key=name, most=FARTHEST)
-        raise BadProperty(message, field=name)
+        raise BadProperty('{field} is further away than {most:g} m', field=name, most=FARTHEST)
 
 
 def _check_turn(yaw: float, name: str) -> None:
     if abs(yaw) > FARTHEST:
-        raise BadProperty(Text('the yaw of {key} is too large', key=name), field=name)
+        raise BadProperty('the yaw of {field} is too large', field=name)

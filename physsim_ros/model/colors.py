@@ -39,7 +39,7 @@ def color_from(text: str) -> Color:
     """
     if not re.fullmatch('#([0-9a-fA-F]{2}){3,4}', text):
         raise BadProperty(
-            f"color must be '#rrggbb' or '#rrggbbaa', not {shown(text)}", field='color'
+            "color must be '#rrggbb' or '#rrggbbaa', not {value}", field='color', value=shown(text)
         )
     red, green, blue, alpha = (each / 255 for each in (*bytes.fromhex(text[1:]), 255)[:4])
     return red, green, blue, alpha
@@ -59,7 +59,7 @@ def color_value(value: object, name: str) -> Color:
     if isinstance(value, str):
         return color_from(value)
     if not isinstance(value, list | tuple) or len(value) != 4:
-        raise BadProperty(f'{name} must be a string or [r, g, b, a]', field=name)
+        raise BadProperty('{field} must be a string or [r, g, b, a]', field=name)
     return check_color(tuple(number(each, name) for each in value), name)
 
 
@@ -73,7 +73,7 @@ def check_color(color: Any, name: str) -> Color:
     """
     red, green, blue, alpha = channels = check_finite(color, 4, name)
     if not all(0.0 <= channel <= 1.0 for channel in channels):
-        raise BadProperty(f'each channel of {name} must lie in 0 .. 1', field=name)
+        raise BadProperty('each channel of {field} must lie in 0 .. 1', field=name)
     return red, green, blue, alpha
 
 

@@ -23,7 +23,7 @@ from dataclasses import dataclass, Field, MISSING
 from inspect import get_annotations
 from typing import Any, ClassVar, Generic, Self, TypeVar
 
-from physsim_ros.model.checks import Check, LONGEST_SHOWN, shown
+from physsim_ros.model.checks import Check, LONGEST_SHOWN, must_be, shown
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.texts import hint_of, no_kind, Words
 from physsim_ros.model.translation import Text
@@ -141,7 +141,7 @@ class Checked:
         cls.check_keys(mapping)
         for each in cls.FIELDS.values():
             if each.default is MISSING and each.name not in mapping:
-                raise BadProperty(Text('{key} is missing', key=each.name), field=each.name)
+                raise BadProperty('{field} is missing', field=each.name)
         return cls(**mapping)
 
     @classmethod
@@ -155,7 +155,7 @@ class Checked:
         if isinstance(value, cls):
             return value
         if not isinstance(value, dict):
-            raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
+            raise must_be('a mapping', value, name)
         return cls.from_mapping(value)
 
     @classmethod
@@ -169,7 +169,7 @@ class Checked:
         for key, value in mapping.items():
             check_key(key, cls.WORDS)
             if value is None:
-                raise BadProperty(f'{key} has no value', field=str(key))
+                raise BadProperty('{key} has no value', field=str(key), key=key)
 
 
 def without_unset(
@@ -226,8 +226,9 @@ def check_key(key: object, known: Mapping[str, Collection[str]]) -> None:
     hint = hint_of(word, known)
     if known and not hint:
         hint = Text('; there are {names}', names=', '.join(known))
-    message = Text('there is no property {key}{hint}', key=shown(word), hint=hint)
-    raise UnknownProperty(message, field=word[:LONGEST_SHOWN])
+    raise UnknownProperty(
+        'there is no property {key}{hint}', field=word[:LONGEST_SHOWN], key=shown(word), hint=hint
+    )
 
 
 def known_mapping(value: object, name: str, known: Collection[str]) -> dict[Any, Any]:
@@ -239,7 +240,7 @@ def known_mapping(value: object, name: str, known: Collection[str]) -> dict[Any,
     :raises UnknownProperty: a key is not known; the nearest known one is named
     """
     if not isinstance(value, dict):
-        raise BadProperty(f'{name} must be a mapping', field=name)
+        raise must_be('a mapping', value, name)
     for key in value:
         check_key(key, dict.fromkeys(known, ()))
     return value
@@ -276,10 +277,12 @@ class OfKind(Generic[_Value]):
             if isinstance(value, each):
                 return value
         if not isinstance(value, dict):
-            raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
+            raise must_be('a mapping', value, name)
         kind, words = value.get('kind'), ', '.join(self.kinds)
         if kind is None:
-            raise BadProperty(f'{name} has no kind, which is one of {words}', field='kind')
+            raise BadProperty(
+                '{name} has no kind, which is one of {kinds}', field='kind', name=name, kinds=words
+            )
         if not isinstance(kind, str) or kind not in self.kinds:
             word = shown(kind).strip("'")
             hint = hint_of(word, self.everyday)
@@ -288,7 +291,10 @@ class OfKind(Generic[_Value]):
         for key in rest:
             if key not in known and any(key in each.FIELDS for each in self.kinds.values()):
                 raise UnknownProperty(
-                    f'{self.noun}s of kind {kind} have no {key}; they have {", ".join(known)}',
+                    '{noun}s of kind {kind} have no {field}; they have {known}',
                     field=key,
+                    noun=self.noun,
+                    kind=kind,
+                    known=', '.join(known),
                 )
         return self.kinds[kind].from_mapping(rest)

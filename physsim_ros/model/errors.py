@@ -10,6 +10,7 @@ Law: a refused request changes nothing; the message names what is refused and th
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 from physsim_ros.model.texts import abbreviated, message_text, nearest_name
 from physsim_ros.model.translation import Text
@@ -25,40 +26,38 @@ class PhysSimError(Exception):
     def __init__(self, message: str = '') -> None:
         super().__init__(message_text(message))
 
-    @property
-    def text(self) -> str:
-        """Return the message; one that pages translate is a `Text`."""
-        message: str = self.args[0]
-        return message
-
 
 class Refusal(PhysSimError):
     """
     A request that is not applied.
 
-    :param message: one sentence: the refused value and the reason
-    :param field: the offending field of the request, '' if it is the whole request
-    :param values: further pairs of key and value for the event
-    :param body: name of the body for which it is refused, where the request does not name it
+    :param template: one sentence as for `Text`, the refused value and the reason; or a `Text`
+    :param field: the offending field of the request, '' if it is the whole request; the template
+        may name it
+    :param concerns: name of the body for which it is refused, where the request does not name it
+    :param values: further values of the template
 
+    :ivar details: further pairs of key and value for the event
     :ivar is_half_done: whether the request has changed the world, which is to be rebuilt
     """
 
     code = 'refused'
+    args: tuple[Text]
 
     def __init__(
-        self,
-        message: str,
-        *,
-        field: str = '',
-        values: tuple[tuple[str, str], ...] = (),
-        body: str = '',
+        self, template: str, /, *, field: str = '', concerns: str = '', **values: Any
     ) -> None:
-        super().__init__(message)
+        is_text = isinstance(template, Text)
+        super().__init__(template if is_text else Text(template, field=field, **values))
         self.field = abbreviated(field)
-        self.values = values
-        self.body = body
+        self.concerns = concerns
+        self.details: tuple[tuple[str, str], ...] = ()
         self.is_half_done = False
+
+    @property
+    def text(self) -> Text:
+        """Return the message with its template, which pages translate."""
+        return self.args[0]
 
 
 class Malformed(Refusal):
@@ -152,9 +151,10 @@ class NotRecognised(Refusal):
 
     code = 'not_recognised'
 
-    def __init__(self, message: str, *, field: str = '', guesses: Confidences = ()) -> None:
-        super().__init__(message, field=field, values=values_of(guesses))
+    def __init__(self, template: str, /, *, guesses: Confidences = (), **values: Any) -> None:
+        super().__init__(template, **values)
         self.guesses = guesses
+        self.details = values_of(guesses)
 
 
 def values_of(guesses: Confidences) -> tuple[tuple[str, str], ...]:
@@ -175,7 +175,7 @@ class BadWorldFile(Refusal):
     """
     A world file that cannot be read or written, or whose content is refused.
 
-    :param brief: the message without anything that the file holds; '' where the message is that
+    :param brief: the message without anything that the file holds; None where the message is that
     :param line: of the file, from 1; None if it is unknown
     :param cause: code of the refusal of the content
     """
@@ -184,14 +184,15 @@ class BadWorldFile(Refusal):
 
     def __init__(
         self,
-        message: str,
+        template: str,
+        /,
         *,
-        field: str = '',
-        brief: str = '',
+        brief: Text | None = None,
         line: int | None = None,
         cause: str = '',
+        **values: Any,
     ) -> None:
-        super().__init__(message, field=field)
+        super().__init__(template, **values)
         self.brief = brief or self.text
         self.line = line
         self.cause = cause
@@ -274,14 +275,19 @@ def no_body(name: str, known: Iterable[str], field: str) -> UnknownBody:
     :param known: names of which the most similar one is told
     :param field: of the request, that has the name
     """
-    message = Text('there is no body {body!r}{near}', body=name, near=nearest_name(name, known))
-    return UnknownBody(message, field=field)
+    return UnknownBody(
+        'there is no body {body!r}{near}', field=field, body=name, near=nearest_name(name, known)
+    )
 
 
 def no_joint(name: str, known: Iterable[str], field: str) -> UnknownJoint:
     """Return the refusal of the name of no joint; parameters as for `no_body`."""
-    message = Text('there is no joint {joint!r}{near}', joint=name, near=nearest_name(name, known))
-    return UnknownJoint(message, field=field)
+    return UnknownJoint(
+        'there is no joint {joint!r}{near}',
+        field=field,
+        joint=name,
+        near=nearest_name(name, known),
+    )
 
 
 def no_frame(frame: str, known: Iterable[str]) -> UnknownFrame:
@@ -291,12 +297,14 @@ def no_frame(frame: str, known: Iterable[str]) -> UnknownFrame:
     :param known: names of the bodies, of which the most similar one is told
     """
     return UnknownFrame(
-        f'frame {frame!r} is neither the world nor a body{nearest_name(frame, known)}',
+        'frame {frame!r} is neither the world nor a body{near}',
         field='header.frame_id',
+        frame=frame,
+        near=nearest_name(frame, known),
     )
 
 
 def nothing_at(point: tuple[float, float], field: str) -> NothingThere:
     """Return the refusal of a point in no body [m], of a field of the request."""
     x, y = point
-    return NothingThere(Text('there is no body at ({x:g}, {y:g})', x=x, y=y), field=field)
+    return NothingThere('there is no body at ({x:g}, {y:g})', field=field, x=x, y=y)

@@ -61,15 +61,16 @@ _name, _names = partial(text, error=BadProperty), partial(texts, error=BadProper
 def _direction(value: object, name: str) -> float:
     direction = Within(-1.0, 1.0)(value, name)
     if abs(direction) < 1.0:
-        raise BadProperty(f'{name} is {direction:g}; it must be 1 or -1', field=name)
+        raise BadProperty(
+            '{field} is {direction:g}; it must be 1 or -1', field=name, direction=direction
+        )
     return direction
 
 
 def _ratio(value: object, name: str) -> float:
     ratio = Within(-MOST_RATIO, MOST_RATIO)(value, name)
     if abs(ratio) < 1.0 / MOST_RATIO:
-        message = Text('{key} is {value:g}; it must not be 0', key=name, value=ratio)
-        raise BadProperty(message, field=name)
+        raise BadProperty('{field} is {value:g}; it must not be 0', field=name, value=ratio)
     return ratio
 
 
@@ -243,7 +244,7 @@ def kind_from(value: object) -> JointKind:
             return kind
     kinds = ', '.join(JointKind)
     if value is None:
-        raise BadProperty(f'a joint needs a kind: {kinds}', field='kind')
+        raise BadProperty('a joint needs a kind: {kinds}', field='kind', kinds=kinds)
     # `shown` bounds the text: aliases of YAML may unfold to millions of words.
     word = shown(value).strip("'")
     hint = hint_of(word, {kind: kind.schema.words for kind in JointKind})
@@ -427,8 +428,8 @@ class JointProperties(Checked):
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
         if self.lower is not None and self.upper is not None and self.lower > self.upper:
-            message = 'lower is {lower:g} and upper {upper:g}; lower must not be greater'
-            raise BadProperty(Text(message, lower=self.lower, upper=self.upper), field='lower')
+            template = 'lower is {lower:g} and upper {upper:g}; lower must not be greater'
+            raise BadProperty(template, field='lower', lower=self.lower, upper=self.upper)
         if self.rate is not None and self.effort:
             raise BadProperty(
                 'a slider has either a rate, with which it is driven, or an effort, with which '
@@ -454,7 +455,10 @@ class JointProperties(Checked):
         for name in (*self.explicit(), *unset):
             if name not in known:
                 raise UnknownProperty(
-                    f'{kind.phrase} has no {name}; it has {", ".join(known)}', field=name
+                    '{kind} has no {field}; it has {known}',
+                    field=name,
+                    kind=Text(kind.phrase),
+                    known=', '.join(known),
                 )
 
 

@@ -37,7 +37,12 @@ def delays(value: object, name: str) -> Point:
         value = (value, value)
     low, high = Numbers((_DELAY, _DELAY))(value, name)
     if low > high:
-        raise BadProperty(f'{name} is [{low:g}, {high:g}]; the least time is first', field=name)
+        raise BadProperty(
+            '{field} is [{low:g}, {high:g}]; the least time is first',
+            field=name,
+            low=low,
+            high=high,
+        )
     return low, high
 
 

@@ -33,9 +33,11 @@ def _text(longest: int) -> Any:
         # Folded lines of YAML end with a line break.
         line = text(value, name, BadProperty).strip()
         if not 0 < len(line) <= longest:
-            raise BadProperty(f'{name} must have 1 to {longest} characters', field=name)
+            raise BadProperty(
+                '{field} must have 1 to {longest} characters', field=name, longest=longest
+            )
         if not is_printable(line.replace('\n', '')):
-            raise BadProperty(f'{name} has an unprintable character', field=name)
+            raise BadProperty('{field} has an unprintable character', field=name)
         return line
 
     return check

@@ -9,7 +9,7 @@ import itertools
 import math
 from typing import Annotated, NamedTuple
 
-from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, OneOf, shown, text
+from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, must_be, OneOf, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.names import JOINT
@@ -44,28 +44,28 @@ def points_from(value: object, name: str) -> tuple[CommandPoint, ...]:
     :raises BadProperty: there are too many points, a number is out of range, or times fall
     """
     if not isinstance(value, Iterable):
-        raise Malformed(f'{name} must be a list of points, not {shown(value)}', field=name)
+        raise must_be('a list of points', value, name, Malformed)
     points = tuple(_point(each, name) for each in value)
     if not 1 <= len(points) <= MOST_POINTS:
-        raise BadProperty(f'{name} must be 1 to {MOST_POINTS} points', field=name)
+        raise BadProperty('{field} must be 1 to {most} points', field=name, most=MOST_POINTS)
     if any(b.time <= a.time for a, b in itertools.pairwise(points)):
-        raise BadProperty(f'the times of {name} must increase', field=name)
+        raise BadProperty('the times of {field} must increase', field=name)
     return points
 
 
 def _point(value: object, name: str) -> CommandPoint:
     if not isinstance(value, list | tuple) or len(value) not in (2, 3):
-        raise Malformed(
-            f'{name} must be [time, value] or [time, value, rate], not {shown(value)}', field=name
-        )
+        raise must_be('[time, value] or [time, value, rate]', value, name, Malformed)
     time, number = check_finite(value[:2], 2, name)
     rate = value[2] if len(value) == 3 and value[2] is not None else math.nan
     if not (isinstance(rate, float) and math.isnan(rate)):
         (rate,) = check_finite((rate,), 1, name)
     if not 0.0 <= time <= LONGEST:
-        raise BadProperty(f'a time of {name} must lie between 0 and {LONGEST:g} s', field=name)
+        raise BadProperty(
+            'a time of {field} must lie between 0 and {most:g} s', field=name, most=LONGEST
+        )
     if abs(number) > HEAVIEST or abs(rate) > HEAVIEST:
-        raise BadProperty(f'a value or rate of {name} exceeds {HEAVIEST:g}', field=name)
+        raise BadProperty('a value or rate of {field} exceeds {most:g}', field=name, most=HEAVIEST)
     return CommandPoint(time, number, rate)
 
 

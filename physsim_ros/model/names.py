@@ -41,16 +41,19 @@ def check_name(value: object, field: str = 'name') -> str:
     namespace, id_ = split_name(name)
     if not namespace:
         raise Malformed(
-            f'{name!r} is not a name: <namespace>/<id>, the id a whole number', field=field
+            '{name!r} is not a name: <namespace>/<id>, the id a whole number',
+            field=field,
+            name=name,
         )
     if len(name) > LONGEST_NAME:
-        message = Text('a name has at most {most} characters', most=str(LONGEST_NAME))
-        raise Malformed(message, field=field)
+        raise Malformed(
+            'a name has at most {most} characters', field=field, most=str(LONGEST_NAME)
+        )
     _check_visible(name, field)
     if REPLACEMENT in name:
-        raise Malformed(f'{name!r} is not UTF-8', field=field)
+        raise Malformed('{name!r} is not UTF-8', field=field, name=name)
     if not -(2**31) <= id_ < 2**31:
-        raise Malformed(f'the id of {name!r} does not fit into 32 bits', field=field)
+        raise Malformed('the id of {name!r} does not fit into 32 bits', field=field, name=name)
     return name
 
 
@@ -64,11 +67,13 @@ def check_body_name(value: object, field: str = 'name') -> str:
     """
     name = check_name(value, field)
     if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS, HANDS)):
-        raise Malformed(f'{name!r} is no body in the picture', field=field)
+        raise Malformed('{name!r} is no body in the picture', field=field, name=name)
     if PAIR_SEPARATOR in name:
         raise Malformed(
-            f'{name!r} holds a {PAIR_SEPARATOR}, which separates the names of a contact',
+            '{name!r} holds a {most}, which separates the names of a contact',
             field=field,
+            name=name,
+            most=PAIR_SEPARATOR,
         )
     return name
 
@@ -82,16 +87,20 @@ def check_hand_name(value: object, field: str) -> str:
     """
     name = text(value, field)
     if not 0 < len(name) <= LONGEST_NAME:
-        raise Malformed(f'the name of a hand has 1 to {LONGEST_NAME} characters', field=field)
+        raise Malformed(
+            'the name of a hand has 1 to {most} characters', field=field, most=LONGEST_NAME
+        )
     _check_visible(name, field)
     return name
 
 
 def _check_visible(name: str, field: str) -> None:
     if not is_printable(name):
-        raise Malformed(f'{name!r} contains a character that cannot be printed', field=field)
+        raise Malformed(
+            '{name!r} contains a character that cannot be printed', field=field, name=name
+        )
     if has_invisible(name):
-        raise Malformed(f'{name!a} contains an invisible character', field=field)
+        raise Malformed('{name!a} contains an invisible character', field=field, name=name)
 
 
 def shown_name(name: str) -> str:

@@ -59,7 +59,7 @@ def rectangle(value: object, name: str) -> Bounds:
     left, bottom, right, top = Numbers((Within(-LARGEST, LARGEST, 'm'),) * 4)(value, name)
     if not (left < right and bottom < top):
         raise BadProperty(
-            f'{name} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
+            '{field} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
         )
     return left, bottom, right, top
 
@@ -234,7 +234,7 @@ def check_setting(name: object) -> None:
     :raises BadProperty: it is not
     """
     if name not in WorldSettings.FIELDS:
-        raise BadProperty(f'the world has no setting {shown(name)}', field=str(name))
+        raise BadProperty('the world has no setting {value}', field=str(name), value=shown(name))
 
 
 def check_limit(limit: str, count: int, settings: WorldSettings) -> None:
@@ -246,11 +246,10 @@ def check_limit(limit: str, count: int, settings: WorldSettings) -> None:
     """
     most = getattr(settings, limit)
     if count > most:
-        message = Text(
+        raise WorldFull(
             'the world would have {count} {things}; {limit} is {most}',
             count=count,
             things=Text(_COUNTED[limit]),
             limit=limit,
             most=most,
         )
-        raise WorldFull(message)

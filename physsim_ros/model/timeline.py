@@ -32,7 +32,7 @@ class RunState(StrEnum):
         return cls.PLAYING if speed > 0.0 else cls.REWINDING
 
 
-def run_state(speed: float) -> str:
+def run_state(speed: float) -> Text:
     """Return the word for a speed: paused, playing or rewinding, with its factor if not 1."""
     state = RunState.of(speed)
     if abs(speed) in {0.0, 1.0}:

@@ -51,6 +51,10 @@ class Text(str):
         return self._of, (str(self), self.template, self.values)
 
 
+# The message where there is none.
+NOTHING = Text('')
+
+
 def counted(number: int, noun: str) -> Text:
     """Return a number and its noun: 1 body, 2 bodies."""
     if number == 1:

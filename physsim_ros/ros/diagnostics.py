@@ -17,6 +17,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import run_state
+from physsim_ros.model.translation import Text
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.runtime.error_boundary import ErrorBoundary
@@ -208,7 +209,10 @@ class Diagnostics:
         before, self._namesakes = self._namesakes, names.count(self._name)
         if self._namesakes <= max(before, 1):
             return []
-        message = f'{self._namesakes} nodes are named {self._name}, and all do what one is asked'
-        return [
-            Answer(topic='same_name', message=f'{message}: {_SAME_NAME_REMEDY}', code='same_name')
-        ]
+        message = Text(
+            '{count} nodes are named {name}, and all do what one is asked: {remedy}',
+            count=self._namesakes,
+            name=self._name,
+            remedy=Text(_SAME_NAME_REMEDY),
+        )
+        return [Answer(topic='same_name', message=message, code='same_name')]

@@ -18,6 +18,7 @@ from nav_msgs.msg import Path
 from physsim_ros.drawing import DrawingSession, submit_reading, submit_told
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.translation import Text
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.planar import named_frame, point_in_frame
 from physsim_ros.ros.requests import conversions
@@ -53,7 +54,7 @@ class DrawingTopics:
         topics.subscribe(PointStamped, 'clicked_point', self._click)
         topics.subscribe(Path, '~/stroke', self._stroke)
 
-    def read_instead(self) -> str:
+    def read_instead(self) -> Text:
         """
         Build the next guess about the last stroke, and return a message about it.
 

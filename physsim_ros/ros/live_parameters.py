@@ -15,8 +15,7 @@ from dataclasses import replace
 from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
-from physsim_ros.model.checks import shown
-from physsim_ros.model.errors import BadProperty, Refusal, UnknownProperty
+from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
@@ -86,7 +85,7 @@ class LiveParameters:
         self._refusal = None
         result = self._node.set_parameters_atomically(wanted)
         if not result.successful:
-            raise self._refusal or BadProperty(result.reason)
+            raise self._refusal or BadProperty('{reason}', reason=result.reason)
 
     def _check_descriptor(self, parameter: Parameter) -> None:
         """
@@ -97,12 +96,12 @@ class LiveParameters:
         name = parameter.name
         if not self._node.has_parameter(name):
             nearest = nearest_name(abbreviated(name), parameters.SPECS)
-            raise UnknownProperty(f'there is no parameter {shown(name)}{nearest}', field=name)
+            raise parameters.no_parameter(name, nearest)
         parameters.check(parameter)
         # rclpy 7.1 has no public name for it.
         result = self._node._apply_descriptor(parameter)  # noqa: SLF001
         if not result.successful:
-            raise BadProperty(result.reason, field=name)
+            raise BadProperty('{reason}', field=name, reason=result.reason)
 
     def show(self, _: Frame) -> None:
         """Set the parameters to the settings and speed of the world at a frame."""

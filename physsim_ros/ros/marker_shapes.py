@@ -58,7 +58,9 @@ def shape_from(marker: Marker) -> Shape:
     :raises Refusal: scale or points are those of no shape that can be simulated
     """
     if marker.type not in _DECODERS:
-        raise UnknownShape(f'a marker of type {marker.type} does not become a body', field='type')
+        raise UnknownShape(
+            'a marker of type {type} does not become a body', field='type', type=marker.type
+        )
     try:
         return _DECODERS[marker.type](marker)
     except Refusal as refusal:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
+from physsim_ros.model.translation import Text
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
@@ -103,7 +104,7 @@ class NodeControl:
 
     # World files
 
-    async def load_world(self, world: str) -> str:
+    async def load_world(self, world: str) -> Text:
         """
         Replace the world by that of a name; time goes on.
 
@@ -111,7 +112,7 @@ class NodeControl:
         """
         return await self._with_file(world, self.files.load(world))
 
-    async def open_world(self, world: str) -> str:
+    async def open_world(self, world: str) -> Text:
         """
         Begin with the world of a name, at time 0; undo reverts it.
 
@@ -119,7 +120,7 @@ class NodeControl:
         """
         return await self._with_file(world, self.files.open_world(world))
 
-    async def save_world(self, world: str) -> str:
+    async def save_world(self, world: str) -> Text:
         """
         Save the world under a name; time goes on.
 
@@ -127,7 +128,7 @@ class NodeControl:
         """
         return await self._with_file(world, self.files.save(world))
 
-    async def _with_file(self, world: str, work: Slices[str]) -> str:
+    async def _with_file(self, world: str, work: Slices[Text]) -> Text:
         """Carry out work on the world of a name, and have parameter `world_file` name it then."""
         message = await work
         self.set_parameter('world_file', world)

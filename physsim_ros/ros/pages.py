@@ -76,7 +76,7 @@ class Pages:
                 wake=self._wake,
             )
         except PhysSimError as error:
-            raise BadProperty(str(error), field='sketchpad') from error
+            raise BadProperty('{error}', field='sketchpad', error=str(error)) from error
         self._outputs.open_sketchpad(sketchpad)
         if self._loop.started:
             self.print_addresses()
@@ -95,7 +95,9 @@ class Pages:
                 locks_of(names)
             except BadProperty as refusal:
                 field = 'sketchpad_locked'
-                raise BadProperty(f'{field}: {refusal}', field=field) from refusal
+                raise BadProperty(
+                    '{field}: {refusal}', field=field, refusal=refusal.text
+                ) from refusal
 
     def update(self) -> None:
         """Close the sketchpad, or show the world on it, as its parameter says."""

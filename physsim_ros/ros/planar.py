@@ -53,7 +53,7 @@ def yaw_of(rotation: Quaternion, field: str) -> float:
     """
     parts = rotation.x, rotation.y, rotation.z, rotation.w
     if not all(map(math.isfinite, parts)):
-        raise Malformed(f'{field} is not finite', field=field)
+        raise Malformed('{field} is not finite', field=field)
     largest = max(map(abs, parts))
     if largest == 0.0:
         return 0.0
@@ -65,8 +65,10 @@ def yaw_of(rotation: Quaternion, field: str) -> float:
     pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
     if max(abs(roll), abs(pitch)) > MOST_TILT:
         raise NotPlanar(
-            f'{field} has roll {roll:.3g} and pitch {pitch:.3g} rad; the world is a plane',
+            '{field} has roll {roll:.3g} and pitch {pitch:.3g} rad; the world is a plane',
             field=field,
+            roll=roll,
+            pitch=pitch,
         )
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 

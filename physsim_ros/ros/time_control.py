@@ -80,7 +80,7 @@ class NodeTimeControl:
         stamp = message.clock.sec * 10**9 + message.clock.nanosec
         self.submit_seek(stamp, Origin('~/seek'))
 
-    def set_speed(self, speed: float) -> str:
+    def set_speed(self, speed: float) -> Text:
         """
         Set the speed [simulation seconds a second].
 
@@ -90,15 +90,15 @@ class NodeTimeControl:
         self._simulation.speed = speed + 0.0
         return Text('speed {speed:g}', speed=self._simulation.speed)
 
-    def _run_at(self, speed: float) -> str:
+    def _run_at(self, speed: float) -> Text:
         self.set_speed(speed)
         return run_state(speed)
 
-    def play(self) -> str:
+    def play(self) -> Text:
         """Run at speed 1."""
         return self._run_at(1.0)
 
-    def pause(self) -> str:
+    def pause(self) -> Text:
         """Stop time."""
         return self._run_at(0.0)
 
@@ -108,7 +108,7 @@ class NodeTimeControl:
         self._simulation.requests.submit_seek(stamp, origin)
         self._loop.apply_ready()
 
-    def _step(self) -> str:
+    def _step(self) -> Text:
         """
         Advance a paused world by one frame; during a seek, queue that frame.
 
@@ -118,7 +118,7 @@ class NodeTimeControl:
             return _at(self._simulation.playback.queue_frame())
         return self.step_now()
 
-    def step_now(self) -> str:
+    def step_now(self) -> Text:
         """
         Advance a paused world by one frame, after a seek that is under way.
 
@@ -129,7 +129,7 @@ class NodeTimeControl:
         self._loop.advance_frame()
         return _at(self._simulation.stamp)
 
-    async def reset(self) -> str:
+    async def reset(self) -> Text:
         """Go to the beginning, which a thread builds."""
         return self._simulation.reset(ahead=await self.beginning())
 
@@ -139,6 +139,6 @@ class NodeTimeControl:
         return await on_thread(partial(beginning_of, loaded, rate))
 
 
-def _at(stamp: int) -> str:
+def _at(stamp: int) -> Text:
     """Return the message about a moment, by its simulation time [ns]."""
     return Text('at {time}', time=f'{stamp * 1e-9:.6f} s')

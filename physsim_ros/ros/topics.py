@@ -44,11 +44,13 @@ def decoded(data: bytes, kind: type, most_bytes: int) -> Any:
     :raises Undecodable: it cannot be decoded
     """
     if len(data) > most_bytes:
-        raise Malformed(f'such a message has at most {most_bytes / 2**10:g} KiB')
+        raise Malformed('such a message has at most {most:g} KiB', most=most_bytes / 2**10)
     try:
         return deserialize_message(data, kind)
     except rclpy_implementation.RMWError as error:
-        raise Undecodable(f'the message cannot be decoded as a {kind.__name__}') from error
+        raise Undecodable(
+            'the message cannot be decoded as a {name}', name=kind.__name__
+        ) from error
 
 
 @contextmanager
@@ -61,5 +63,5 @@ def refusing_another_type(topic: str, refuse: Refuse) -> Iterator[None]:
     try:
         yield
     except rclpy_implementation.RCLError:
-        message = f'{topic} is a topic of another type already'
-        refuse(BadProperty(message, field='name'), topic)
+        template = '{topic} is a topic of another type already'
+        refuse(BadProperty(template, field='name', topic=topic), topic)

@@ -70,7 +70,7 @@ class WorldFiles:
             'save_world': Service(lambda: self.save(values['world_file']), Wait.TO_READ),
         }
 
-    async def load(self, name: str, *, confined: bool = True) -> str:
+    async def load(self, name: str, *, confined: bool = True) -> Text:
         """
         Replace the world by that of a file, and return a message about it; time goes on.
 
@@ -80,7 +80,7 @@ class WorldFiles:
         beginning, path = await self._build(name, confined=confined)
         return _loaded(self._simulation.load(beginning), path)
 
-    async def open_world(self, name: str) -> str:
+    async def open_world(self, name: str) -> Text:
         """
         Begin with the world of a file, at time 0, and return a message about it.
 
@@ -91,7 +91,7 @@ class WorldFiles:
         beginning, path = await self._build(name, confined=True)
         return _loaded(self._simulation.open_world(beginning), path)
 
-    async def save(self, name: str) -> str:
+    async def save(self, name: str) -> Text:
         """
         Write the world to a file, and return a message about it; time goes on.
 
@@ -143,7 +143,7 @@ class WorldFiles:
         return state, path
 
 
-def _loaded(done: str, path: Path) -> str:
+def _loaded(done: Text, path: Path) -> Text:
     """Return the message about a world that was loaded from a file."""
     template = '{loaded} from {world}{suffix}'
     return Text(template, loaded=done, world=path.stem, suffix=path.suffix)

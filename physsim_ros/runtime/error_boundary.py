@@ -174,4 +174,6 @@ class _Containing:
 
 
 def _failed(number: int) -> Failed:
-    return Failed(f'an unexpected error; failure {number} in the log of the node has its cause')
+    return Failed(
+        'an unexpected error; failure {number} in the log of the node has its cause', number=number
+    )

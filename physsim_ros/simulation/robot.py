@@ -136,8 +136,13 @@ class Robot:
                 sensed, row = self._seen
                 return read_sensor(sensed, row, each)
         names = [each.name for each in sensors]
-        message = f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, names)}'
-        raise BadProperty(message, field='sensors')
+        raise BadProperty(
+            '{name} has no sensor {sensor!r}{near}',
+            field='sensors',
+            name=self.name,
+            sensor=sensor,
+            near=nearest_name(sensor, names),
+        )
 
     def odom(self) -> OdometryReading:
         """Return the pose [m, m, rad] and twist [m/s, m/s, rad/s] by its wheels and gyroscope."""
@@ -185,4 +190,4 @@ class Robot:
         for each in self.description.sensors:
             if isinstance(each, Laser):
                 return each
-        raise BadProperty(f'{self.name} has no laser', field='sensors')
+        raise BadProperty('{name} has no laser', field='sensors', name=self.name)

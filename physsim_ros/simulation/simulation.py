@@ -120,9 +120,10 @@ class Simulation:
         steps = physics_rate / publish_rate
         if steps < 1 or abs(steps - round(steps)) > 1e-9:
             raise BadProperty(
-                f'publish_rate {publish_rate:g} Hz does not divide physics_rate '
-                f'{physics_rate:g} Hz',
+                'publish_rate {rate:g} Hz does not divide physics_rate {steps:g} Hz',
                 field='publish_rate',
+                rate=publish_rate,
+                steps=physics_rate,
             )
         settings = WorldSettings() if settings is None else settings
         OfClass(WorldSettings)(settings, 'settings')
@@ -265,7 +266,11 @@ class Simulation:
         seconds = number(seconds, 'seconds')
         periods = seconds * self.physics_rate / self.frame_steps
         if not 0.0 <= periods < math.inf:
-            raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')
+            raise BadProperty(
+                'seconds must be finite and >= 0, not {seconds:g}',
+                field='seconds',
+                seconds=seconds,
+            )
         self.ticks.run(round(periods))
 
     def advance(self, now_ns: int, limits: TickLimits = NO_LIMITS) -> tuple[Frame, ...]:
@@ -284,7 +289,7 @@ class Simulation:
         """Have a robot drive on by a command, until it gets another one or is gone."""
         self.applier.drives.commands[command.name] = command
 
-    def perform(self, request: Request, gesture: int | None = None) -> str:
+    def perform(self, request: Request, gesture: int | None = None) -> Text:
         """
         Apply a request now, after those that wait, and return a message about it.
 
@@ -325,7 +330,7 @@ class Simulation:
         self.past.begin(state.at_rate(self.physics_rate))
         self._show_beginning()
 
-    def load(self, world: WorldState | Beginning) -> str:
+    def load(self, world: WorldState | Beginning) -> Text:
         """
         Replace the world by a state, to which `reset` returns; time goes on. Return a message.
 
@@ -428,9 +433,10 @@ class Simulation:
         OfClass(SavedMoment)(saved, 'saved')
         if saved.physics_rate != self.physics_rate:
             raise BadProperty(
-                f'the moment is one at {saved.physics_rate:g} Hz, and this world makes its steps '
-                f'at {self.physics_rate:g} Hz',
+                'the moment is one at {rate:g} Hz, and this world makes its steps at {own:g} Hz',
                 field='physics_rate',
+                rate=saved.physics_rate,
+                own=self.physics_rate,
             )
         self.applier.apply_all()
         self.past.restore(saved.checkpoint, saved.loaded)
@@ -441,7 +447,7 @@ class Simulation:
         frame = replace(saved.frame, answers=(), speed=self.speed, course=self.past.tree.course)
         self.frames.show_again(frame, saved.before)
 
-    def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> str:
+    def reset(self, seed: int | None = None, *, ahead: Beginning | None = None) -> Text:
         """
         Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message.
 
@@ -456,7 +462,7 @@ class Simulation:
         self._show_beginning()
         return Text('back at the beginning, time 0' if done else 'at the beginning, time 0')
 
-    def open_world(self, world: WorldState | Beginning) -> str:
+    def open_world(self, world: WorldState | Beginning) -> Text:
         """
         Begin with another state, at time 0; `undo` reverts it. Return a message.
 
@@ -469,7 +475,7 @@ class Simulation:
         self._show_beginning()
         return load_message(state)
 
-    def undo(self) -> str:
+    def undo(self) -> Text:
         """
         Go back to before the last gesture that changed the world; return a message about it.
 
@@ -479,7 +485,7 @@ class Simulation:
         self.applier.show_jump()
         return Text('undid {gesture}, back at {time}', gesture=undone, time=self.playback.time)
 
-    def redo(self) -> str:
+    def redo(self) -> Text:
         """
         Return to the moment of the last undo; return a message about it.
 
@@ -489,7 +495,7 @@ class Simulation:
         self.applier.show_jump()
         return Text('redid {gesture}, at {time}', gesture=redone, time=self.playback.time)
 
-    def return_to_course(self, number: int) -> str:
+    def return_to_course(self, number: int) -> Text:
         """
         Return to a course, at the time that is shown or its last one; return a message.
 
@@ -511,7 +517,9 @@ class Simulation:
         :raises Malformed: the time is not a finite number
         """
         if not isinstance(stamp, Integral):
-            raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
+            raise BadProperty(
+                'a time is a whole number of ns, not {stamp}', field='clock', stamp=shown(stamp)
+            )
         number(stamp, 'clock')
         self.applier.apply_all()
         return self.applier.seek(stamp)

@@ -142,7 +142,7 @@ class Autosave:
         """
         return read_bytes(self._unsaved, _MOST_BYTES)
 
-    def forget_unsaved(self) -> str:
+    def forget_unsaved(self) -> Text:
         """
         Delete the unsaved world of the last start, and return a message about it.
 

@@ -22,7 +22,6 @@ from physsim_ros.model.errors import BadProperty, Frozen
 from physsim_ros.model.names import BODY, JOINT, shown_name, WORLD
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.translation import Text
 from physsim_ros.simulation.past import Node
 from physsim_ros.sketchpad.rights import check_right, Right, Role
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -44,7 +43,10 @@ class Locks:
         self._names = frozenset(names) - patterns
         if len(patterns) > MOST_PATTERNS:
             raise BadProperty(
-                f'at most {MOST_PATTERNS} names have wildcards, not {len(patterns)}', field='names'
+                'at most {most} names have wildcards, not {count}',
+                field='names',
+                most=MOST_PATTERNS,
+                count=len(patterns),
             )
         self._patterns = [re.compile(translate(pattern)) for pattern in patterns]
 
@@ -168,8 +170,7 @@ def _check_names(names: Iterable[str], control: WorldControl) -> None:
     for name in names:
         # Patterns are those of bodies.
         if name != WORLD and locks.has(name):
-            message = Text('{body} is locked by a teacher', body=shown_name(name))
-            raise Frozen(message, field='name')
+            raise Frozen('{body} is locked by a teacher', field='name', body=shown_name(name))
 
 
 def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:

@@ -144,7 +144,7 @@ def _checked(request: str, type_: object, fields: dict[str, Any], role: Role) ->
         raise Malformed('the message has no type', field='type')
     kind = KINDS.get(type_)
     if kind is None:
-        raise Malformed(f'there is no message {shown(type_)}', field='type')
+        raise Malformed('there is no message {value}', field='type', value=shown(type_))
     check_right(kind.right, role)
     for name in fields:
         check_key(name, dict.fromkeys(kind.fields, ()))
@@ -159,7 +159,9 @@ def _checked(request: str, type_: object, fields: dict[str, Any], role: Role) ->
 
 def _request_from(value: object) -> str:
     if not isinstance(value, str) or len(value) > LONGEST_ID:
-        raise Malformed(f'id must be text of at most {LONGEST_ID} characters', field='id')
+        raise Malformed(
+            'id must be text of at most {most} characters', field='id', most=LONGEST_ID
+        )
     return value
 
 
@@ -206,7 +208,7 @@ def _check_depth(value: dict[str, Any]) -> None:
         ]
         if not level:
             return
-    raise Malformed(f'the message has more than {DEEPEST} levels', field='message')
+    raise Malformed('the message has more than {most} levels', field='message', most=DEEPEST)
 
 
 # Answers

@@ -21,6 +21,7 @@ from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.translation import NOTHING, Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
@@ -158,7 +159,7 @@ class PageSession:
         origin: Origin,
         requests: Iterable[Request],
         *,
-        message: str = '',
+        message: Text = NOTHING,
         gesture: int | None = None,
     ) -> int:
         """
@@ -211,7 +212,7 @@ class PageSession:
         """Queue the refusal of a message."""
         self.control.simulation.requests.refuse(refusal, origin)
 
-    def answer_page(self, origin: Origin, message: str, **details: Any) -> None:
+    def answer_page(self, origin: Origin, message: Text, **details: Any) -> None:
         """
         Answer this page alone and at once: the answer concerns no other page.
 
@@ -220,7 +221,7 @@ class PageSession:
         answer = Answer(topic='page', message=message, **details)
         self.send(answer_content(answer, request_of(origin)))
 
-    def answer_from_thread(self, origin: Origin, work: Callable[[], str]) -> None:
+    def answer_from_thread(self, origin: Origin, work: Callable[[], Text]) -> None:
         """
         Have a thread do what a slow disk delays, and answer this page alone.
 
@@ -239,7 +240,7 @@ class PageSession:
 
         self.call(origin, answer, Wait.NONE)
 
-    def perform(self, origin: Origin, action: Sliced[str], wait: Wait = Wait.NONE) -> None:
+    def perform(self, origin: Origin, action: Sliced[Text], wait: Wait = Wait.NONE) -> None:
         """
         Perform an action at its time, and queue its answer.
 
@@ -271,7 +272,7 @@ class PageSession:
 
 
 async def answers_of(
-    origin: Origin, action: Sliced[str], boundary: ErrorBoundary
+    origin: Origin, action: Sliced[Text], boundary: ErrorBoundary
 ) -> tuple[Answer]:
     """Perform an action; return the one answer, with its message or with its refusal."""
     topic, asker = origin.topic, origin.asker
@@ -280,5 +281,9 @@ async def answers_of(
     except Refusal as refusal:
         return (Answer.refused(refusal, topic=topic, asker=asker),)
     except PhysSimError as error:
-        return (Answer(topic=topic, message=str(error), code='refused', asker=asker),)
+        return (
+            Answer(
+                topic=topic, message=Text('{error}', error=str(error)), code='refused', asker=asker
+            ),
+        )
     return (Answer(topic=topic, message=message, asker=asker),)

@@ -21,6 +21,7 @@ from physsim_ros.files import DirectoryLock, OwnWorlds, text_of
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.slices import Sliced, with_checks
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
@@ -273,7 +274,7 @@ class Sketchpad:
         simulation = self._simulation
 
         async def answers() -> tuple[Answer]:
-            load: Sliced[str] = partial(open_content, simulation, upload.content)
+            load: Sliced[Text] = partial(open_content, simulation, upload.content)
             check = partial(check_moment, upload.role, self._control)
             call = partial(with_checks, load, check)
             (answer,) = await answers_of(origin, call, self._boundary)

@@ -18,6 +18,7 @@ from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import on_thread, state_from
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.entries import Origin, Wait
@@ -42,7 +43,7 @@ class Loop(Protocol):
 class TimeControl(Protocol):
     """The control of the time of a world."""
 
-    def set_speed(self, speed: float) -> str:
+    def set_speed(self, speed: float) -> Text:
         """
         Set the speed [simulation seconds a second], and return a message.
 
@@ -77,7 +78,7 @@ class WorldControl(Protocol):
         """Return the control of time."""
 
     @property
-    def services(self) -> Mapping[str, tuple[Sliced[str], Wait]]:
+    def services(self) -> Mapping[str, tuple[Sliced[Text], Wait]]:
         """Return the actions of services, and when they are performed, by name."""
 
     @property
@@ -95,17 +96,17 @@ class WorldControl(Protocol):
     def set_parameter(self, name: str, value: object) -> None:
         """Set a parameter."""
 
-    async def load_world(self, world: str) -> str:
+    async def load_world(self, world: str) -> Text:
         """Replace the world by that of a name; time goes on."""
 
-    async def open_world(self, world: str) -> str:
+    async def open_world(self, world: str) -> Text:
         """Begin with the world of a name, at time 0; undo reverts it."""
 
-    async def save_world(self, world: str) -> str:
+    async def save_world(self, world: str) -> Text:
         """Save the world under a name; time goes on."""
 
 
-async def open_content(simulation: Simulation, content: Mapping[str, Any]) -> str:
+async def open_content(simulation: Simulation, content: Mapping[str, Any]) -> Text:
     """
     Begin with a world at time 0, which undo reverts, and return a message about it.
 

@@ -131,9 +131,11 @@ class Experiment(Checked):
         Checked.__post_init__(self)
         if self.seconds < self.period:
             raise BadProperty(
-                f'a run of {self.seconds:g} s is shorter than a period of {self.period:g} s; it '
-                'would not call the controller',
+                'a run of {seconds:g} s is shorter than a period of {period:g} s; it would not '
+                'call the controller',
                 field='seconds',
+                seconds=self.seconds,
+                period=self.period,
             )
 
     def check(self, case: Case) -> None:
@@ -154,11 +156,11 @@ class Experiment(Checked):
                 if name not in named:
                     near = nearest_name(name, named) or f'; it has {", ".join(named) or "none"}'
                     raise UnknownProperty(
-                        f'the controller has no parameter {name!r}{near}', field=name
+                        'the controller has no parameter {field!r}{near}', field=name, near=near
                     )
         for name, default in named.items():
             if default is Parameter.empty and name not in case.parameters:
-                raise BadProperty(f'the controller needs the parameter {name}', field=name)
+                raise BadProperty('the controller needs the parameter {field}', field=name)
 
     def run(self, case: Case) -> Run:
         """

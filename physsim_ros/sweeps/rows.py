@@ -47,8 +47,9 @@ class Rows:
         if not rows:
             self._path.write_text(identity, encoding='utf-8')
         elif rows[0] != json.loads(identity):
-            message = f'{self._path} has the runs of another experiment: {_line(rows[0]).strip()}'
-            raise BadProperty(message, field='folder')
+            template = '{path} has the runs of another experiment: {row}'
+            row = _line(rows[0]).strip()
+            raise BadProperty(template, field='folder', path=self._path, row=row)
         self._rows.update((row['case'], row) for row in rows[1:])
         # Names of the world files.
         self._files = {row['before'] for row in rows[1:]}
@@ -62,7 +63,8 @@ class Rows:
         try:
             rows = [json.loads(line) for line in whole.splitlines()]
         except (ValueError, RecursionError) as error:
-            raise BadProperty(f'{self._path} is no file of runs', field='folder') from error
+            template = '{path} is no file of runs'
+            raise BadProperty(template, field='folder', path=self._path) from error
         if len(whole) < len(data):
             self._path.write_bytes(whole)
         return rows

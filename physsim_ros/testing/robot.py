@@ -138,7 +138,7 @@ def robot_marker(
     if changes.get('from') is None:
         raise BadProperty(
             'name a shipped robot as from; a robot with a shape of its own is spawned by '
-            "box('own/0', robot={...})",
+            "box('own/0', robot={{...}})",
             field='from',
         )
     entry = shipped_robot(str(changes['from']))

@@ -21,6 +21,7 @@ import time
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.frame_context import FrameContext
@@ -148,7 +149,8 @@ class EndpointThread:
             self._fail(f'no answer for {SILENT_AFTER:g} s')
         if self.is_open and not self._has_told_drops and self._dropped > self._earlier_drops:
             self._has_told_drops = True
-            message = f'{self._endpoint.address}: too slow, frames are missing'
+            address = self._endpoint.address
+            message = Text('{receiver}: too slow, frames are missing', receiver=address)
             self._report(Answer(topic='viewer', message=message, code='frames_dropped'))
 
     def end(self, within: float = math.inf) -> None:
@@ -241,7 +243,9 @@ class EndpointThread:
         self._progress, self._is_silent = time.monotonic(), False
         if self._state is not _State.OPEN and not self._ending.is_set():
             self._state, self._reason = _State.OPEN, ''
-            self._report(Answer(topic='viewer', message=self._endpoint.address))
+            self._report(
+                Answer(topic='viewer', message=Text('{receiver}', receiver=self._endpoint.address))
+            )
         self._tried.set()
 
     def _fail(self, reason: str) -> None:

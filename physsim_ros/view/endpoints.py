@@ -18,6 +18,7 @@ from typing import ClassVar
 from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.answer import Answer
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.ending import CLOSING
 from physsim_ros.view.child_process import end_child, rerun_program, start_child
 from physsim_ros.view.stream import RerunStream
@@ -84,7 +85,8 @@ class Endpoint(ABC):
 
     def lost_answer(self, reason: str) -> Answer:
         """Return the answer that reports a lost receiver, or another one than was asked for."""
-        return Answer(topic='viewer', message=f'{self.address}: {reason}', code=self.code)
+        message = Text('{receiver}: {reason}', receiver=self.address, reason=reason)
+        return Answer(topic='viewer', message=message, code=self.code)
 
 
 class ClientEndpoint(Endpoint):

@@ -94,10 +94,11 @@ def _group_of(meaning: MeaningKind) -> frozenset[MeaningKind]:
 
 def not_recognised(guesses: Sequence[Guess]) -> NotRecognised:
     """Return the refusal of a stroke of which no guess is likely enough."""
+    template = 'the stroke looks like nothing that can be drawn'
+    if guesses:
+        template = 'the stroke is not clear enough; it might be: {words}. Nothing was drawn'
     words = ' or '.join(f'{guess.meaning} ({guess.confidence:.0%})' for guess in guesses)
-    doubt = f'is not clear enough; it might be: {words}. Nothing was drawn'
-    message = f'the stroke {doubt if guesses else "looks like nothing that can be drawn"}'
-    return NotRecognised(message, field='poses', guesses=confidences_in(guesses))
+    return NotRecognised(template, field='poses', guesses=confidences_in(guesses), words=words)
 
 
 def reading_of(guesses: Sequence[Guess], number: int, *, amends: tuple[int, ...] = ()) -> Reading:

@@ -26,7 +26,6 @@ from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed
 from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import norms
-from physsim_ros.model.translation import Text
 
 # Strokes of fewer samples than half of `COUNT` have more put between them, on arcs; the only turn
 # of three makes no arc.
@@ -54,7 +53,9 @@ def pen_path(samples: Floats) -> Floats:
     path = clean_samples(_checked(samples))
     if size_of(path) < SMALLEST:
         raise BadSize(
-            f'the stroke is smaller than {SMALLEST:g} m: a point draws nothing', field='poses'
+            'the stroke is smaller than {least:g} m: a point draws nothing',
+            field='poses',
+            least=SMALLEST,
         )
     while _FEWEST_SAMPLES <= len(path) < COUNT // 2:
         path = _subdivided(path)
@@ -69,8 +70,7 @@ def _checked(samples: Floats) -> Floats:
     if not np.isfinite(places).all():
         raise Malformed('a sample of the stroke is not finite', field='poses')
     if np.abs(places).max() > FARTHEST:
-        message = Text('the stroke reaches further than {most:g} m', most=FARTHEST)
-        raise BadSize(message, field='poses')
+        raise BadSize('the stroke reaches further than {most:g} m', field='poses', most=FARTHEST)
     if samples.shape[1] == 2:
         return places
     return places[np.argsort(samples[:, 2], kind='stable')]

@@ -17,6 +17,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Confidences
 from physsim_ros.model.requests import Request
 from physsim_ros.model.transform import Point
+from physsim_ros.model.translation import Text
 
 # Names of the forms.
 LINE, DISC, OVAL, RECTANGLE, POLYGON = 'line', 'disc', 'oval', 'rectangle', 'polygon'
@@ -168,7 +169,7 @@ class Outcome:
 
     requests: tuple[Request, ...]
     subject: str
-    message: str
+    message: Text
     outline: Floats
 
 

@@ -22,9 +22,9 @@ from physsim_ros.model.checks import (
     FASTEST,
     ListOf,
     LONGEST,
+    must_be,
     number,
     OneOf,
-    shown,
     Within,
 )
 from physsim_ros.model.declarations import Checked
@@ -48,22 +48,22 @@ Waypoint = tuple[float, ...]
 
 def _name(value: object, name: str) -> str:
     if not isinstance(value, str) or not value:
-        raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
+        raise must_be('the name of a body', value, name)
     return canonical(value)
 
 
 def _points(value: object, name: str) -> tuple[Waypoint, ...]:
     points: tuple[Waypoint, ...] = ListOf(_point, 'points', MOST_POINTS)(value, name)
     if not points:
-        raise BadProperty(f'{name} is an empty list', field=name)
+        raise BadProperty('{field} is an empty list', field=name)
     if len({len(each) for each in points}) != 1:
-        raise Malformed(f'all {name} are [x, y], or all are [x, y, yaw]', field=name)
+        raise Malformed('all {field} are [x, y], or all are [x, y, yaw]', field=name)
     return points
 
 
 def _point(value: object, name: str) -> Waypoint:
     if not isinstance(value, list | tuple) or len(value) not in (2, 3):
-        raise Malformed(f'{name} must be [x, y] or [x, y, yaw], not {shown(value)}', field=name)
+        raise must_be('[x, y] or [x, y, yaw]', value, name, Malformed)
     place = check_point([number(each, name) for each in value[:2]], name)
     return place if len(value) == 2 else (*place, check_yaw(number(value[2], name), name))
 
@@ -71,7 +71,7 @@ def _point(value: object, name: str) -> Waypoint:
 def _times(value: object, name: str) -> tuple[float, ...]:
     times = ListOf(Within(0.0, LONGEST, 's'), 'numbers')(value, name)
     if any(after <= before for before, after in itertools.pairwise(times)):
-        raise BadProperty(f'{name} must increase', field=name)
+        raise BadProperty('{field} must increase', field=name)
     return times
 
 
@@ -191,17 +191,21 @@ class Path(Actor):
             raise BadProperty('a path has times or a speed', field='times')
         count = len(self.points) + (self.repeat == 'loop')
         if self.times is not None and len(self.times) != count:
-            again = ', and one at the first point again' if self.repeat == 'loop' else ''
-            raise Malformed(
-                f'times are {len(self.times)}, and must be {count}: one a point{again}',
-                field='times',
-            )
+            template = 'times are {found}, and must be {count}: one a point'
+            if self.repeat == 'loop':
+                template = (
+                    'times are {found}, and must be {count}: one a point, the first one twice'
+                )
+            raise Malformed(template, field='times', found=len(self.times), count=count)
         # Derived now, so that a path that no step can follow is refused as it is made.
         for value, unit in zip(self.parameters, ('m/s', 'rad/s'), strict=False):
             if value > FASTEST:
                 raise BadProperty(
-                    f'the path goes at {value:g} {unit}; at most {FASTEST:g} can be simulated',
+                    'the path goes at {value:g} {unit}; at most {most:g} can be simulated',
                     field='points' if self.times is None else 'times',
+                    value=value,
+                    unit=unit,
+                    most=FASTEST,
                 )
 
     def _stations(self) -> list[Waypoint]:

@@ -54,7 +54,7 @@ def _names(value: object, name: str) -> tuple[str, ...]:
 def _each_once(value: object, name: str) -> tuple[str, ...]:
     names = texts(value, name)
     if len(set(names)) != len(names):
-        raise Malformed(f'{name} has a name twice', field=name)
+        raise Malformed('{field} has a name twice', field=name)
     return names
 
 
@@ -73,15 +73,14 @@ def _duration(value: object, name: str) -> float:
     (seconds,) = check_finite((value,), 1, name)
     if not 0.0 <= seconds <= LONGEST:
         template = '{key} is {value:g}; it must lie between 0 and {most:g} s'
-        raise BadProperty(Text(template, key=name, value=seconds, most=LONGEST), field=name)
+        raise BadProperty(template, field=name, key=name, value=seconds, most=LONGEST)
     return seconds
 
 
 def _driven(value: object, name: str) -> Twist:
     vx, vy, turn = check_finite(value, 3, name)
     if max(abs(vx), abs(vy), abs(turn)) > FASTEST:
-        message = Text('{key} is faster than {most:g} m/s or rad/s', key=name, most=FASTEST)
-        raise BadProperty(message, field=name)
+        raise BadProperty('{field} is faster than {most:g} m/s or rad/s', field=name, most=FASTEST)
     return vx, vy, turn
 
 
@@ -287,19 +286,18 @@ class Command(Request):
             rows = checked_rows(getattr(self, array), len(self.names), name)
             object.__setattr__(self, array, rows)
         if greatest(self.poses[:, :2]) > FARTHEST:
-            message = Text(
-                '{key} is further away than {most:g} m', key='transforms', most=FARTHEST
+            raise BadProperty(
+                '{field} is further away than {most:g} m', field='transforms', most=FARTHEST
             )
-            raise BadProperty(message, field='transforms')
         if greatest(self.poses[:, 2]) > FARTHEST:
-            message = Text('the yaw of {key} is too large', key='transforms')
-            raise BadProperty(message, field='transforms')
+            raise BadProperty('the yaw of {field} is too large', field='transforms')
         # The coordinates first, so that their squares do not overflow.
         if greatest(self.twists) > FASTEST or greatest(np.hypot(*self.twists.T[:2])) > FASTEST:
-            message = Text('{key} is faster than {most:g} m/s or rad/s', key='twist', most=FASTEST)
-            raise BadProperty(message, field='twist')
+            raise BadProperty(
+                '{field} is faster than {most:g} m/s or rad/s', field='twist', most=FASTEST
+            )
         if greatest(self.wrenches) > HEAVIEST:
-            raise BadProperty(f'wrench exceeds {HEAVIEST:g} N or N m', field='wrench')
+            raise BadProperty('wrench exceeds {most:g} N or N m', field='wrench', most=HEAVIEST)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Command):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated, Any
 
-from physsim_ros.model.checks import check_point, OfClass, shown, text, texts
+from physsim_ros.model.checks import check_point, must_be, OfClass, text, texts
 from physsim_ros.model.declarations import Checked, without_unset
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
 from physsim_ros.model.joints import (
@@ -31,12 +31,12 @@ def _check_ends(a: str, b: str) -> None:
     if a == WORLD:
         raise BadProperty('a is a body; the background can only be b', field='a')
     if a and a == b:
-        raise BadProperty(f'{a} cannot be joined to itself', field='b')
+        raise BadProperty('{a} cannot be joined to itself', field='b', a=a)
 
 
 def _points(value: object, name: str) -> tuple[Point, ...]:
     if not isinstance(value, Iterable):
-        raise Malformed(f'{name} must be a list of points, not {shown(value)}', field=name)
+        raise must_be('a list of points', value, name, Malformed)
     return tuple(check_point(point, name) for point in value)
 
 
@@ -82,26 +82,37 @@ class Join(Request):
         count = self.kind.points
         passes = self.kind.schema.passes
         if len(self.points) < count or (len(self.points) > count and not passes):
+            template = '{kind} has {points}, not {found}'
+            if passes:
+                template = '{kind} has {points} or more, not {found}'
             raise Malformed(
-                f'{self.kind.phrase} has {count} point{"s" * (count - 1)}'
-                f'{" or more" * passes}, not {len(self.points)}',
+                template,
                 field='points',
+                kind=Text(self.kind.phrase),
+                points=counted(count, 'point'),
+                found=len(self.points),
             )
         if len(self.points) > MOST_STOPS:
-            raise BadProperty(f'a rope has at most {MOST_STOPS} points', field='points')
+            raise BadProperty('a rope has at most {most} points', field='points', most=MOST_STOPS)
         over = self.properties.over
         if over is not None and len(over) != len(self.points) - count:
             raise BadProperty(
-                f'over names {counted(len(over), "body")}; the {self.kind} has '
-                f'{counted(len(self.points) - count, "point")} between its ends',
+                'over names {bodies}; the {kind} has {points} between its ends',
                 field='over',
+                bodies=counted(len(over), 'body'),
+                kind=Text(self.kind),
+                points=counted(len(self.points) - count, 'point'),
             )
         _check_ends(self.a, self.b)
         self.properties.check_kind(self.kind, self.unset)
         least = self.kind.schema.least_distance
         if least and math.dist(*self.points[:2]) < least:
-            message = 'the points of a {kind} must be at least {least:g} m apart'
-            raise BadSize(Text(message, kind=Text(self.kind), least=least), field='points')
+            raise BadSize(
+                'the points of a {kind} must be at least {least:g} m apart',
+                field='points',
+                kind=Text(self.kind),
+                least=least,
+            )
 
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with its kind."""
@@ -159,10 +170,10 @@ class Rejoin(Request):
 
 def _commands(value: object, name: str) -> tuple[MotorCommand, ...]:
     if not isinstance(value, list | tuple) or not value:
-        raise Malformed(f'{name} must be a list of commands, not {shown(value)}', field=name)
+        raise must_be('a list of commands', value, name, Malformed)
     commands = tuple(MotorCommand.from_value(each, name) for each in value)
     if len({each.joint for each in commands}) != len(commands):
-        raise Malformed(f'{name} has a joint twice', field=name)
+        raise Malformed('{field} has a joint twice', field=name)
     return commands
 
 
@@ -204,7 +215,7 @@ def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
 
     def check(value: object, name: str) -> tuple[Any, ...]:
         if not isinstance(value, tuple) or not all(isinstance(each, kinds) for each in value):
-            raise Malformed(f'{name} must be a tuple of requests, not {shown(value)}', field=name)
+            raise must_be('a tuple of requests', value, name, Malformed)
         return value
 
     return check

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Protocol
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.checks import check_point, OfClass, shown, text
+from physsim_ros.model.checks import check_point, must_be, OfClass, text
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.names import BODY, JOINT
@@ -145,7 +145,7 @@ class OfNamespace(Request):
 
 def _changes(value: object, name: str) -> dict[str, Any]:
     if not isinstance(value, Mapping):
-        raise Malformed(f'{name} must be a mapping, not {shown(value)}', field=name)
+        raise must_be('a mapping', value, name, Malformed)
     for setting in value:
         check_setting(setting)
     # Its own values, as a list that is changed later would change the past.

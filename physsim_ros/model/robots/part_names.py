@@ -39,8 +39,9 @@ def check_part(value: object, name: str) -> str:
     """
     if not isinstance(value, str) or not _PART.fullmatch(value):
         raise BadProperty(
-            f'{name} {shown(value)} is not the name of a part: letters, digits and _, not a digit '
-            'first, at most 50 characters',
+            '{field} {value} is not the name of a part: letters, digits and _, not a digit first, '
+            'at most 50 characters',
             field=name,
+            value=shown(value),
         )
     return value

@@ -193,19 +193,22 @@ def check_tree(links: tuple[Link, ...], joints: tuple[LinkJoint, ...]) -> None:
     names = [link.name for link in links]
     for noun, given in (('links', [BASE, *names]), ('joints', [each.name for each in joints])):
         if twice := [name for name in given if given.count(name) > 1]:
-            raise BadProperty(f'two {noun} of a robot have the name {twice[0]}', field=noun)
+            template = 'two {field} of a robot have the name {name}'
+            raise BadProperty(template, field=noun, name=twice[0])
     hangs: dict[str, str] = {}
     for joint in joints:
         guides = (name for name in joint.properties.guides if name != WORLD)
         for end in (joint.a, joint.b, *guides):
             if end not in (BASE, *names):
                 raise BadProperty(
-                    f'joint {joint.name} names a link {end}; there are '
-                    f'{", ".join((BASE, *names))}',
+                    'joint {joint} names a link {end}; there are {known}',
                     field='joints',
+                    joint=joint.name,
+                    end=end,
+                    known=', '.join((BASE, *names)),
                 )
         if joint.kind in TREE_KINDS and hangs.setdefault(joint.a, joint.b) != joint.b:
-            raise BadProperty(f'{joint.a} hangs on two links', field='joints')
+            raise BadProperty('{a} hangs on two links', field='joints', a=joint.a)
     for name in names:
         seen, above = {name}, hangs.get(name)
         while above not in (None, BASE) and above not in seen:
@@ -214,7 +217,9 @@ def check_tree(links: tuple[Link, ...], joints: tuple[LinkJoint, ...]) -> None:
         if above != BASE:
             kinds = ', '.join(TREE_KINDS)
             raise BadProperty(
-                f'link {name} does not hang on the body of the robot: it needs to be `a` of a '
-                f'joint whose kind is one of {kinds}',
+                'link {name} does not hang on the body of the robot: it needs to be `a` of a '
+                'joint whose kind is one of {kinds}',
                 field='links',
+                name=name,
+                kinds=kinds,
             )

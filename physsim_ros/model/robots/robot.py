@@ -82,9 +82,11 @@ def check_namespace(value: object, name: str) -> str:
     namespace = text(value, name, BadProperty).removeprefix('/')
     if len(namespace) > _LONGEST or not _NAMESPACE.fullmatch(namespace):
         raise BadProperty(
-            f'{name} {shown(value)} is not a ROS name: letters, digits and _, separated by /; no '
-            f'part begins with a digit, at most {_LONGEST} characters',
+            '{field} {value} is not a ROS name: letters, digits and _, separated by /; no part '
+            'begins with a digit, at most {most} characters',
             field=name,
+            value=shown(value),
+            most=_LONGEST,
         )
     return namespace
 
@@ -147,14 +149,17 @@ class Robot(Checked):
         for sensor in self.sensors:
             if sensor.link not in links:
                 raise BadProperty(
-                    f'{sensor.name} is on a link {sensor.link}; there are {", ".join(links)}',
+                    '{name} is on a link {link}; there are {known}',
                     field='link',
+                    name=sensor.name,
+                    link=sensor.link,
+                    known=', '.join(links),
                 )
         for topic in topics:
             if topic in (*_OWN_FRAMES, *links):
-                raise BadProperty(f'{topic} is a frame of the robot', field='sensors')
+                raise BadProperty('{topic} is a frame of the robot', field='sensors', topic=topic)
             if topics.count(topic) > 1:
-                raise BadProperty(f'a robot has two topics {topic}', field='sensors')
+                raise BadProperty('a robot has two topics {topic}', field='sensors', topic=topic)
 
     @property
     def topic_count(self) -> int:

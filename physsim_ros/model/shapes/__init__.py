@@ -39,7 +39,13 @@ from physsim_ros.model.shapes.kinds import (
     Triangles,
 )
 from physsim_ros.model.shapes.polygons import crosses_itself, is_convex, signed_area
-from physsim_ros.model.shapes.validation import as_tuples, LARGEST, MOST_POINTS, SMALLEST
+from physsim_ros.model.shapes.validation import (
+    as_tuples,
+    checked_length,
+    LARGEST,
+    MOST_POINTS,
+    SMALLEST,
+)
 
 __all__ = [
     'LARGEST',
@@ -60,6 +66,7 @@ __all__ = [
     'Shape',
     'Triangles',
     'as_tuples',
+    'checked_length',
     'contain_each',
     'contains',
     'contains_each',

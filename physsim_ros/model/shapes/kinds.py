@@ -41,7 +41,6 @@ from physsim_ros.model.shapes.validation import (
 )
 from physsim_ros.model.texts import Words
 from physsim_ros.model.transform import cross, Point
-from physsim_ros.model.translation import Text
 
 _Kind = TypeVar('_Kind', bound=Checked)
 
@@ -172,8 +171,9 @@ def _form_of_outline(points: tuple[Point, ...]) -> Form:
     if abs(area) <= least:
         # The areas of two loops of opposite orientation cancel.
         looped = unsigned_fan_area(outline) > least and crosses_itself(outline)
-        reason = 'crosses or touches itself' if looped else 'encloses no area'
-        raise BadOutline(f'the outline {reason}', field='points')
+        if looped:
+            raise BadOutline('the outline crosses or touches itself', field='points')
+        raise BadOutline('an outline encloses no area', field='points')
     pieces = convex_pieces(outline)
     # Mass and extent are those of the outline, slivers included.
     whole = Convex(as_tuples(outline))
@@ -290,8 +290,9 @@ def shape_in(mapping: Mapping[Any, Any], noun: str, kinds: Mapping[str, type[_Ki
     """
     named = [key for key in kinds if key in mapping]
     if len(named) != 1:
-        message = Text('{thing} has one of {keys}', thing=noun, keys=', '.join(kinds))
-        raise BadProperty(message, field='shape')
+        raise BadProperty(
+            '{thing} has one of {keys}', field='shape', thing=noun, keys=', '.join(kinds)
+        )
     return kinds[named[0]].from_value(mapping[named[0]], named[0])
 
 

@@ -27,7 +27,6 @@ from physsim_ros.model.errors import BadOutline, BadSize
 from physsim_ros.model.shapes.form import Convex, half_width
 from physsim_ros.model.shapes.validation import as_tuples, SMALLEST
 from physsim_ros.model.transform import cross, next_vertices
-from physsim_ros.model.translation import Text
 
 
 def signed_area(polygon: Floats) -> float:
@@ -94,7 +93,7 @@ def convex_piece(vertices: Floats) -> Convex:
     if signed_area(vertices) <= longest * DEGENERATE:
         raise BadOutline('an outline encloses no area', field='points')
     if 2 * half_width(piece) < SMALLEST:
-        raise BadSize(Text('a part is thinner than {least:g} m', least=SMALLEST), field='points')
+        raise BadSize('a part is thinner than {least:g} m', field='points', least=SMALLEST)
     return piece
 
 
@@ -125,7 +124,7 @@ def convex_pieces(outline: Floats) -> tuple[Convex, ...]:
     if abs(covered - whole) > SLIVERS * whole:
         raise BadOutline('the outline cannot be split into convex parts', field='points')
     if whole - kept > SLIVERS * whole:
-        raise BadSize(Text('a part is thinner than {least:g} m', least=SMALLEST), field='points')
+        raise BadSize('a part is thinner than {least:g} m', field='points', least=SMALLEST)
     return tuple(pieces)
 
 

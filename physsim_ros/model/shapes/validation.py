@@ -18,7 +18,6 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadOutline, BadSize, Malformed
 from physsim_ros.model.transform import Point
-from physsim_ros.model.translation import Text
 
 # Least length of a shape [m]: a fifth of the engine's collision slop (5 mm), within which bodies
 # overlap without force.
@@ -43,14 +42,13 @@ def checked_length(value: object, name: str) -> float:
     """
     length = number(value, name)
     if not SMALLEST <= length <= LARGEST:
-        message = Text(
-            '{key} is {value:g} m; it must lie between {low:g} and {high:g} m',
-            key=name,
+        raise BadSize(
+            '{field} is {value:g} m; it must lie between {low:g} and {high:g} m',
+            field=name,
             value=length,
             low=SMALLEST,
             high=LARGEST,
         )
-        raise BadSize(message, field=name)
     return length
 
 
@@ -66,15 +64,13 @@ def checked_points(points: Sequence[Point], name: str) -> Floats:
     try:
         array = np.array([(x, y) for x, y in points], dtype=np.float64).reshape(-1, 2)
     except (TypeError, ValueError, OverflowError) as error:
-        raise Malformed(f'{name} must be pairs of numbers', field=name) from error
+        raise Malformed('{field} must be pairs of numbers', field=name) from error
     if not np.isfinite(array).all():
-        raise Malformed(f'{name} has a coordinate that is not finite', field=name)
+        raise Malformed('{field} has a coordinate that is not finite', field=name)
     if len(array) > MOST_POINTS:
-        raise BadOutline(f'{name} has more than {MOST_POINTS} points', field=name)
+        raise BadOutline('{field} has more than {most} points', field=name, most=MOST_POINTS)
     if len(array) and np.abs(array).max() > LARGEST:
-        raise BadSize(
-            Text('{key} reaches further than {most:g} m', key=name, most=LARGEST), field=name
-        )
+        raise BadSize('{field} reaches further than {most:g} m', field=name, most=LARGEST)
     # Without negative zeros: equal shapes share one form, and have the same bits.
     return array + 0.0
 

@@ -50,7 +50,7 @@ def _laser_angle(value: object, name: str) -> Point | None:
         return None
     first, last = angles(value, name)
     if last - first < _NARROWEST:
-        raise BadProperty(f'{name} must span at least {_NARROWEST:g} rad', field=name)
+        raise BadProperty('{field} must span at least {least:g} rad', field=name, least=_NARROWEST)
     return first, last
 
 

@@ -70,13 +70,19 @@ def check_names(given: Iterable[str], node: Node, arguments: Sequence[str]) -> N
     unknown = {name: nearest_name(name, SPECS) for name in given if not node.has_parameter(name)}
     for_all = set(_names_for_all_nodes(arguments)) if unknown else set()
     for name, nearest in unknown.items():
-        message = f'there is no parameter {shown(name)}{nearest}'
+        refusal = no_parameter(name, nearest)
         if name not in for_all:
-            raise UnknownProperty(message, field=name)
+            raise refusal
         if nearest:
-            node.get_logger().warning(f'{message} (in a file, for all nodes)')
+            node.get_logger().warning(f'{refusal} (in a file, for all nodes)')
     if others := [shown(name) for name, nearest in unknown.items() if not nearest]:
         node.get_logger().info(f'ignored parameters for all nodes: {", ".join(others)}')
+
+
+def no_parameter(name: str, nearest: str) -> UnknownProperty:
+    """Return the refusal of the name of no parameter, with its `nearest_name`."""
+    template = 'there is no parameter {value}{near}'
+    return UnknownProperty(template, field=name, value=shown(name), near=nearest)
 
 
 def _names_for_all_nodes(arguments: Sequence[str]) -> Iterator[str]:
@@ -110,10 +116,9 @@ def check(parameter: Parameter) -> None:
         return
     name, value = parameter.name, parameter.value
     if parameter.type_ != spec.kind:
-        raise BadProperty(
-            f'{name} must be of type {spec.kind.name.lower()}, not {parameter.type_.name.lower()}',
-            field=name,
-        )
+        kind, found = spec.kind.name.lower(), parameter.type_.name.lower()
+        template = '{field} must be of type {kind}, not {found}'
+        raise BadProperty(template, field=name, kind=kind, found=found)
     if name in NodeSettings.FIELDS and spec.declaration.check is not None:
         spec.declaration.check(value, name)
 
@@ -188,7 +193,9 @@ def _draw_color(text: str) -> Color | None:
     try:
         return None if text == AUTO else color_from(text)
     except BadProperty as refusal:
-        raise BadProperty(f'draw_color: {refusal}, or {AUTO}', field='draw_color') from refusal
+        raise BadProperty(
+            'draw_color: {refusal}, or {most}', field='draw_color', refusal=refusal, most=AUTO
+        ) from refusal
 
 
 def _setting(name: str, value: Any) -> Any:

@@ -111,7 +111,7 @@ def body_request(marker: Marker, frame_id: str) -> Spawn | Delete | DeleteAll:
     if marker.action == Marker.DELETEALL:
         return DeleteAll(namespace=marker.ns or None)
     if marker.action != Marker.ADD:
-        raise BadProperty(f'there is no action {marker.action}', field='action')
+        raise BadProperty('there is no action {action}', field='action', action=marker.action)
     properties, unset = _properties(marker)
     return Spawn(
         name=name_of(marker),
@@ -134,9 +134,10 @@ def _properties(marker: Marker) -> tuple[Properties, tuple[str, ...]]:
         word = str(key)
         if word in _FIELDS or name_meant(word, _FIELDS):
             raise UnknownProperty(
-                f'{shown(key)} is no property in a text: a marker has pose, scale, color and '
-                'lifetime as fields',
+                '{key} is no property in a text: a marker has pose, scale, color and lifetime as '
+                'fields',
                 field=word,
+                key=shown(key),
             )
     return Properties.from_mapping(with_shipped_robot(mapping, PROPERTIES)), unset
 
@@ -154,7 +155,7 @@ def joint_request(marker: Marker, frame_id: str) -> Join | Unjoin | UnjoinAll:
     if marker.action == Marker.DELETEALL:
         return UnjoinAll(namespace=marker.ns.removeprefix(JOINT_PREFIX) or None)
     if marker.action != Marker.ADD:
-        raise BadProperty(f'there is no action {marker.action}', field='action')
+        raise BadProperty('there is no action {action}', field='action', action=marker.action)
     return join_from(
         mapping_of(marker.text, 'text'),
         name=joint_name_of(marker),
@@ -200,7 +201,9 @@ def hand_request(
             return KeepHand(hand=hand)
         case InteractiveMarkerFeedback.MOUSE_UP:
             return LetGo(hand=hand)
-    raise BadProperty(f'a hand has no event_type {feedback.event_type}', field='event_type')
+    raise BadProperty(
+        'a hand has no event_type {event_type}', field='event_type', event_type=feedback.event_type
+    )
 
 
 def command_request(message: MultiDOFJointState, frame_id: str) -> Command:
@@ -238,14 +241,20 @@ def stroke_samples(path: Path) -> tuple[str, Floats, float | None]:
     """
     if len(path.poses) > MOST_SAMPLES:
         raise Malformed(
-            f'poses has at most {MOST_SAMPLES} elements, not {len(path.poses)}', field='poses'
+            'poses has at most {most} elements, not {count}',
+            field='poses',
+            most=MOST_SAMPLES,
+            count=len(path.poses),
         )
     # A pose without a frame is in that of the path, and a path without one in that of its poses.
     frames = {each.header.frame_id for each in (path, *path.poses)} - {''}
     if len(frames) > 1:
         one, other, *_ = map(shown, sorted(frames))
         raise Malformed(
-            f'a stroke is drawn in one frame, not in {one} and {other}', field='header.frame_id'
+            'a stroke is drawn in one frame, not in {one} and {other}',
+            field='header.frame_id',
+            one=one,
+            other=other,
         )
     stamps = [each.header.stamp.sec * 10**9 + each.header.stamp.nanosec for each in path.poses]
     places = [(each.pose.position.x, each.pose.position.y) for each in path.poses]
@@ -268,12 +277,18 @@ def walls_requests(message: OccupancyGrid, frame_id: str) -> tuple[DeleteAll | S
     frame = named_frame(message.header.frame_id, frame_id)
     if frame not in ('', 'map'):
         raise UnknownFrame(
-            f'a map is in the frame of the world, not in {frame!r}', field='header.frame_id'
+            'a map is in the frame of the world, not in {frame!r}',
+            field='header.frame_id',
+            frame=frame,
         )
     cells = np.frombuffer(message.data, np.int8)
     if len(cells) != info.width * info.height:
         raise Malformed(
-            f'data has {len(cells)} cells, not {info.width} times {info.height}', field='data'
+            'data has {count} cells, not {width} times {height}',
+            field='data',
+            count=len(cells),
+            width=info.width,
+            height=info.height,
         )
     position = info.origin.position
     yaw = yaw_of(info.origin.orientation, 'info.origin.orientation')
@@ -293,7 +308,7 @@ def mapping_of(text: str, field: str) -> dict[Any, Any]:
     :raises Malformed: it is too long, or none
     """
     if len(text) > LONGEST_TEXT:
-        raise Malformed(f'{field} is longer than {LONGEST_TEXT} characters', field=field)
+        raise Malformed('{field} is longer than {most} characters', field=field, most=LONGEST_TEXT)
     return load_mapping(text, field=field)
 
 

@@ -19,6 +19,7 @@ from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import abbreviated, message_text
+from physsim_ros.model.translation import Text
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.parameters.table import Type
 from physsim_ros.ros.requests.services import Call, ServiceCalls
@@ -96,7 +97,7 @@ class ParameterServices(ParameterService):
 
         def perform() -> list[Answer]:
             if too_many:
-                raise Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
+                raise Malformed('a call sets at most {most} parameters', most=MOST_PARAMETERS)
             told = [self._set_together(each) for each in groups]
             respond([result for result, _ in told])
             return [answer for _, answers in told for answer in answers]
@@ -121,11 +122,10 @@ class ParameterServices(ParameterService):
             field = abbreviated(messages[0].name) if len(messages) == 1 else ''
             return _refused(refusal), [Answer.refused(refusal, topic=_TOPIC, field=field)]
         node = self._get_node()
-        told = [
-            f'{each.name} is {shown(node.get_parameter(each.name).value)}' for each in messages
-        ]
+        values = {each.name: shown(node.get_parameter(each.name).value) for each in messages}
+        told = [Text('{name} is {value}', name=name, value=values[name]) for name in values]
         result = SetParametersResult(successful=True, reason=message_text(', '.join(told)))
-        return result, [Answer(topic=_TOPIC, message=message_text(each)) for each in told]
+        return result, [Answer(topic=_TOPIC, message=each) for each in told]
 
 
 def _refused(refusal: Refusal) -> SetParametersResult:

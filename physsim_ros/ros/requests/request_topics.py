@@ -20,6 +20,7 @@ from nav_msgs.msg import OccupancyGrid, Path
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, AtPoint, Axle, Pin, Release, Request
+from physsim_ros.model.translation import Text
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.topics import decoded, LOSSLESS, Undecodable
 from physsim_ros.runtime.error_boundary import ErrorBoundary
@@ -143,7 +144,7 @@ class RequestTopics:
         """Submit the markers of an array as one gesture; each is converted in its turn."""
         topic = '~/spawn_array'
         if not message.markers:
-            self._requests.tell(Answer(topic=topic, message='the array is empty'))
+            self._requests.tell(Answer(topic=topic, message=Text('the array is empty')))
 
         def convert(marker: Marker) -> Request:
             with self._boundary.message(topic):

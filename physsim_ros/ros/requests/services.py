@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Failed, Refusal
+from physsim_ros.model.translation import Text
 from physsim_ros.ros.topics import CALLS
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced
@@ -38,7 +39,7 @@ class Service(NamedTuple):
     :ivar wait: what its calls wait for
     """
 
-    perform: Sliced[str]
+    perform: Sliced[Text]
     wait: Wait = Wait.NONE
 
 

@@ -143,7 +143,7 @@ class DriveTopic(CommandTopic):
             if wanted is not None and (before is None or wanted.kind is before.kind):
                 ignored = self._subscribe(wanted) or ignored
         if ignored and ignored != self._ignored:
-            self._refuse(BadProperty(ignored, field='cmd_vel'), self.topic)
+            self._refuse(BadProperty('{reason}', field='cmd_vel', reason=ignored), self.topic)
         self._ignored = ignored
         self._count = count if self._subscribed == wanted else None
         return changed

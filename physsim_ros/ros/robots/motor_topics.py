@@ -118,8 +118,10 @@ def _of_array(mode: str, motors: dict[str, str], message: Float64MultiArray) -> 
     """Return the commands of an array, which has a value for each motor, in their order."""
     if len(message.data) != len(motors):
         raise Malformed(
-            f'data has {len(message.data)} values; the motors are {", ".join(motors)}',
+            'data has {count} values; the motors are {known}',
             field='data',
+            count=len(message.data),
+            known=', '.join(motors),
         )
     return [
         MotorCommand(joint=joint, mode=mode, points=(CommandPoint(0.0, value),))
@@ -139,7 +141,9 @@ def _of_states(motors: dict[str, str], message: JointState) -> list[MotorCommand
                 commands.append(MotorCommand(joint=joint, mode=mode, points=(point,)))
                 break
         else:
-            raise Malformed(f'{name} has neither position nor velocity nor effort', field='name')
+            raise Malformed(
+                '{name} has neither position nor velocity nor effort', field='name', name=name
+            )
     return commands
 
 
@@ -169,5 +173,6 @@ def _column(values: Sequence[float], count: int, field: str) -> Sequence[float]:
     :raises Malformed: there are some, but not as many as joints
     """
     if len(values) not in (0, count):
-        raise Malformed(f'{field} has {len(values)} values for {count} joints', field=field)
+        template = '{field} has {found} values for {count} joints'
+        raise Malformed(template, field=field, found=len(values), count=count)
     return values if len(values) else [math.nan] * count

@@ -10,6 +10,7 @@ from typing import Any
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.transform import REST
+from physsim_ros.model.translation import Text
 from physsim_ros.ros.robots.messages import StampedFrame
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 
@@ -37,9 +38,11 @@ class TimeoutNotice:
         self._is_told = True
         asked = self._values['drive_timeout']
         timeout = drive.timeout if asked < 0.0 else asked
-        message = (
-            f'{robot.body} has stopped: no command has come for {timeout:g} s, the timeout of its '
-            'drive. Publish commands again and again, or set the parameter drive_timeout to 0'
+        message = Text(
+            '{body} has stopped: no command has come for {time:g} s, the timeout of its drive. '
+            'Publish commands again and again, or set the parameter drive_timeout to 0',
+            body=robot.body,
+            time=timeout,
         )
         self._tell(Answer(topic=topic.topic, subject=robot.body, message=message))
 

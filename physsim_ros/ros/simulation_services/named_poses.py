@@ -48,7 +48,7 @@ class NamedPoses:
         snapshot = self._control.loop.bring_up_to_date()
         body = next((body for _, body in _places(snapshot) if body.name == request.name), None)
         if body is None:
-            raise UnknownBody(f'there is no named pose {request.name!r}', field='name')
+            raise UnknownBody('there is no named pose {name!r}', field='name', name=request.name)
         response.bounds = box_around(body.shape)
         return ''
 

@@ -24,15 +24,13 @@ class CodedRefusal(BadProperty):
     """
 
     def __init__(self, refusal: Refusal, result: int) -> None:
-        super().__init__(
-            refusal.text, field=refusal.field, values=refusal.values, body=refusal.body
-        )
-        self.code, self.result = refusal.code, result
+        super().__init__(refusal.text, field=refusal.field, concerns=refusal.concerns)
+        self.code, self.details, self.result = refusal.code, refusal.details, result
 
 
 def coded(message: str, result: int, *, field: str = '') -> CodedRefusal:
     """Return the refusal of a call whose values are wrong."""
-    return CodedRefusal(BadProperty(message, field=field), result)
+    return CodedRefusal(BadProperty('{message}', field=field, message=message), result)
 
 
 @contextmanager

@@ -58,11 +58,12 @@ def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Re
         changed
     """
     if not past.cursor.is_newest:
-        raise InPast(Text('the past is shown; go to its end first'), field='history')
+        raise InPast('the past is shown; go to its end first', field='history')
     first = past.line.last_gesture_of(author)
     if first is None:
-        message = Text('there is nothing by {person} to undo', person=author.strip())
-        raise OutOfHistory(message, field='history')
+        raise OutOfHistory(
+            'there is nothing by {person} to undo', field='history', person=author.strip()
+        )
     before = yield from _Amendment(past, (first.gesture,), stands_alone=True).carry_out()
     words = first.phrase(1)
     past.tree.undone.append(replace(before, words=words))
@@ -127,7 +128,7 @@ class _Amendment:
         past, tree = self._past, self._past.tree
         if self._end - self._step > past.steps_in(LONGEST_AGAIN):
             template = 'that was more than {time:g} s ago; delete it instead'
-            raise NotAlone(Text(template, time=LONGEST_AGAIN))
+            raise NotAlone(template, time=LONGEST_AGAIN)
         before, told = tree.line_left_at(self._cursor.moment), len(past.reports)
         try:
             for _ in self._simulate():

@@ -104,7 +104,8 @@ class Replay:
             try:
                 yield from self._world.slices_of_reapplying(node.request)
             except Refusal as refusal:
-                self._report('divergence', f'a request of the log is refused now: {refusal}')
+                message = Text('a request of the log is refused now: {wrong}', wrong=refusal.text)
+                self._report('divergence', message)
             self.serial += 1
             yield
 
@@ -120,10 +121,11 @@ class Replay:
         same = keyframe is None or self._world.digest() == keyframe.digest
         if not same:
             seconds = self._world.step_count * self._world.dt
-            self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')
+            message = Text('{time:.3f} s was reached with other bits than before', time=seconds)
+            self._report('divergence', message)
         return same
 
-    def _report(self, code: str, message: str, subject: str = '') -> None:
+    def _report(self, code: str, message: Text, subject: str = '') -> None:
         self._reports.append(Answer(topic=code, subject=subject, message=message, code=code))
 
 
@@ -271,9 +273,12 @@ class Cursor(Replay):
         line, dt = self._line, self._world.dt
         if not line.oldest <= step <= line.head:
             raise OutOfHistory(
-                f'{step * dt:.3f} s is not in the history, which reaches from '
-                f'{line.oldest * dt:.3f} to {line.head * dt:.3f} s',
+                '{time:.3f} s is not in the history, which reaches from {oldest:.3f} to '
+                '{newest:.3f} s',
                 field='clock',
+                time=step * dt,
+                oldest=line.oldest * dt,
+                newest=line.head * dt,
             )
         self.seek_moment(step, line.serial_shown_at(step), with_contacts=with_contacts)
 

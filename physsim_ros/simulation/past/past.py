@@ -410,7 +410,7 @@ class Past:
             return False
         line = next((line for line, _ in tree.courses_left() if line.course == number), None)
         if line is None:
-            raise OutOfHistory(f'course {number} is not kept', field='course')
+            raise OutOfHistory('course {number} is not kept', field='course', number=number)
         tree.keep_course(*self.go_to(line, (min(moment.step, line.head), None)))
         self.tree.drop_undone()
         return True

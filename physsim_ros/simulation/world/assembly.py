@@ -29,7 +29,7 @@ def check_new_parts(space: Space, links: Iterable[Spawn], joints: Iterable[Join]
     """
     bodies = (link.name for link in links if link.name in space.bodies.by_name)
     for name in (*bodies, *(each.name for each in joints if each.name in space.joints.by_name)):
-        raise Exists(f'the name {name} of a part of the robot is taken', field='name')
+        raise Exists('the name {name} of a part of the robot is taken', field='name', name=name)
 
 
 def check_same_parts(old: Body, new: Body) -> None:
@@ -40,8 +40,9 @@ def check_same_parts(old: Body, new: Body) -> None:
     """
     if _parts(old.robot) != _parts(new.robot):
         raise BadProperty(
-            f'the parts of {old.name} cannot be changed; delete it and spawn it again',
+            'the parts of {name} cannot be changed; delete it and spawn it again',
             field='robot',
+            name=old.name,
         )
 
 

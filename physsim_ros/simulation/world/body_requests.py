@@ -215,7 +215,7 @@ def anchor(live: LiveSpace, request: Anchor) -> Answer:
     for role, noun in ((rigid.body.robot, Text('a robot')), (rigid.body.actor, Text('an actor'))):
         if role is not None:
             template = '{body} is {noun}; it cannot be anchored'
-            raise BadProperty(Text(template, body=rigid.body.name, noun=noun), field='point')
+            raise BadProperty(template, field='point', body=rigid.body.name, noun=noun)
     if not rigid.body.anchored:
         space.change(rigid, replace(rigid.body, anchored=True), rigid.pose, REST)
     return _done('anchored {bodies}', (rigid.body.name,))
@@ -234,8 +234,9 @@ def release(live: LiveSpace, request: Release) -> Answer:
     if rigid.body.anchored:
         body = replace(rigid.body, anchored=False)
         if body.medium is not None and body.dynamic:
-            message = Text('{body} is filled with a medium; it cannot be released', body=name)
-            raise BadProperty(message, field='point')
+            raise BadProperty(
+                '{body} is filled with a medium; it cannot be released', field='point', body=name
+            )
         live.capacity.check_body(body, rigid.pose, old=rigid)
         space.change(rigid, body, rigid.pose, REST)
     loosened = joint_requests.loosen(space, name, point)

@@ -188,7 +188,7 @@ class Capacity:
         """
         space = self._space
         if self.checking and space.grips.of(hand) is None and len(space.grips) >= MOST_HANDS:
-            raise WorldFull(f'{MOST_HANDS} hands drag a body; no more are allowed')
+            raise WorldFull('{most} hands drag a body; no more are allowed', most=MOST_HANDS)
 
 
 def check_state(state: WorldState) -> None:
@@ -239,7 +239,10 @@ def _inside(body: Body) -> int:
 def _check_on_body(count: int, body: str) -> None:
     if count > MOST_JOINTS_ON_BODY and body != WORLD:
         raise WorldFull(
-            f'{body} would have {count} joints; a body has at most {MOST_JOINTS_ON_BODY}'
+            '{body} would have {count} joints; a body has at most {most}',
+            body=body,
+            count=count,
+            most=MOST_JOINTS_ON_BODY,
         )
 
 
@@ -247,9 +250,15 @@ def _check_topics(bodies: Iterable[Body]) -> None:
     count = sum(body.robot.topic_count for body in bodies if body.robot is not None)
     if count > MOST_ROBOT_TOPICS:
         raise WorldFull(
-            f'the robots would have {count} topics; there are at most {MOST_ROBOT_TOPICS}'
+            'the robots would have {count} topics; there are at most {most}',
+            count=count,
+            most=MOST_ROBOT_TOPICS,
         )
 
 
 def _too_many(count: int, most: int) -> WorldFull:
-    return WorldFull(f'{count} or more pairs of pieces would overlap; max_overlaps is {most}')
+    return WorldFull(
+        '{count} or more pairs of pieces would overlap; max_overlaps is {most}',
+        count=count,
+        most=most,
+    )

@@ -42,8 +42,13 @@ def grab(live: LiveSpace, request: Grab) -> Answer:
         raise nothing_at(point, 'mouse_point')
     if not names:
         x, y = point
-        message = Text('the body there cannot be moved at ({x:g}, {y:g})', x=x, y=y)
-        raise NothingThere(message, field='mouse_point', body=under[0])
+        raise NothingThere(
+            'the body there cannot be moved at ({x:g}, {y:g})',
+            field='mouse_point',
+            x=x,
+            y=y,
+            concerns=under[0],
+        )
     live.capacity.check_hand(request.hand)
     name = names[0]
     anchor = world_to_local(point, space.bodies.by_name[name].pose)
@@ -71,13 +76,13 @@ def move_hand(live: LiveSpace, request: MoveHand) -> Answer:
         if pose != rigid.pose:
             set_poses(live, {grip.body: pose})
     space.set_grip(grip._replace(target=(x, y)))
-    done = 'placed' if request.paused else 'draws'
-    return Answer(subject=grip.body, message=f'{done} {grip.body}')
+    message = Text('placed {body}' if request.paused else 'draws {body}', body=grip.body)
+    return Answer(subject=grip.body, message=message)
 
 
 def keep_hand(_: LiveSpace, request: KeepHand) -> Answer:
     """Change nothing: the request says that the hand is still there."""
-    return Answer(message=f'{request.hand} is there')
+    return Answer(message=Text('{hand} is there', hand=request.hand))
 
 
 def let_go(live: LiveSpace, request: LetGo) -> Answer:

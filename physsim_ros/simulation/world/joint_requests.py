@@ -144,8 +144,9 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
         joint = live.space.joints.by_name[name].joint
         if not joint.properties.effort:
             raise BadProperty(
-                f'{name} has no motor: an axle or a slider with the property effort has one',
+                '{name} has no motor: an axle or a slider with the property effort has one',
                 field='joint',
+                name=name,
             )
     for command in request.commands:
         properties = live.space.joints.by_name[command.joint].joint.properties
@@ -290,7 +291,9 @@ def _check_carrier(space: Space, ends: tuple[str, str], carrier: str | None) -> 
     body_of_name(space, carrier, 'carrier', others=(WORLD,))
     if carrier in ends:
         raise BadProperty(
-            f'{carrier} is a wheel of the gear, and not its carrier', field='carrier'
+            '{carrier} is a wheel of the gear, and not its carrier',
+            field='carrier',
+            carrier=carrier,
         )
 
 
@@ -298,12 +301,13 @@ def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> Non
     """Refuse a joint none of whose bodies is dynamic."""
     bodies = [space.bodies.by_name[name].body for name in dict.fromkeys(names) if name != WORLD]
     if not any(body.dynamic for body in bodies):
-        immovable = ' and '.join(
-            f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
+        raise Anchored(
+            '{bodies} cannot move; there is nothing for the {kind} to hold',
+            field='a',
+            bodies=', '.join(each.name for each in bodies),
+            kind=Text(kind),
+            concerns=bodies[0].name if bodies else '',
         )
-        other = ', and so is the background' if WORLD in names else ''
-        message = f'{immovable}{other}; there is nothing for the {kind} to hold'
-        raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
 
 
 def _phase(space: Space, a: str, b: str, properties: JointProperties) -> float:

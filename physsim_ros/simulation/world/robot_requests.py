@@ -18,6 +18,7 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Drive, Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.states import DriveCommand, NEVER
+from physsim_ros.model.translation import Text
 from physsim_ros.simulation.world.live_space import LiveSpace
 
 # Number of robots that a refusal names.
@@ -38,7 +39,7 @@ def drive_robot(live: LiveSpace, request: DriveRobot) -> Answer:
     until = NEVER if end is None else end + begun - live.step_count
     command = DriveCommand(begun, drive.aim(request.velocity), until)
     live.space.commands.drive(rigid, command, live.step_count)
-    return Answer(subject=request.name, message=f'drives {request.name}')
+    return Answer(subject=request.name, message=Text('drives {body}', body=request.name))
 
 
 def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
@@ -52,10 +53,10 @@ def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
     if rigid is not None and rigid.body.robot is not None:
         return rigid, rigid.body.robot
     robots = [each for each, found in space.bodies.by_name.items() if found.body.robot is not None]
-    hint = f'; robots: {", ".join(robots[:_MOST_NAMED]) or "none"}'
+    hint = Text('; robots: {names}', names=', '.join(robots[:_MOST_NAMED])) if robots else ''
     if rigid is None:
-        raise UnknownBody(f'there is no robot {name!r}{hint}', field='name')
-    raise BadProperty(f'{name} is not a robot{hint}', field='name')
+        raise UnknownBody('there is no robot {name!r}{hint}', field='name', name=name, hint=hint)
+    raise BadProperty('{name} is not a robot{hint}', field='name', name=name, hint=hint)
 
 
 def drive_of_name(space: Space, name: str) -> tuple[RigidBody, Drive]:
@@ -67,7 +68,7 @@ def drive_of_name(space: Space, name: str) -> tuple[RigidBody, Drive]:
     """
     rigid, robot = robot_of_name(space, name)
     if robot.drive is None:
-        raise BadProperty(f'{name} has no drive', field='name')
+        raise BadProperty('{name} has no drive', field='name', name=name)
     return rigid, robot.drive
 
 

@@ -72,7 +72,7 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
     return Answer(message=load_message(request.state))
 
 
-def load_message(state: WorldState) -> str:
+def load_message(state: WorldState) -> Text:
     """Return the message about a state that was loaded."""
     if not state.bodies:
         return Text('loaded 0 bodies')

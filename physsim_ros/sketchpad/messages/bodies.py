@@ -70,7 +70,7 @@ def _velocity(value: object, name: str) -> Twist:
 
 def _poses(value: object, name: str) -> list[Pose]:
     if not isinstance(value, list) or not value:
-        raise BadProperty(f'{name} must be a list of at least one pose', field=name)
+        raise BadProperty('{field} must be a list of at least one pose', field=name)
     return [fields.three(each, name, 'x', 'y', 'yaw') for each in value]
 
 

@@ -30,7 +30,7 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
     """Return names of bodies, or patterns of them; there may be none."""
     patterns = fields.names(value, name) if value != [] else ()
     if any(',' in each for each in patterns):
-        raise BadProperty(f'a name in {name} has no comma', field=name)
+        raise BadProperty('a name in {field} has no comma', field=name)
     # Compiled here, on the server's thread.
     locks_of(patterns)
     return patterns
@@ -40,8 +40,9 @@ def _title(value: object, name: str) -> str:
     """Return the title of a lesson."""
     title = fields.text(value, name)
     if len(title) > LONGEST_TITLE:
-        message = Text('{key} has more than {most} characters', key=name, most=LONGEST_TITLE)
-        raise BadProperty(message, field=name)
+        raise BadProperty(
+            '{field} has more than {most} characters', field=name, most=LONGEST_TITLE
+        )
     return title
 
 
@@ -49,7 +50,7 @@ def _title(value: object, name: str) -> str:
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
     if name != page.person.unnamed and re.fullmatch(rf'{UNNAMED}\d+|{TEACHER}', name):
-        raise BadProperty(f'{name} may be another person, who has no name', field='name')
+        raise BadProperty('{name} may be another person, who has no name', field='name', name=name)
     page.person.name = name
     # A page that was loaded again does not know.
     page.person.answered = page.shared.results.last_of(name)
@@ -63,7 +64,7 @@ def note_answer(
     """Note an answer to a lesson, which a teacher sees."""
     name = page.person.name
 
-    def note() -> str:
+    def note() -> Text:
         with reaching('the results'):
             page.person.answered = page.shared.results.note(
                 name, lesson, answer[:LONGEST_ANSWER], right=right, visitor=page.person.unnamed
@@ -77,7 +78,7 @@ def note_answer(
 def forget_results(page: PageSession, origin: Origin) -> None:
     """Forget the results of lessons in this world."""
 
-    def forget() -> str:
+    def forget() -> Text:
         with reaching('the results'):
             page.shared.results.forget()
         return Text('the results are forgotten')
@@ -153,7 +154,7 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
         added = [past.added_by(author_of(person, role)) for role in (Role.DRAW, Role.TEACH)]
         bodies, joints = (tuple(itertools.chain(*each)) for each in zip(*added, strict=True))
         if not bodies and not joints:
-            raise NothingThere(Text('there is nothing of {person}', person=person), field='person')
+            raise NothingThere('there is nothing of {person}', field='person', person=person)
         return DeleteBodies(names=bodies, joints=joints)
 
     # Requests that wait may add some.

@@ -33,7 +33,7 @@ from physsim_ros.sketchpad.rights import Right
 def _samples(value: object, name: str) -> Floats:
     """Return (n, 3) float64: x, y [m], time by a clock of the page [s]."""
     if not isinstance(value, list) or not 0 < len(value) <= MOST_SAMPLES:
-        raise Malformed(f'a stroke is a list of 1 to {MOST_SAMPLES} points', field=name)
+        raise Malformed('a stroke is a list of 1 to {most} points', field=name, most=MOST_SAMPLES)
     for point in value:
         if not isinstance(point, list) or len(point) != 3:
             raise Malformed('a point of a stroke is [x, y, time]', field=name)
@@ -48,13 +48,13 @@ def _samples(value: object, name: str) -> Floats:
     with np.errstate(over='ignore'):
         duration = np.ptp(samples[:, 2])
     if duration > LONGEST:
-        raise BadProperty(f'a stroke takes at most {LONGEST:g} s', field=name)
+        raise BadProperty('a stroke takes at most {most:g} s', field=name, most=LONGEST)
     return samples
 
 
 def _tool(value: Any, name: str) -> Tool:
     if value not in list(Tool):
-        raise BadProperty(f'there is no tool {shown(value)}', field=name)
+        raise BadProperty('there is no tool {value}', field=name, value=shown(value))
     return Tool(value)
 
 

@@ -13,14 +13,13 @@ from __future__ import annotations
 from typing import Any
 
 from physsim_ros.model import checks
-from physsim_ros.model.checks import check_point, number, pair
+from physsim_ros.model.checks import check_point, must_be, number, pair
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.spelling import has_invisible
 from physsim_ros.model.texts import is_printable
 from physsim_ros.model.transform import Point
-from physsim_ros.model.translation import Text
 
 # Length of the name of a person [characters].
 LONGEST_PERSON = 24
@@ -30,8 +29,7 @@ def text(value: object, name: str) -> str:
     """Return a text of at most the length of a name."""
     words = checks.text(value, name, BadProperty)
     if len(words) > LONGEST_NAME:
-        message = Text('{key} has more than {most} characters', key=name, most=LONGEST_NAME)
-        raise BadProperty(message, field=name)
+        raise BadProperty('{field} has more than {most} characters', field=name, most=LONGEST_NAME)
     return words
 
 
@@ -39,8 +37,7 @@ def person(value: object, name: str) -> str:
     """Return the name of a person."""
     checked = text(value, name).strip()
     if not 0 < len(checked) <= LONGEST_PERSON or not is_printable(checked):
-        message = Text('a name has 1 to {most} characters', most=LONGEST_PERSON)
-        raise BadProperty(message, field=name)
+        raise BadProperty('a name has 1 to {most} characters', field=name, most=LONGEST_PERSON)
     if has_invisible(checked):
         raise BadProperty('the name contains an invisible character', field=name)
     return checked
@@ -49,14 +46,14 @@ def person(value: object, name: str) -> str:
 def names(value: object, name: str) -> tuple[str, ...]:
     """Return the names of a list, at least one."""
     if not isinstance(value, list) or not value:
-        raise BadProperty(f'{name} must be a list of at least one name', field=name)
+        raise BadProperty('{field} must be a list of at least one name', field=name)
     return tuple(text(each, name) for each in value)
 
 
 def mapping(value: object, name: str) -> dict[Any, Any]:
     """Return a mapping."""
     if not isinstance(value, dict):
-        raise BadProperty(f'{name} must be a mapping', field=name)
+        raise must_be('a mapping', value, name)
     return value
 
 
@@ -70,7 +67,7 @@ def point(value: object, name: str) -> Point:
 def three(value: object, name: str, *names: str) -> tuple[float, float, float]:
     """Return the three numbers of a list, which have names."""
     if not isinstance(value, list) or len(value) != 3:
-        raise Malformed(f'{name} must be [{", ".join(names)}]', field=name)
+        raise Malformed('{field} must be [{known}]', field=name, known=', '.join(names))
     first, second, third = (number(each, name) for each in value)
     return first, second, third
 

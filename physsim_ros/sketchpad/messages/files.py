@@ -22,4 +22,5 @@ def reaching(name: str) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        raise BadWorldFile(f'{name}: {error.strerror or error}', field='name') from error
+        reason = error.strerror or str(error)
+        raise BadWorldFile('{name}: {reason}', field='name', name=name, reason=reason) from error

@@ -49,7 +49,7 @@ MOST_SENT = 2**19
 
 def _action(value: object, name: str) -> str:
     if value not in ACTIONS:
-        raise BadProperty(f'there is no service {shown(value)}', field=name)
+        raise BadProperty('there is no service {value}', field=name, value=shown(value))
     return str(value)
 
 
@@ -67,7 +67,9 @@ def _world_name(value: object, name: str) -> str:
 
 def _world_text(value: object, name: str) -> str:
     if not isinstance(value, str) or len(value) > MOST_SENT:
-        raise BadProperty(f'{name} must be text of at most {MOST_SENT} characters', field=name)
+        raise BadProperty(
+            '{field} must be text of at most {most} characters', field=name, most=MOST_SENT
+        )
     return value
 
 
@@ -82,7 +84,7 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
     if world:
         of_files = {'load_world': page.control.load_world, 'save_world': page.control.save_world}
         if name not in of_files:
-            raise BadWorldFile(f'~/{name} takes no world', field='world')
+            raise BadWorldFile('~/{name} takes no world', field='world', name=name)
         action = partial(of_files[name], world)
     if name == 'save_world':
         page.perform(origin, partial(_saving, page, action), wait)
@@ -92,7 +94,7 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
         page.perform(origin, action, wait)
 
 
-def _replace_bodies(page: PageSession, origin: Origin, action: Sliced[str], wait: Wait) -> None:
+def _replace_bodies(page: PageSession, origin: Origin, action: Sliced[Text], wait: Wait) -> None:
     """Perform an action unless a body is locked, be it while a thread reads the file."""
     check = partial(check_moment, page.role, page.control)
     if has_locks(page.role, page.control):
@@ -137,7 +139,7 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     :param replace: whether an own world of that name may be written over, and kept
     """
 
-    async def save() -> str:
+    async def save() -> Text:
         with reaching(name):
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
         return await page.control.save_world(name)
@@ -145,7 +147,7 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     page.perform(origin, partial(_saving, page, save), Wait.TO_READ)
 
 
-async def _saving(page: PageSession, save: Sliced[str]) -> str:
+async def _saving(page: PageSession, save: Sliced[Text]) -> Text:
     """Save the world, note that it is saved, and return the message about it."""
     scene = page.control.simulation.world.scene
     done = await in_slices(save)
@@ -178,10 +180,10 @@ def forget(page: PageSession, origin: Origin) -> None:
     _manage(page, origin, page.shared.autosave.forget_unsaved, 'the unsaved world')
 
 
-def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: str) -> None:
+def _manage(page: PageSession, origin: Origin, action: Callable[[], Text], name: str) -> None:
     """Change the files of own worlds, and send all pages the list."""
 
-    def manage() -> str:
+    def manage() -> Text:
         with reaching(name):
             done = action()
         page.shared.list_worlds(None)
@@ -194,7 +196,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
 def open_text(page: PageSession, origin: Origin, world: str) -> None:
     """Begin with the world of a text, as that of a run, at time 0, which undo reverts."""
 
-    async def load() -> str:
+    async def load() -> Text:
         # YAML of a megabyte takes a second to be read, and some a dozen.
         content = await on_thread(partial(load_mapping, world, field='world'))
         return await open_content(page.control.simulation, content)

@@ -23,7 +23,6 @@ from typing import NamedTuple
 
 from physsim_ros.files import make_directory, read_bytes, write_file
 from physsim_ros.model.errors import WorldFull
-from physsim_ros.model.translation import Text
 
 # Greatest number of seats of one machine: two browsers of each of two pupils who share it.
 MOST_OF_MACHINE = 4
@@ -131,7 +130,7 @@ class Seats:
             template = (
                 '{taken} worlds of this class are those of this machine; a teacher can free one'
             )
-            raise WorldFull(Text(template, taken=taken))
+            raise WorldFull(template, taken=taken)
 
     def _free_number(self) -> int:
         """
@@ -141,7 +140,7 @@ class Seats:
         """
         left = [number for number, seat in enumerate(self._seats) if not seat.machine]
         if not left:
-            raise WorldFull(Text('every world of this class has a pupil'))
+            raise WorldFull('every world of this class has a pupil')
         since = {number: self._seats[number].at for number in left if self._seats[number].name}
         number = min(left, key=lambda each: since.get(each, 0.0))
         self._seats[number] = _Seat()

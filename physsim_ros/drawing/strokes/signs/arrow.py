@@ -156,9 +156,8 @@ def _turn_gravity(points: Floats, context: Context) -> Outcome:
     """Turn gravity into the direction from tail to tip; its magnitude stays."""
     tail = context.scene.bodies_at(point_of(points[0]))
     if tail:
-        raise NotRecognised(
-            f'an arrow in free space turns gravity; this one begins on {tail[0]}', field='poses'
-        )
+        template = 'an arrow in free space turns gravity; this one begins on {body}'
+        raise NotRecognised(template, field='poses', body=tail[0])
     strength = context.scene.gravity_strength()
     ends = regularisation.line(points, context.settings.beautify)
     x, y = (ends[1] - ends[0]).tolist()

@@ -128,7 +128,10 @@ def _anchor_body(under: tuple[str, Point] | None, crossing: Point, context: Cont
     if under is None:
         x, y = crossing
         raise NothingThere(
-            f'an x anchors the body under it; there is none at ({x:.3g}, {y:.3g})', field='poses'
+            'an x anchors the body under it; there is none at ({x:.3g}, {y:.3g})',
+            field='poses',
+            x=x,
+            y=y,
         )
     name, point = under
     return Outcome(

@@ -66,10 +66,11 @@ class Laser(Sensor):
         # `super()` without arguments has no class there: a dataclass with slots is made anew.
         Sensor.__post_init__(self)
         if self.beams > 1 and self.increment < LEAST_INCREMENT:
-            raise BadProperty(
-                f'{self.beams} beams in {self.angle[1] - self.angle[0]:g} rad are too close',
-                field='angle',
+            template, span = (
+                '{beams} beams in {angle:g} rad are too close',
+                self.angle[1] - self.angle[0],
             )
+            raise BadProperty(template, field='angle', beams=self.beams, angle=span)
 
     @property
     def increment(self) -> float:
@@ -123,7 +124,10 @@ class RangeFinder(Sensor):
         Sensor.__post_init__(self)
         if 0.0 < self.cone < LEAST_INCREMENT * (self.rays - 1):
             raise BadProperty(
-                f'{self.rays} rays in a cone of {self.cone:g} rad are too close', field='cone'
+                '{rays} rays in a cone of {cone:g} rad are too close',
+                field='cone',
+                rays=self.rays,
+                cone=self.cone,
             )
 
 

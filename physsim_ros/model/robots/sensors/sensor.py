@@ -9,7 +9,7 @@ import math
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import AT_WORDS, Numbers, shown, text, Within
+from physsim_ros.model.checks import AT_WORDS, must_be, Numbers, shown, text, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.latency import delays, LATENCY_WORDS, MESSAGE_RATE
@@ -44,9 +44,11 @@ def topic_name(value: object, name: str) -> str:
     word = text(value, name, BadProperty)
     if len(word) > _LONGEST or not _TOPIC.fullmatch(word):
         raise BadProperty(
-            f'{name} {shown(value)} is not a ROS topic: letters, digits and _, not a digit first, '
-            f'at most {_LONGEST} characters',
+            '{field} {value} is not a ROS topic: letters, digits and _, not a digit first, at '
+            'most {most} characters',
             field=name,
+            value=shown(value),
+            most=_LONGEST,
         )
     return word
 
@@ -60,9 +62,9 @@ def mounting(value: object, name: str) -> Pose:
     :raises BadProperty: it is no list of numbers, or one is out of range
     """
     if not isinstance(value, list | tuple):
-        raise BadProperty(f'{name} must be a list of numbers, not {shown(value)}', field=name)
+        raise must_be('a list of numbers', value, name)
     if len(value) not in (2, 3):
-        raise Malformed(f'{name} must be [x, y] or [x, y, yaw]', field=name)
+        raise Malformed('{field} must be [x, y] or [x, y, yaw]', field=name)
     x, y = (_COORDINATE(each, name) for each in value[:2])
     return x, y, _ANGLE(value[2], name) if len(value) == 3 else 0.0
 
@@ -78,7 +80,7 @@ def span(value: object, name: str, limits: Within) -> Point:
     """
     low, high = Numbers((limits, limits))(value, name)
     if low > high:
-        raise BadProperty(f'{name} must be [min, max], not {shown(value)}', field=name)
+        raise must_be('[min, max]', value, name)
     return low, high
 
 
@@ -86,7 +88,7 @@ def distances(value: object, name: str) -> Point:
     """Return the least and the greatest distance that a sensor measures [m]."""
     low, high = span(value, name, DISTANCE)
     if low == high:
-        raise BadProperty(f'{name} must be [min, max], min below max', field=name)
+        raise BadProperty('{field} must be [min, max], min below max', field=name)
     return low, high
 
 
@@ -94,7 +96,9 @@ def angles(value: object, name: str) -> Point:
     """Return the first and the last angle of a sensor [rad], at most a full turn apart."""
     low, high = span(value, name, _ANGLE)
     if high - low > FULL_TURN.high:
-        raise BadProperty(f'{name} spans more than a full turn: {high - low:g} rad', field=name)
+        raise BadProperty(
+            '{field} spans more than a full turn: {angle:g} rad', field=name, angle=high - low
+        )
     return low, high
 
 
