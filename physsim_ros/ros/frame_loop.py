@@ -97,7 +97,7 @@ class FrameLoop:
         self.handle_messages()
         self._find_readers()
         self._submit_commands()
-        if not self._fleet.update_topics(tick_time.is_overdue):
+        if not self._fleet.scene_robots.update(tick_time.is_overdue):
             self._simulation.playback.clock.restart()
             return
         step, request_time = self._simulation.step, _RequestTime(self._rest_ns)
@@ -184,7 +184,7 @@ class FrameLoop:
     def _show(self, frame: Frame) -> None:
         """Show a frame, at any time, and have all its robots have their topics."""
         self._outputs.show(frame)
-        self._fleet.update_topics()
+        self._fleet.scene_robots.update()
 
     def apply_ready(self) -> bool:
         """
@@ -232,7 +232,7 @@ class FrameLoop:
 
     def _submit_commands(self) -> None:
         """Submit commands of robots, which the past refuses."""
-        self._fleet.submit_commands(
+        self._fleet.commands.submit(
             in_past=self._simulation.speed < 0.0 or self._simulation.is_past
         )
 

@@ -26,12 +26,13 @@ from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
+from physsim_ros.sketchpad.body_pasts import BodyPasts
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.locks import check_locked, check_locked_in_turn, check_unchanged
 from physsim_ros.sketchpad.message import answer_content, asker_key, Content, Message, request_of
-from physsim_ros.sketchpad.past import BodyPasts, PastContacts
+from physsim_ros.sketchpad.past_contacts import PastContacts
 from physsim_ros.sketchpad.person import author_of, Person
 from physsim_ros.sketchpad.results import Results
 from physsim_ros.sketchpad.rights import check_right, Right

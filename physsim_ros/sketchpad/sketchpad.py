@@ -15,7 +15,6 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 import time
-from typing import Any
 
 from physsim_ros.files import DirectoryLock, OwnWorlds, text_of
 from physsim_ros.model.answer import Answer
@@ -25,18 +24,18 @@ from physsim_ros.model.translation import Text
 from physsim_ros.runtime.slices import Sliced, with_checks
 from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.sketchpad.autosave import Autosave
+from physsim_ros.sketchpad.body_pasts import BodyPasts
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.file_work import FileWork
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.locks import check_moment
 from physsim_ros.sketchpad.message import answer_content, asker_key, Message
 from physsim_ros.sketchpad.page_session import answers_of, PageSession, Shared
-from physsim_ros.sketchpad.past import BodyPasts, PastContacts
-from physsim_ros.sketchpad.person import Person
+from physsim_ros.sketchpad.past_contacts import PastContacts
+from physsim_ros.sketchpad.people import People
 from physsim_ros.sketchpad.results import Results, results_file
 from physsim_ros.sketchpad.rights import check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
-from physsim_ros.sketchpad.server.open_pages import MOST_PAGES
 from physsim_ros.sketchpad.server.server import Server
 from physsim_ros.sketchpad.timeline import timeline_content, TimelineReport
 from physsim_ros.sketchpad.world_control import open_content, WorldControl
@@ -79,10 +78,12 @@ class Sketchpad:
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(simulation)
         self._contacts = LastContacts(simulation.forces_now)
+        self._sessions: dict[int, PageSession] = {}
+        self._people = People(control, self._sessions)
         own_worlds, results = OwnWorlds(directory, lessons), results_file(directory)
         self._file_work, self._lock = FileWork(wake), DirectoryLock(directory)
         self._autosave = Autosave(
-            directory, self._lock, self._file_work, self._world_text, self._named_people
+            directory, self._lock, self._file_work, self._world_text, self._people.chosen_names
         )
         try:
             self._server = Server(
@@ -110,15 +111,9 @@ class Sketchpad:
             list_worlds=self._server.list_worlds,
             ask_to_leave=self._server.ask_to_leave,
         )
-        self._sessions: dict[int, PageSession] = {}
-        # Those who came last, by number and role: their pages may connect again.
-        self._people: dict[tuple[int, Role], Person] = {}
-        # Numbers of the colours of people, by name.
-        self._colors: dict[str, int] = {}
         # The last one; None before the first.
         self._frame: Frame | None = None
         self._sent_recording = control.recording_address
-        self._sent_class: dict[str, Any] = {}
         if self.autosave_failure is not None:
             simulation.requests.tell(self.autosave_failure)
 
@@ -155,7 +150,8 @@ class Sketchpad:
             self._send_recording_address()
         self._handle_until(now + BUDGET)
         with self._boundary.containing('page'):
-            self._send_class()
+            if (people := self._people.take_list()) is not None:
+                self._server.send(people)
 
     def _handle_until(self, end: float) -> None:
         """Carry out messages until a steady time [s]."""
@@ -223,46 +219,6 @@ class Sketchpad:
             self._sent_recording = self._control.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
-    def _choose_colors(self) -> None:
-        """Choose a number for the colour of each person, the least that no other one has."""
-        present = {session.person.name for session in self._sessions.values()}
-        colors = {name: color for name, color in self._colors.items() if name in present}
-        for name in present - colors.keys():
-            colors[name] = min(set(range(len(present))) - set(colors.values()))
-        self._colors = colors
-
-    def _send_class(self) -> None:
-        """Tell all pages who is there, and what a teacher has frozen and locked, if it changed."""
-        self._choose_colors()
-        people = [
-            {
-                'page': number,
-                'name': session.person.name,
-                'color': self._colors[session.person.name],
-                'role': session.role.value,
-                'answered': session.person.answered or None,
-                'raised': session.person.raised,
-            }
-            for number, session in self._sessions.items()
-            if session.role.draws and not session.watches
-        ]
-        content = {
-            'type': 'class',
-            'frozen': self._control.values['sketchpad_frozen'],
-            'locked': self._control.locked_bodies,
-            'people': people,
-            'watched': any(session.watches for session in self._sessions.values()),
-        }
-        if self._sessions and content != self._sent_class:
-            self._sent_class = content
-            self._server.send(content)
-
-    def _named_people(self) -> list[str]:
-        """Return the names that people who draw have chosen."""
-        present = self._sessions.values()
-        drawing = [each.person for each in present if each.role.draws and not each.watches]
-        return sorted({each.name for each in drawing if each.name != each.unnamed})
-
     def _world_text(self) -> Callable[[int], str]:
         """Return a function that returns the world as text, of at most a length [characters]."""
         saved, rate = self._simulation.world.saver(), self._simulation.physics_rate
@@ -290,23 +246,10 @@ class Sketchpad:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
             simulation.requests.refuse(refusal, origin)
 
-    def _person_at(self, opened: Opened) -> Person:
-        """Return the person at a page: the same as before, if the page goes on with that."""
-        key = opened.person, opened.role
-        person = self._people.pop(key, None)
-        if person is None or not opened.goes_on:
-            person = Person(*key, self._control.drawing_settings)
-        # The page has dropped what it does not send again.
-        person.drawing.drop()
-        self._people[key] = person
-        if len(self._people) > MOST_PAGES:
-            del self._people[next(iter(self._people))]
-        return person
-
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
         role = opened.role
-        person = self._person_at(opened)
+        person = self._people.person_at(opened)
         self._sessions[number] = PageSession(number, opened, person, self._shared)
         simulation, settings = self._simulation, self._simulation.settings
         drawing = self._control.drawing_settings
@@ -345,5 +288,4 @@ class Sketchpad:
         if self._frame is not None:
             frame = replace(self._frame, answers=())
             self._server.show(frame, self._timeline.ghost(frame.snapshot))
-        # Sent to all again.
-        self._sent_class = {}
+        self._people.forget_taken()

@@ -109,10 +109,10 @@ class Robot:
     def _now(self) -> tuple[RobotTopics, StampedFrame, int]:
         """Return its topics, the last frame, and the row of its body in the scene."""
         fleet = self._node.fleet
-        if fleet.sensed is None or self.name not in fleet.robots:
+        if fleet.sensed is None or self.name not in fleet.scene_robots.topics:
             raise UnknownName(f'there is no robot {self.name!r}')
         row = fleet.sensed.snapshot.scene.row_of[self.name]
-        return fleet.robots[self.name], fleet.sensed, row
+        return fleet.scene_robots.topics[self.name], fleet.sensed, row
 
     def _first(self, kind: str) -> str:
         topics, _, _ = self._now()

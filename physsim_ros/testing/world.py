@@ -16,7 +16,7 @@ from geometry_msgs.msg import PointStamped
 from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
-from physsim_ros.ros.robots.fleet import MATCH_PERIOD
+from physsim_ros.ros.robots.commands import MATCH_PERIOD
 from physsim_ros.runtime.slices import finish
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
 from physsim_ros.testing.context import own_context
@@ -118,7 +118,7 @@ class PhysSim(ObservedWorld):
         :param name: of its body
         :raises UnknownName: there is no such robot
         """
-        index_of(name, (*self.node.fleet.robots,), 'robot')
+        index_of(name, (*self.node.fleet.scene_robots.topics,), 'robot')
         return Robot(self.node, name)
 
     def anchor(self, point: PointStamped | tuple[float, float]) -> str:
@@ -290,7 +290,7 @@ class PhysSim(ObservedWorld):
         __tracebackhide__ = True
 
         def is_true() -> object:
-            self.node.fleet.match_publishers()
+            self.node.fleet.scene_robots.match_publishers()
             self.node.loop.apply_requests()
             return predicate()
 
@@ -337,12 +337,12 @@ class PhysSim(ObservedWorld):
     def _match_publishers(self) -> None:
         """Connect robots with the publishers of their commands, as the node does by the clock."""
         self._frames_to_match = self._frames(MATCH_PERIOD)
-        if self.node.fleet.match_publishers():
+        if self.node.fleet.scene_robots.match_publishers():
             self.settle()
 
     def _match_new_publishers(self) -> None:
         """Connect robots whose number of publishers has changed, which costs little."""
-        if self.node.fleet.match_new_publishers():
+        if self.node.fleet.scene_robots.match_new_publishers():
             self.settle()
 
     # Recording
@@ -367,7 +367,7 @@ class PhysSim(ObservedWorld):
         """
         simulation = self.node.simulation
         status = simulation.status
-        for robot in self.node.fleet.robots.values():
+        for robot in self.node.fleet.scene_robots.topics.values():
             # The last command came too late for the test, and would be refused in the past.
             for commands in robot.command_topics:
                 with suppress(Refusal):

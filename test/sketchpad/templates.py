@@ -67,11 +67,13 @@ class Made(NamedTuple):
 
     :ivar place: of the call: file and line
     :ivar values: names of those that it gives
+    :ivar words: values that are literals, and literal parts of others
     """
 
     place: str
     template: str
     values: frozenset[str]
+    words: tuple[str, ...] = ()
 
 
 def made_texts() -> Iterator[Made]:
@@ -85,16 +87,17 @@ def made_texts() -> Iterator[Made]:
         for call, function in _calls(tree):
             place, kind = f'{name}:{call.lineno}', call.func.id
             given = {each.arg or '**' for each in call.keywords} - _OWN
+            words = tuple(word for each in call.keywords for word in _words(each))
             if kind == 'counted':
                 for number in (1, 2):
                     text = counted(number, ast.literal_eval(call.args[1]))
                     yield Made(place, text.template, frozenset(text.values))
             elif kind == 'Text' or (kind == 'must_be' and not _is_text(call.args[0])):
                 for template in _templates(call.args[0], function, tree, place):
-                    yield Made(place, template, frozenset(given))
+                    yield Made(place, template, frozenset(given), words)
             elif kind in _REFUSALS and is_met and not _is_text(call.args[0]):
                 for template in _templates(call.args[0], function, tree, place):
-                    yield Made(place, template, frozenset(given | {'field'}))
+                    yield Made(place, template, frozenset(given | {'field'}), words)
 
 
 def server_texts() -> dict[str, set[str]]:
@@ -122,6 +125,19 @@ def _calls(tree: ast.AST) -> Iterator[tuple[Any, ast.AST]]:
                     within += ast.iter_child_nodes(each)
                 if isinstance(each, ast.Call) and isinstance(each.func, ast.Name) and each.args:
                     yield each, function
+
+
+def _words(given: ast.keyword) -> Iterator[str]:
+    """Yield the literals that a value is, or may be, made of: not those that it is asked with."""
+    ahead: list[ast.AST] = [] if given.arg in _OWN | {'field'} else [given.value]
+    while ahead:
+        each = ahead.pop()
+        if isinstance(each, ast.Constant) and isinstance(each.value, str):
+            yield each.value
+        elif isinstance(each, ast.IfExp):
+            ahead += each.body, each.orelse
+        elif isinstance(each, ast.JoinedStr | ast.BoolOp):
+            ahead += each.values
 
 
 def _is_text(value: ast.expr) -> bool:

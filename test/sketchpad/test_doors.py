@@ -14,9 +14,10 @@ from physsim_ros.simulation import applier
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import autosave, message, Role, sketchpad, world_control
 from physsim_ros.sketchpad.autosave import Autosave
+from physsim_ros.sketchpad.body_pasts import BodyPasts
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.page_session import PageSession
-from physsim_ros.sketchpad.past import BodyPasts
+from physsim_ros.sketchpad.people import People
 from physsim_ros.sketchpad.server import gallery, world_handlers
 from physsim_ros.sketchpad.server.frame_feed import FrameFeed
 from physsim_ros.sketchpad.server.open_pages import OpenPages
@@ -155,7 +156,7 @@ def test_a_file_of_the_list_of_worlds(doors: PageDoors) -> None:
         (TimelineReport, 'take_status'),
         (BodyPasts, 'send_due'),
         (sketchpad.Sketchpad, '_open'),
-        (sketchpad.Sketchpad, '_send_class'),
+        (People, 'take_list'),
         (Server, '_show'),
         (FrameFeed, 'send_frame'),
         (OpenPages, 'move_cursor'),

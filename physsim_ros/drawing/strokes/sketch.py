@@ -9,7 +9,7 @@ Law: a sketch is a value. It changes nothing, and refuses before it returns anot
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from physsim_ros.drawing.settings import DrawingSettings
@@ -18,7 +18,7 @@ from physsim_ros.drawing.strokes.figure import Figure
 from physsim_ros.drawing.strokes.grouping import grouped, MOST_STROKES
 from physsim_ros.drawing.strokes.marks import marked_solid
 from physsim_ros.drawing.strokes.stages import MeaningKind, Reading
-from physsim_ros.drawing.strokes.waiting import readings_over
+from physsim_ros.drawing.strokes.waiting import Over, readings_over
 from physsim_ros.drawing.strokes.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.translation import Text
 
@@ -69,18 +69,14 @@ class Sketch:
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
         requests = requests_with_waiting_joints(reading.requests, figure.scene, settings.snap)
         figure = replace(figure, chosen=number, requests=requests)
-        message, also, mark = reading.message, [], self.mark
-        for (stroke, *_), over in readings_over(figure, earlier, settings):
-            requests += over.requests
-            message = Text('{first}; {then}', first=message, then=over.message)
-            also.append(over.meaning)
-            if over.meaning is MeaningKind.MARK:
-                mark = replace(stroke, requests=(), gestures=())
-            elif over.meaning is MeaningKind.VELOCITY:
-                figure = figure.with_gravity()
-                reading = replace(reading, guesses=figure.guesses)
-        reading = replace(reading, requests=requests, message=message, also=tuple(also))
-        figures = *earlier, replace(figure, requests=requests)
+        again = list(readings_over(figure, earlier, settings))
+        reading = _with_earlier(replace(reading, requests=requests), again)
+        if any(over.meaning is MeaningKind.VELOCITY for _, over in again):
+            figure = figure.with_gravity()
+            reading = replace(reading, guesses=figure.guesses)
+        figures = *earlier, replace(figure, requests=reading.requests)
+        marks = [lines[0] for lines, over in again if over.meaning is MeaningKind.MARK]
+        mark = replace(marks[-1], requests=(), gestures=()) if marks else self.mark
         return Sketch(figures=figures, mark=mark), reading
 
     def other_guesses(self, meaning: str = '') -> list[int]:
@@ -98,3 +94,15 @@ class Sketch:
         """Return the sketch with the number of the gesture that its last figure became."""
         *earlier, last = self.figures
         return replace(self, figures=(*earlier, replace(last, gestures=(gesture,))))
+
+
+def _with_earlier(reading: Reading, again: Sequence[Over]) -> Reading:
+    """Return a reading with what earlier figures are over its new body, read again."""
+    for _, over in again:
+        reading = replace(
+            reading,
+            requests=reading.requests + over.requests,
+            message=Text('{first}; {then}', first=reading.message, then=over.message),
+            also=(*reading.also, over.meaning),
+        )
+    return reading

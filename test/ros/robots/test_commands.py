@@ -233,7 +233,7 @@ def test_publishers_of_both_types_have_longer_and_longer_to_find_a_subscription(
 ) -> None:
     robot = flat.robot('turtlebot3_burger')
     flat.step()
-    topic = flat.node.fleet.robots[robot.name].drive_topic
+    topic = flat.node.fleet.scene_robots.topics[robot.name].drive_topic
     publishers = [
         TopicEndpointInfo(
             topic_type=f'geometry_msgs/msg/{name}', endpoint_gid=[number], qos_profile=LOSSLESS

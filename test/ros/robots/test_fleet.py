@@ -143,7 +143,7 @@ def test_topics_go_with_the_robot_and_come_back_with_undo(flat: PhysSim, client:
     client.spin_until(lambda: node.count_publishers('/robot_0/scan'))
     flat.spawn(delete('robot/0'))
     client.spin_until(lambda: not node.count_publishers('/robot_0/scan'))
-    assert not flat.node.fleet.robots
+    assert not flat.node.fleet.scene_robots.topics
     flat.node.simulation.undo()
     flat.node.loop.apply_requests()
     client.spin_until(lambda: node.count_publishers('/robot_0/scan'))
@@ -276,7 +276,7 @@ def test_topics_of_many_robots_are_made_and_taken_back_tick_by_tick(
         while not counts or counts[-1] != count:
             step = node.simulation.step
             node.tick(time.monotonic_ns())
-            counts.append(len(node.fleet.robots))
+            counts.append(len(node.fleet.scene_robots.topics))
             # Time waits.
             assert counts[-1] in (0, 5) or node.simulation.step == step
         return counts
@@ -287,7 +287,7 @@ def test_topics_of_many_robots_are_made_and_taken_back_tick_by_tick(
     # Who asks for a frame gets it with all topics.
     node.simulation.undo()
     flat.step()
-    assert [*node.fleet.robots] == [f'robot/{number}' for number in range(5)]
+    assert [*node.fleet.scene_robots.topics] == [f'robot/{number}' for number in range(5)]
 
 
 def test_topics_that_cannot_be_taken_back_leave_the_other_robots_theirs(flat: PhysSim) -> None:
@@ -296,8 +296,8 @@ def test_topics_that_cannot_be_taken_back_leave_the_other_robots_theirs(flat: Ph
 
     for name in ('a/0', 'b/0'):
         flat.robot('turtlebot3_burger', name=name)
-    flat.node.fleet.robots['a/0'].close = fail
+    flat.node.fleet.scene_robots.topics['a/0'].close = fail
     with pytest.raises(RuntimeError, match='topics of old'):
         flat.spawn(Marker(action=Marker.DELETEALL))
     flat.step()
-    assert not flat.node.fleet.robots
+    assert not flat.node.fleet.scene_robots.topics

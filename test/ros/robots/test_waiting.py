@@ -24,7 +24,7 @@ def test_a_scan_after_a_rewind_waits_for_an_answer_of_its_own(flat: PhysSim) -> 
     flat.robot('turtlebot3_burger')
     driver = driver_of(flat, looks=True, kind=TwistStamped)
     flat.run(2.0)
-    commands = flat.node.fleet.robots['robot/0'].drive_topic
+    commands = flat.node.fleet.scene_robots.topics['robot/0'].drive_topic
     assert len(driver.scans) > 5
     assert commands.awaited is None
     driver.hear = lambda _: None  # type: ignore[method-assign] # it hears, and does not answer
@@ -42,7 +42,7 @@ def test_a_scan_with_a_latency_is_answered_by_the_stamp_of_its_measurement(flat:
     driver = driver_of(flat, looks=True, kind=TwistStamped)
     flat.run(2.0)
     assert len(driver.scans) > 5
-    assert flat.node.fleet.robots['robot/0'].drive_topic.awaited is None
+    assert flat.node.fleet.scene_robots.topics['robot/0'].drive_topic.awaited is None
 
 
 def test_of_several_lasers_the_first_one_that_is_heard_is_answered(
@@ -51,7 +51,7 @@ def test_of_several_lasers_the_first_one_that_is_heard_is_answered(
     lasers = [{'kind': 'laser', 'name': name, 'beams': 4} for name in ('front', 'rear')]
     flat.robot({'from': 'turtlebot3_burger', 'sensors': lasers})
     flat.add(Driver(flat.context, kind=TwistStamped, looks=False))
-    commands = flat.node.fleet.robots['robot/0'].drive_topic
+    commands = flat.node.fleet.scene_robots.topics['robot/0'].drive_topic
     rear = client.listen(LaserScan, '/robot_0/rear')
     flat.run(0.5)
     assert commands.awaited == stamp_of(rear[-1])
