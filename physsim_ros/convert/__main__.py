@@ -11,7 +11,7 @@ from pathlib import Path
 import sys
 
 from physsim_ros.convert import flatland, irsim, rube, tiled
-from physsim_ros.convert.content import Content, parsed
+from physsim_ros.convert.content import BadContent, Content, parsed
 from physsim_ros.convert.conversion import Conversion
 from physsim_ros.files import (
     advice_on_xml,
@@ -45,13 +45,13 @@ def convert(source: Path) -> Conversion:
     content = Content(value if isinstance(value, Mapping) else {})
     kind = content.kind
     if kind not in _CONVERTERS:
-        raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
+        raise BadContent(f'{source.name} is no world of {", ".join(CONVERTED)}')
     try:
         conversion = _CONVERTERS[kind](content, source.parent)
     except Refusal as refusal:
-        raise Refusal(f'{source.name} is no valid world of {kind}: {refusal}') from refusal
+        raise BadContent(f'{source.name} is no valid world of {kind}: {refusal}') from refusal
     except RecursionError:
-        raise Refusal(
+        raise BadContent(
             f'{source.name} is no valid world of {kind}: it is nested too deep'
         ) from None
     for place in content.unread():

@@ -30,7 +30,10 @@ _WHOLE = Whole(-(2**31), 2**31 - 1)
 
 
 class BadContent(Refusal):
-    """A value of a file of another program is missing, or of a wrong kind."""
+    """A value of a file of another program is missing, or of a wrong kind; no page tells it."""
+
+    def __init__(self, message: str) -> None:
+        super().__init__('{message}', message=message)
 
 
 class _Reads:

@@ -219,7 +219,7 @@ def test_one_stroke_cuts_all_bodies_on_its_way_but_robots_and_actors():
     assert simulation.status.undo == 'undo cut several bodies'
     with pytest.raises(NothingThere, match='which no knife cuts') as refused:
         cut(simulation, (2.0, 1.0), (2.0, -1.0))
-    assert refused.value.body == 'a/1'
+    assert refused.value.concerns == 'a/1'
 
 
 def test_parts_of_a_robot_and_joints_of_its_own_are_not_cut():
@@ -238,7 +238,7 @@ def test_parts_of_a_robot_and_joints_of_its_own_are_not_cut():
     with pytest.raises(NothingThere):
         cut(simulation, (0.4, 1.0), (0.4, -1.0))
 
-    assert refused.value.body == 'r/0/hand/0'
+    assert refused.value.concerns == 'r/0/hand/0'
     assert simulation.world.scene == before
 
 
@@ -388,7 +388,7 @@ def test_a_piece_that_would_be_too_thin_is_refused():
     simulation = world_of(BOX)
     with pytest.raises(BadSize, match='too thin') as refused:
         cut_within(simulation, (-2.0, 0.4999), (2.0, 0.4999))
-    assert (refused.value.field, refused.value.body) == ('point', 'a/0')
+    assert (refused.value.field, refused.value.concerns) == ('point', 'a/0')
 
 
 @pytest.mark.parametrize('most', ['max_bodies', 'max_shapes', 'max_overlaps'])

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from operator import attrgetter
 from pathlib import Path
 from string import Formatter
 from typing import Any, NamedTuple
@@ -68,16 +69,18 @@ class Made(NamedTuple):
     :ivar place: of the call: file and line
     :ivar values: names of those that it gives
     :ivar words: values that are literals, and literal parts of others
+    :ivar is_met: whether a page can meet it
     """
 
     place: str
     template: str
     values: frozenset[str]
     words: tuple[str, ...] = ()
+    is_met: bool = True
 
 
 def made_texts() -> Iterator[Made]:
-    """Yield the templates of all texts of the package, and of refusals that pages meet."""
+    """Yield the templates of all texts and refusals of the package."""
     for path in _FILES:
         tree = ast.parse(path.read_text(encoding='utf-8'))
         name = str(path.relative_to(_PACKAGE))
@@ -95,15 +98,15 @@ def made_texts() -> Iterator[Made]:
             elif kind == 'Text' or (kind == 'must_be' and not _is_text(call.args[0])):
                 for template in _templates(call.args[0], function, tree, place):
                     yield Made(place, template, frozenset(given), words)
-            elif kind in _REFUSALS and is_met and not _is_text(call.args[0]):
+            elif kind in _REFUSALS and not _is_text(call.args[0]):
                 for template in _templates(call.args[0], function, tree, place):
-                    yield Made(place, template, frozenset(given | {'field'}), words)
+                    yield Made(place, template, frozenset(given | {'field'}), words, is_met)
 
 
 def server_texts() -> dict[str, set[str]]:
     """Return the templates of all texts that pages translate, with the names of their values."""
     texts: dict[str, set[str]] = {str(meaning): set() for meaning in MeaningKind}
-    for each in made_texts():
+    for each in filter(attrgetter('is_met'), made_texts()):
         texts.setdefault(each.template, set()).update(each.values | places_in(each.template))
     del texts['']
     return texts

@@ -173,7 +173,7 @@ def _form_of_outline(points: tuple[Point, ...]) -> Form:
         looped = unsigned_fan_area(outline) > least and crosses_itself(outline)
         if looped:
             raise BadOutline('the outline crosses or touches itself', field='points')
-        raise BadOutline('an outline encloses no area', field='points')
+        raise BadOutline('the outline encloses no area', field='points')
     pieces = convex_pieces(outline)
     # Mass and extent are those of the outline, slivers included.
     whole = Convex(as_tuples(outline))

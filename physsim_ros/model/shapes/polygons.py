@@ -91,7 +91,7 @@ def convex_piece(vertices: Floats) -> Convex:
     edges = next_vertices(vertices) - vertices
     longest = float(np.hypot(edges[:, 0], edges[:, 1]).max())
     if signed_area(vertices) <= longest * DEGENERATE:
-        raise BadOutline('an outline encloses no area', field='points')
+        raise BadOutline('the outline encloses no area', field='points')
     if 2 * half_width(piece) < SMALLEST:
         raise BadSize('a part is thinner than {least:g} m', field='points', least=SMALLEST)
     return piece
