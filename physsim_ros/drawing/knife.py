@@ -100,12 +100,8 @@ def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shap
     try:
         pieces = cut_shape(shape, scene.local(name, start), scene.local(name, end))
     except (BadOutline, BadSize) as error:
-        raise BadSize(
-            'a piece of {body} would be too thin to be simulated',
-            field='point',
-            body=name,
-            concerns=name,
-        ) from error
+        template = 'a piece of {body} would be too thin to be simulated'
+        raise BadSize(template, field='point', body=name, concerns=name) from error
     return [] if pieces == [shape] else pieces
 
 

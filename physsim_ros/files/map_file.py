@@ -115,11 +115,8 @@ def _file_in(folder: Path, name: object, field: str, *, root: Path | None = None
             '{field} {value} is not a path', field=field, value=shown(name)
         ) from error
     if not path.is_relative_to(root or folder):
-        raise BadProperty(
-            '{field} {value} is neither beside the world file nor below it',
-            field=field,
-            value=shown(name),
-        )
+        template = '{field} {value} is neither beside the world file nor below it'
+        raise BadProperty(template, field=field, value=shown(name))
     return path
 
 

@@ -78,11 +78,8 @@ def rectangles_of(occupied: Flags, most: int) -> Ints:
 
 def _check_count(count: int, most: int) -> None:
     if count > most:
-        raise WorldFull(
-            'the map has {count} rectangles or more; at most {most} are allowed',
-            count=count,
-            most=most,
-        )
+        template = 'the map has {count} rectangles or more; at most {most} are allowed'
+        raise WorldFull(template, count=count, most=most)
 
 
 def _chords(edges: Flags, reflex: Flags) -> _Chords:

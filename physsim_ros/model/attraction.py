@@ -36,8 +36,5 @@ def check_attraction(bodies: Iterable[Body], settings: WorldSettings) -> None:
         return
     count = sum(attracts(body, settings) for body in bodies)
     if count > MOST_ATTRACTING:
-        raise WorldFull(
-            '{count} bodies would attract each other; at most {most} can',
-            count=count,
-            most=MOST_ATTRACTING,
-        )
+        template = '{count} bodies would attract each other; at most {most} can'
+        raise WorldFull(template, count=count, most=MOST_ATTRACTING)

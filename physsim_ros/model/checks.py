@@ -237,12 +237,8 @@ class ListOf:
         if not isinstance(value, list | tuple):
             raise must_be(Text('a list of {noun}', noun=Text(self.noun)), value, name)
         if len(value) > self.most:
-            raise BadProperty(
-                '{field} has more than {most} {noun}',
-                field=name,
-                most=self.most,
-                noun=Text(self.noun),
-            )
+            template = '{field} has more than {most} {noun}'
+            raise BadProperty(template, field=name, most=self.most, noun=Text(self.noun))
         return tuple(self.check(each, name) for each in value)
 
 
@@ -396,12 +392,8 @@ def check_finite(values: Any, count: int, name: str) -> tuple[float, ...]:
     except (TypeError, OverflowError):
         row, finite = (), False
     if len(row) != count:
-        raise Malformed(
-            '{field} needs {count} numbers, not {value}',
-            field=name,
-            count=count,
-            value=shown(values),
-        )
+        template = '{field} needs {count} numbers, not {value}'
+        raise Malformed(template, field=name, count=count, value=shown(values))
     if not finite:
         raise Malformed('{field} is not finite', field=name)
     return tuple(map(float, row))

@@ -282,12 +282,8 @@ def no_body(name: str, known: Iterable[str], field: str) -> UnknownBody:
 
 def no_joint(name: str, known: Iterable[str], field: str) -> UnknownJoint:
     """Return the refusal of the name of no joint; parameters as for `no_body`."""
-    return UnknownJoint(
-        'there is no joint {joint!r}{near}',
-        field=field,
-        joint=name,
-        near=nearest_name(name, known),
-    )
+    template = 'there is no joint {joint!r}{near}'
+    return UnknownJoint(template, field=field, joint=name, near=nearest_name(name, known))
 
 
 def no_frame(frame: str, known: Iterable[str]) -> UnknownFrame:

@@ -37,12 +37,8 @@ def delays(value: object, name: str) -> Point:
         value = (value, value)
     low, high = Numbers((_DELAY, _DELAY))(value, name)
     if low > high:
-        raise BadProperty(
-            '{field} is [{low:g}, {high:g}]; the least time is first',
-            field=name,
-            low=low,
-            high=high,
-        )
+        template = '{field} is [{low:g}, {high:g}]; the least time is first'
+        raise BadProperty(template, field=name, low=low, high=high)
     return low, high
 
 

@@ -40,11 +40,8 @@ def check_name(value: object, field: str = 'name') -> str:
     name = text(value, field)
     namespace, id_ = split_name(name)
     if not namespace:
-        raise Malformed(
-            '{name!r} is not a name: <namespace>/<id>, the id a whole number',
-            field=field,
-            name=name,
-        )
+        template = '{name!r} is not a name: <namespace>/<id>, the id a whole number'
+        raise Malformed(template, field=field, name=name)
     if len(name) > LONGEST_NAME:
         raise Malformed(
             'a name has at most {most} characters', field=field, most=str(LONGEST_NAME)
@@ -69,12 +66,8 @@ def check_body_name(value: object, field: str = 'name') -> str:
     if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS, HANDS)):
         raise Malformed('{name!r} is no body in the picture', field=field, name=name)
     if PAIR_SEPARATOR in name:
-        raise Malformed(
-            '{name!r} holds a {most}, which separates the names of a contact',
-            field=field,
-            name=name,
-            most=PAIR_SEPARATOR,
-        )
+        template = '{name!r} holds a {most}, which separates the names of a contact'
+        raise Malformed(template, field=field, name=name, most=PAIR_SEPARATOR)
     return name
 
 

@@ -64,12 +64,8 @@ def yaw_of(rotation: Quaternion, field: str) -> float:
     roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
     pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
     if max(abs(roll), abs(pitch)) > MOST_TILT:
-        raise NotPlanar(
-            '{field} has roll {roll:.3g} and pitch {pitch:.3g} rad; the world is a plane',
-            field=field,
-            roll=roll,
-            pitch=pitch,
-        )
+        template = '{field} has roll {roll:.3g} and pitch {pitch:.3g} rad; the world is a plane'
+        raise NotPlanar(template, field=field, roll=roll, pitch=pitch)
     return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 

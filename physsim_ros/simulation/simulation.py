@@ -266,11 +266,8 @@ class Simulation:
         seconds = number(seconds, 'seconds')
         periods = seconds * self.physics_rate / self.frame_steps
         if not 0.0 <= periods < math.inf:
-            raise BadProperty(
-                'seconds must be finite and >= 0, not {seconds:g}',
-                field='seconds',
-                seconds=seconds,
-            )
+            template = 'seconds must be finite and >= 0, not {seconds:g}'
+            raise BadProperty(template, field='seconds', seconds=seconds)
         self.ticks.run(round(periods))
 
     def advance(self, now_ns: int, limits: TickLimits = NO_LIMITS) -> tuple[Frame, ...]:

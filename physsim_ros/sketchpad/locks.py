@@ -42,12 +42,8 @@ class Locks:
         patterns = {name for name in names if any(sign in name for sign in '*?[')}
         self._names = frozenset(names) - patterns
         if len(patterns) > MOST_PATTERNS:
-            raise BadProperty(
-                'at most {most} names have wildcards, not {count}',
-                field='names',
-                most=MOST_PATTERNS,
-                count=len(patterns),
-            )
+            template = 'at most {most} names have wildcards, not {count}'
+            raise BadProperty(template, field='names', most=MOST_PATTERNS, count=len(patterns))
         self._patterns = [re.compile(translate(pattern)) for pattern in patterns]
 
     def has(self, name: str) -> bool:

@@ -162,7 +162,7 @@ def _templates(value: ast.expr, function: ast.AST, tree: ast.AST, place: str) ->
         yield from _templates(value.orelse, function, tree, place)
     elif (source := ast.unparse(value)) in _DECLARED:
         yield from _DECLARED[source]
-    elif not place.startswith(_MAKERS):
+    else:
         given = [*_assigned(source, function)] or [
             (call.args[0], within)
             for each in ast.walk(tree)
@@ -172,7 +172,8 @@ def _templates(value: ast.expr, function: ast.AST, tree: ast.AST, place: str) ->
             for call, within in _calls(tree)
             if call.func.id == each.name
         ]
-        assert given, f'{place}: the template {source} is neither a literal nor declared here'
+        known = given or place.startswith(_MAKERS)
+        assert known, f'{place}: the template {source} is neither a literal nor declared here'
         for each, within in given:
             if isinstance(each, ast.Constant | ast.IfExp):
                 yield from _templates(each, within, tree, place)

@@ -52,11 +52,8 @@ def pen_path(samples: Floats) -> Floats:
     """
     path = clean_samples(_checked(samples))
     if size_of(path) < SMALLEST:
-        raise BadSize(
-            'the stroke is smaller than {least:g} m: a point draws nothing',
-            field='poses',
-            least=SMALLEST,
-        )
+        template = 'the stroke is smaller than {least:g} m: a point draws nothing'
+        raise BadSize(template, field='poses', least=SMALLEST)
     while _FEWEST_SAMPLES <= len(path) < COUNT // 2:
         path = _subdivided(path)
     return path

@@ -42,13 +42,8 @@ def checked_length(value: object, name: str) -> float:
     """
     length = number(value, name)
     if not SMALLEST <= length <= LARGEST:
-        raise BadSize(
-            '{field} is {value:g} m; it must lie between {low:g} and {high:g} m',
-            field=name,
-            value=length,
-            low=SMALLEST,
-            high=LARGEST,
-        )
+        template = '{field} is {value:g} m; it must lie between {low:g} and {high:g} m'
+        raise BadSize(template, field=name, value=length, low=SMALLEST, high=LARGEST)
     return length
 
 

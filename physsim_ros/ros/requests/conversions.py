@@ -240,12 +240,8 @@ def stroke_samples(path: Path) -> tuple[str, Floats, float | None]:
     :raises Malformed: there are too many samples, or they are in different frames
     """
     if len(path.poses) > MOST_SAMPLES:
-        raise Malformed(
-            'poses has at most {most} elements, not {count}',
-            field='poses',
-            most=MOST_SAMPLES,
-            count=len(path.poses),
-        )
+        template = 'poses has at most {most} elements, not {count}'
+        raise Malformed(template, field='poses', most=MOST_SAMPLES, count=len(path.poses))
     # A pose without a frame is in that of the path, and a path without one in that of its poses.
     frames = {each.header.frame_id for each in (path, *path.poses)} - {''}
     if len(frames) > 1:
@@ -276,11 +272,8 @@ def walls_requests(message: OccupancyGrid, frame_id: str) -> tuple[DeleteAll | S
     info = message.info
     frame = named_frame(message.header.frame_id, frame_id)
     if frame not in ('', 'map'):
-        raise UnknownFrame(
-            'a map is in the frame of the world, not in {frame!r}',
-            field='header.frame_id',
-            frame=frame,
-        )
+        template = 'a map is in the frame of the world, not in {frame!r}'
+        raise UnknownFrame(template, field='header.frame_id', frame=frame)
     cells = np.frombuffer(message.data, np.int8)
     if len(cells) != info.width * info.height:
         raise Malformed(

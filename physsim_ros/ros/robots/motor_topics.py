@@ -117,12 +117,8 @@ def _joint(motors: dict[str, str], name: str) -> str:
 def _of_array(mode: str, motors: dict[str, str], message: Float64MultiArray) -> list[MotorCommand]:
     """Return the commands of an array, which has a value for each motor, in their order."""
     if len(message.data) != len(motors):
-        raise Malformed(
-            'data has {count} values; the motors are {known}',
-            field='data',
-            count=len(message.data),
-            known=', '.join(motors),
-        )
+        template = 'data has {count} values; the motors are {known}'
+        raise Malformed(template, field='data', count=len(message.data), known=', '.join(motors))
     return [
         MotorCommand(joint=joint, mode=mode, points=(CommandPoint(0.0, value),))
         for joint, value in zip(motors.values(), message.data, strict=True)

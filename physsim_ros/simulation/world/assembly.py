@@ -39,11 +39,8 @@ def check_same_parts(old: Body, new: Body) -> None:
     :raises BadProperty: there is one
     """
     if _parts(old.robot) != _parts(new.robot):
-        raise BadProperty(
-            'the parts of {name} cannot be changed; delete it and spawn it again',
-            field='robot',
-            name=old.name,
-        )
+        template = 'the parts of {name} cannot be changed; delete it and spawn it again'
+        raise BadProperty(template, field='robot', name=old.name)
 
 
 def _parts(robot: Robot | None) -> tuple[object, object]:

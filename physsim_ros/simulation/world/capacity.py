@@ -238,27 +238,17 @@ def _inside(body: Body) -> int:
 
 def _check_on_body(count: int, body: str) -> None:
     if count > MOST_JOINTS_ON_BODY and body != WORLD:
-        raise WorldFull(
-            '{body} would have {count} joints; a body has at most {most}',
-            body=body,
-            count=count,
-            most=MOST_JOINTS_ON_BODY,
-        )
+        template = '{body} would have {count} joints; a body has at most {most}'
+        raise WorldFull(template, body=body, count=count, most=MOST_JOINTS_ON_BODY)
 
 
 def _check_topics(bodies: Iterable[Body]) -> None:
     count = sum(body.robot.topic_count for body in bodies if body.robot is not None)
     if count > MOST_ROBOT_TOPICS:
-        raise WorldFull(
-            'the robots would have {count} topics; there are at most {most}',
-            count=count,
-            most=MOST_ROBOT_TOPICS,
-        )
+        template = 'the robots would have {count} topics; there are at most {most}'
+        raise WorldFull(template, count=count, most=MOST_ROBOT_TOPICS)
 
 
 def _too_many(count: int, most: int) -> WorldFull:
-    return WorldFull(
-        '{count} or more pairs of pieces would overlap; max_overlaps is {most}',
-        count=count,
-        most=most,
-    )
+    template = '{count} or more pairs of pieces would overlap; max_overlaps is {most}'
+    return WorldFull(template, count=count, most=most)

@@ -42,13 +42,8 @@ def grab(live: LiveSpace, request: Grab) -> Answer:
         raise nothing_at(point, 'mouse_point')
     if not names:
         x, y = point
-        raise NothingThere(
-            'the body there cannot be moved at ({x:g}, {y:g})',
-            field='mouse_point',
-            x=x,
-            y=y,
-            concerns=under[0],
-        )
+        template = 'the body there cannot be moved at ({x:g}, {y:g})'
+        raise NothingThere(template, field='mouse_point', x=x, y=y, concerns=under[0])
     live.capacity.check_hand(request.hand)
     name = names[0]
     anchor = world_to_local(point, space.bodies.by_name[name].pose)

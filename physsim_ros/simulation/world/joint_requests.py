@@ -143,11 +143,8 @@ def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
     for name in names:
         joint = live.space.joints.by_name[name].joint
         if not joint.properties.effort:
-            raise BadProperty(
-                '{name} has no motor: an axle or a slider with the property effort has one',
-                field='joint',
-                name=name,
-            )
+            template = '{name} has no motor: an axle or a slider with the property effort has one'
+            raise BadProperty(template, field='joint', name=name)
     for command in request.commands:
         properties = live.space.joints.by_name[command.joint].joint.properties
         latency, rate = properties.latency or (0.0, 0.0), properties.command_rate or 0.0
@@ -290,11 +287,8 @@ def _check_carrier(space: Space, ends: tuple[str, str], carrier: str | None) -> 
         return
     body_of_name(space, carrier, 'carrier', others=(WORLD,))
     if carrier in ends:
-        raise BadProperty(
-            '{carrier} is a wheel of the gear, and not its carrier',
-            field='carrier',
-            carrier=carrier,
-        )
+        template = '{carrier} is a wheel of the gear, and not its carrier'
+        raise BadProperty(template, field='carrier', carrier=carrier)
 
 
 def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> None:

@@ -127,12 +127,8 @@ def _anchor_body(under: tuple[str, Point] | None, crossing: Point, context: Cont
     """Anchor a body at a point."""
     if under is None:
         x, y = crossing
-        raise NothingThere(
-            'an x anchors the body under it; there is none at ({x:.3g}, {y:.3g})',
-            field='poses',
-            x=x,
-            y=y,
-        )
+        template = 'an x anchors the body under it; there is none at ({x:.3g}, {y:.3g})'
+        raise NothingThere(template, field='poses', x=x, y=y)
     name, point = under
     return Outcome(
         requests=(Anchor(point=point),),

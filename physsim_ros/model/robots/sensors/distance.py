@@ -123,12 +123,8 @@ class RangeFinder(Sensor):
         # `super()` without arguments has no class there: a dataclass with slots is made anew.
         Sensor.__post_init__(self)
         if 0.0 < self.cone < LEAST_INCREMENT * (self.rays - 1):
-            raise BadProperty(
-                '{rays} rays in a cone of {cone:g} rad are too close',
-                field='cone',
-                rays=self.rays,
-                cone=self.cone,
-            )
+            template = '{rays} rays in a cone of {cone:g} rad are too close'
+            raise BadProperty(template, field='cone', rays=self.rays, cone=self.cone)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
