@@ -23,7 +23,7 @@ from physsim_ros.simulation import hands
 from physsim_ros.simulation.entries import Wait
 from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import page_session, past, Role
+from physsim_ros.sketchpad import body_pasts, page_session, past_contacts, Role
 from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.message import KINDS, Message
 from physsim_ros.sketchpad.messages import worlds
@@ -511,14 +511,14 @@ def test_the_force_of_a_rope_in_a_past_is_its_tension_along_each_strand(
     simulation.reports_contacts = True
     frames = [simulation.advance_frame() for _ in range(60)]
     cached = [CachedFrame(frame.snapshot, frame.contacts) for frame in frames]
-    told = past.past_forces(cached, over, 240.0)
+    told = past_contacts.past_forces(cached, over, 240.0)
     assert told['joint'][-1] == pytest.approx((0.0, 3.0 * 9.81), abs=0.05)
 
 
 def test_pasts_are_told_one_after_the_other_of_each_page_the_last_that_it_asked_for(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(past, 'PAST_PERIOD', 2.0 * PATIENCE)
+    monkeypatch.setattr(body_pasts, 'PAST_PERIOD', 2.0 * PATIENCE)
     page, other = browser.open_page(), browser.open_page('/ws?view')
     sketchpad = browser.physsim.node.outputs.sketchpad
 

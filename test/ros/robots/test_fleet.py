@@ -13,7 +13,7 @@ from nav_msgs.msg import Odometry
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.ros import frame_loop
 from physsim_ros.ros.node_without_qos_events import NodeWithoutQosEvents
-from physsim_ros.ros.robots import fleet
+from physsim_ros.ros.robots import scene_robots
 from physsim_ros.testing import box, delete, PhysSim
 import pytest
 from rosgraph_msgs.msg import Clock
@@ -262,7 +262,7 @@ def test_topics_of_many_robots_are_made_and_taken_back_tick_by_tick(
 ) -> None:
     # Those of 200 robots stopped the world for a second, and those of none for half a second.
     node = flat.node
-    monkeypatch.setattr(fleet, '_MOST_UPDATE_NS', 0)
+    monkeypatch.setattr(scene_robots, '_MOST_UPDATE_NS', 0)
     monkeypatch.setattr(frame_loop, 'MOST_TICK_NS', 0)
     node.start()
     drive = {'drive': {'kind': 'omni'}}
