@@ -29,7 +29,7 @@ from physsim_ros.model.requests import (
     MoveHand,
     Request,
 )
-from physsim_ros.model.translation import Text
+from physsim_ros.model.translation import NOTHING, Text
 from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.arrival import Arrival
 from physsim_ros.simulation.calls_under_way import CallsUnderWay
@@ -254,7 +254,7 @@ class Applier:
 
     # Other moments
 
-    def seek(self, stamp: int) -> str:
+    def seek(self, stamp: int) -> Text:
         """
         Go to a simulation time [ns], before the entries that wait; return a message about it.
 
@@ -315,12 +315,12 @@ class Applier:
             result = Answer.refused(result, topic=topic, subject=entry.subject, field=field)
         self._answers.append(replace(result, topic=topic, asker=asker))
 
-    def _answer_call(self, call: Call, answers: Sequence[Answer], _: str = '') -> None:
+    def _answer_call(self, call: Call, answers: Sequence[Answer], _: Text = NOTHING) -> None:
         """Collect the answers to a call, which is done, be its moment reached or superseded."""
         self._answers += answers
         call.on_told()
 
-    def _answer_seek(self, origin: Origin, message: str, superseded: str) -> None:
+    def _answer_seek(self, origin: Origin, message: Text, superseded: Text) -> None:
         """Collect the answer to a seek."""
         told = superseded or message
         self._answers.append(Answer(topic=origin.topic, message=told, asker=origin.asker))

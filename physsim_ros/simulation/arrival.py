@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from physsim_ros.model.translation import Text
+from physsim_ros.model.translation import NOTHING, Text
 from physsim_ros.simulation.playback import Playback
 
 
@@ -24,9 +24,9 @@ class Arrival:
 
     def __init__(self, playback: Playback) -> None:
         self._playback = playback
-        self._tell: Callable[[str], object] | None = None
+        self._tell: Callable[[Text], object] | None = None
 
-    def expect(self, tell: Callable[[str], object]) -> None:
+    def expect(self, tell: Callable[[Text], object]) -> None:
         """
         Have an answer wait.
 
@@ -47,7 +47,7 @@ class Arrival:
         """
         self._end(Text('superseded by a {by} to {time}', by=by, time=self._playback.time))
 
-    def _end(self, superseded: str = '') -> None:
+    def _end(self, superseded: Text = NOTHING) -> None:
         tell, self._tell = self._tell, None
         if tell is not None:
             tell(superseded)

@@ -157,13 +157,8 @@ class RequestQueue:
         """Return a refusal if as many requests of a size together [bytes] exceed the limits."""
         if len(self) + count <= MOST_WAITING and self._size + size <= MOST_BYTES:
             return None
-        return Busy(
-            Text(
-                '{waiting} requests wait; {more} more were too many',
-                waiting=str(len(self)),
-                more=str(count),
-            )
-        )
+        template = '{waiting} requests wait; {more} more were too many'
+        return Busy(template, waiting=str(len(self)), more=str(count))
 
     def _add(self, entry: Entry) -> None:
         """Add a request or a call; what came before it is replaced no more."""
@@ -181,7 +176,8 @@ class RequestQueue:
         if self._untold > 1:
             self._entries.pop()
         if self._untold:
-            entry.request = Busy(f'{self._untold} more answers are not told, too many wait')
+            template = '{untold} more answers are not told, too many wait'
+            entry.request = Busy(template, untold=self._untold)
         self._entries.append(entry)
 
     # Taking
