@@ -163,6 +163,7 @@ class Space:
         check_columns(body, self._settings, self.dt)
         wakes = old.body.wakes(body)
         if wakes < Wakes.TOUCHING:
+            is_pushed = twist != self.twist_of(old)
             if wakes is Wakes.ITSELF:
                 wake_bodies([old.pm_body])
             self.tables.drop()
@@ -172,11 +173,11 @@ class Space:
             self.commands.drop_without_drive(body)
             if pose != old.pose:
                 self.set_poses([(old, pose)])
-            if twist != self.twist_of(old):
+            if is_pushed:
                 self.set_twist(old, twist)
             return
         rigid = build_body(body)
-        # Its contacts continue: they do not begin anew.
+        # Reports of contacts take it for the same body: its contacts do not begin anew.
         rigid.row = old.row
         pose = self.joints.with_turns(old, pose)
         touching = self.bodies.touching(old.pm_body)

@@ -48,7 +48,7 @@ class Wakes(IntEnum):
 
     NOBODY = 0
     ITSELF = 1
-    # The body and what touches it: their contacts begin anew.
+    # The body and what touches it: Pymunk forgets their contacts, and finds them again.
     TOUCHING = 2
 
 

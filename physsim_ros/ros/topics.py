@@ -26,8 +26,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 # Of services, whose calls wait to be read: 50 clients with 20 calls each.
 CALLS = QoSProfile(depth=1000)
 
-
-# Reports that a topic cannot be, or a publisher on it is ignored.
+# Takes a refusal and its topic: there cannot be such a topic, or a publisher on it is ignored.
 Refuse = Callable[[Refusal, str], None]
 
 

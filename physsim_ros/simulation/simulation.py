@@ -452,10 +452,7 @@ class Simulation:
         :param ahead: the beginning of the state, which any thread makes
         :raises BadProperty: the seed is out of range
         """
-        past = self._past_now()
-        if ahead is not None:
-            past.keep_built(ahead)
-        done = past.reset(seed)
+        done = self._past_now().reset(seed, ahead)
         self._show_beginning()
         return Text('back at the beginning, time 0' if done else 'at the beginning, time 0')
 

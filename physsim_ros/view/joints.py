@@ -45,7 +45,7 @@ class Joints:
         self._glyphs: JointGlyphs | None = None
         self._groups: list[MeshGroup] = []
         self._unit = 0.0
-        # EntityPath and mesh of each symbol of the scene, for one unit of the view.
+        # Path and mesh of each symbol of the scene, for one unit of the view.
         self._meshes: dict[Symbol, tuple[EntityPath, Mesh]] = {}
         self._numbers = count()
         self._filled: set[str] = set()

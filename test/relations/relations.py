@@ -363,7 +363,7 @@ RELATIONS = {
         applies=_has_plain,
     ),
     'gram pinned': Relation(
-        law='a thousandth of its mass, taken from a body and pinned to its middle, changes little',
+        law='a thousandth of a body, pinned to its middle, does as a slack rope or changes little',
         other=_changed(partial(changes.pinned, share=1e-3)),
         plain=(film, TIED),
         tolerance=3e-3,
@@ -378,7 +378,7 @@ RELATIONS = {
         applies=_has_plain,
     ),
     'damper of nothing': Relation(
-        law='a damper of a billionth of a newton second a metre and kilogram does as a slack rope',
+        law='a damper of 1e-9 N s/m and kilogram does as a slack rope or nothing',
         other=_changed(
             partial(
                 changes.tied,

@@ -1,7 +1,8 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Applied forces: constant forces at points of bodies, in a fixed direction or turning with the body.
+// Applied forces: constant forces at points of bodies, in a fixed direction or turning with the body; and the wrenches
+// of commands, which end.
 //
 // Problem: the torque of a force at an arm, and the direction of a thruster, depend on the pose of the body. With the
 // pose at which a sub-step begins, the velocity gained is that of a moment too early: a swinging body gains energy.
@@ -10,7 +11,7 @@
 // acceleration, is that of the pose that it has now.
 //
 // Cost: 15 ns a force and sub-step.
-// Without it thrusters and ropes cannot be put on bodies.
+// Without it thrusters and wrenches push nothing.
 
 #include "stages.h"
 

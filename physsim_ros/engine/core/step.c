@@ -149,7 +149,7 @@ static const Stage sub_step_stages[] = {
     {keep_awake, 0},                         // idle times
     {remove_closing_impulses, STAGE_JOINTS}, // impulses that the next sub-step starts from
     {remove_impact_impulses, STAGE_LOADS},   // the same
-    {begin_sleepers, 0},                     // the same, of bodies that have fallen asleep
+    {begin_sleepers, 0},                     // the same, poses and idle times of bodies that have fallen asleep
     {NULL, 0},
 };
 

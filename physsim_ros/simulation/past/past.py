@@ -302,11 +302,12 @@ class Past:
         """Have the cursor's world, when it next begins with the state of a beginning, use that."""
         self._worlds[0].keep_built(beginning)
 
-    def reset(self, seed: int | None = None) -> bool:
+    def reset(self, seed: int | None = None, ahead: Beginning | None = None) -> bool:
         """
         Return to the state that was loaded last, at time 0.
 
         :param seed: of all noise; None is that of the state
+        :param ahead: the beginning of the state, if it is built already
         :return: whether anything had happened since
         :raises BadProperty: the seed is out of range
         """
@@ -317,6 +318,8 @@ class Past:
         if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
+        if ahead is not None:
+            self.keep_built(ahead)
         self._begin_anew(state, Text('reset'))
         return True
 
