@@ -70,7 +70,7 @@ def message_text(text: str) -> str:
     if len(text) > LONGEST_WORD:
         english = ' '.join(map(abbreviated, text.split(' ')))
     english = abbreviated(english, LONGEST_MESSAGE)
-    return text.abbreviated(english) if isinstance(text, Text) else english
+    return text.with_english(english) if isinstance(text, Text) else english
 
 
 def nearest_name(name: str, known: Iterable[str]) -> str:

@@ -42,8 +42,8 @@ class Text(str):
         text.template, text.values = template, values
         return text
 
-    def abbreviated(self, english: str) -> Self:
-        """Return the text with its English abbreviated."""
+    def with_english(self, english: str) -> Self:
+        """Return a text that is translated like this one, but reads otherwise in English."""
         return self._of(english, self.template, self.values)
 
     def __reduce__(self) -> tuple[Any, ...]:
