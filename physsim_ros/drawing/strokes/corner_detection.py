@@ -27,14 +27,16 @@ from physsim_ros.model.transform import dots, norms, Point
 # The least turn of a corner [rad], half of which makes a candidate: over its arms it is rounded.
 _CORNER_TURN = 0.42
 # Cost of a corner: the decrease of the logarithm of the residual (mean square distance) that is
-# worth one. The wobble of a careful hand, in shares of the size, which is worth no corner: of open
-# lines and of outlines, whose many corners are flatter.
-_CORNER_COST, _WOBBLE_CLOSED = 0.5, 0.008
+# worth one.
+_CORNER_COST = 0.5
+# The wobble of outlines, which is worth no corner, in shares of the size: less than that of open
+# strokes (`WOBBLE`), since their many corners are flatter.
+_WOBBLE_CLOSED = 0.008
 # Places along a side, -1 .. 1, between fifths that may be round, and the parabola there.
 _ALONG = np.linspace(-0.6, 0.6, 12)
 _PARABOLA = _ALONG**2 - (_ALONG**2).mean()
 # The least distance between the ends of a side, in shares of the length along the stroke.
-_ASTRAY = 0.75
+_LEAST_CHORD = 0.75
 
 
 def corners(path: Floats, *, closed: bool) -> list[int]:
@@ -114,7 +116,7 @@ def _side_error(outline: Floats, at: list[int]) -> float:
     """Return the distance of a closed stroke from the sides between its corners (rms) [m]."""
     path = np.vstack((outline, outline[: at[0] + 1]))
     ends = np.array([*at, at[0] + len(outline)])
-    return math.sqrt(float(np.diagonal(_errors(path, ends), 1).sum()) / len(outline))
+    return math.sqrt(float(np.diagonal(_residuals(path, ends), 1).sum()) / len(outline))
 
 
 def turning_within(outline: Floats, at: list[int]) -> float:
@@ -166,7 +168,7 @@ def _corners_among(path: Floats, places: NDArray[np.intp], wobble: float) -> lis
     Corners minimise residual and cost; those that turn by less than `_CORNER_TURN` are dropped.
     """
     if len(places) > 2:
-        places = places[_least_cost(_errors(path, places), path, wobble)]
+        places = places[_least_cost(_residuals(path, places), path, wobble)]
     kept: list[int] = places.tolist()
     points: list[tuple[float, float]] = list(map(tuple, path[kept].tolist()))
     turning = [_turn(*around) for around in zip(points, points[1:], points[2:], strict=False)]
@@ -180,7 +182,7 @@ def _corners_among(path: Floats, places: NDArray[np.intp], wobble: float) -> lis
     return kept
 
 
-def _least_cost(errors: NDArray[np.float64], path: Floats, wobble: float) -> list[int]:
+def _least_cost(residuals: NDArray[np.float64], path: Floats, wobble: float) -> list[int]:
     """
     Return the candidates of least description length, the ends included.
 
@@ -188,7 +190,7 @@ def _least_cost(errors: NDArray[np.float64], path: Floats, wobble: float) -> lis
     Bellman, 1961), it is log(residual + wobble²) + k · _CORNER_COST.
     """
     # Mean square distances, in shares of the size squared.
-    shares = errors / (float((np.ptp(path, axis=0) ** 2).sum()) * len(path))
+    shares = residuals / (float((np.ptp(path, axis=0) ** 2).sum()) * len(path))
     shares[np.tril_indices(len(shares))] = np.inf
     total, before = shares[0], []
     best, sides = math.inf, 0
@@ -210,7 +212,7 @@ def _without_arcs(path: Floats, at: list[int]) -> list[int]:
     """Return the corners of an open polyline without those within a side that is an arc."""
     kept = list(at)
     while len(kept) > 2:
-        straight = np.diagonal(_errors(path, np.array(kept)), 1)
+        straight = np.diagonal(_residuals(path, np.array(kept)), 1)
         sides = zip(kept, kept[2:], strict=False)
         arcs = np.array([_arc_error(path[slice(a, b + 1)]) for a, b in sides])
         worse = arcs - straight[:-1] - straight[1:]
@@ -236,26 +238,28 @@ def _turn(a: Point, b: Point, c: Point) -> float:
     return abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
 
 
-def _errors(path: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:
+def _residuals(path: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:
     """
     Return the residual of one straight side between each two candidates.
 
-    :return: (k, k) float64: sum of squared distances from the line of least squares [m²]
+    :return: (k, k) float64: sum of squared distances of the points between them from the line of
+        least squares, and the penalty of a stroke that goes back along it [m²]
     """
     x, y = (path - path.mean(axis=0)).T
     sums = np.zeros((5, len(path) + 1))
     np.cumsum((x, y, x * x, x * y, y * y), axis=1, out=sums[:, 1:])
-    # Without the point next to a corner, which may be round.
+    # The points between the two: a corner itself may be round.
     first = sums[:, places + 1][:, :, None]
     last = sums[:, places][:, None, :]
     number = np.maximum(places[None, :] - places[:, None] - 1, 1)
     sx, sy, sxx, sxy, syy = last - first
     xx, xy, yy = sxx - sx * sx / number, sxy - sx * sy / number, syy - sy * sy / number
     least = np.maximum((xx + yy) / 2 - np.hypot((xx - yy) / 2, xy), 0.0)
-    # A stroke back along the same line has no residual, but its ends lie too close together.
+    # A stroke back along the same line has no such distance, but its ends lie too close together.
     ends = path[places]
     chord = norms(ends[None] - ends[:, None])
     steps = np.concatenate(([0.0], np.cumsum(norms(np.diff(path, axis=0)))))[places]
-    astray = np.maximum(_ASTRAY * (steps[None] - steps[:, None]) - chord, 0.0)
-    wrong: NDArray[np.float64] = least + number * astray**2
-    return wrong
+    missing = np.maximum(_LEAST_CHORD * (steps[None] - steps[:, None]) - chord, 0.0)
+    penalty = number * missing**2
+    residual: NDArray[np.float64] = least + penalty
+    return residual

@@ -30,8 +30,9 @@ from physsim_ros.model.transform import (
     segment_distances,
 )
 
-# The wobble of a careful hand (rms) in shares of the size of an open stroke: what is farther from
-# straight sides is a curve, which is simplified to half of that.
+# The wobble of a careful hand (rms) in shares of the size of an open stroke. It is worth no corner
+# (`corner_detection.py`); what is farther from straight sides is a curve, which is simplified to
+# half of that.
 WOBBLE = 0.012
 # Rounds of the fit of a rectangle, each point to its nearest side.
 _ROUNDS = 3

@@ -527,7 +527,7 @@ BENDS: dict[
         lambda it: [(0.0, 0.0), (2.0, 0.0), (2.0 + 0.7 * it, 0.7 * it)], (0.199, 0.208), (2, 4),
     ),
     'length that is retraced': (
-        'corner_detection._ASTRAY',
+        'corner_detection._LEAST_CHORD',
         lambda it: [(0.0, 0.0), (2.0, 0.0), (2.0 - it, 0.06), (4.0 - it, 0.12)], (0.692, 0.7075),
         (2, 4),
     ),
