@@ -4,7 +4,7 @@
 import {choice, createElement, elementOf, fold, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
 import {differenceOf, meanDistance, rangeOf, roomFor, sumOf, valueAt} from './curves.js';
-import {QUANTITIES, quantityText} from './quantities.js';
+import {QUANTITIES, quantityText, unitOf} from './quantities.js';
 import {copyTable} from './table.js';
 import {threeDigits} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
@@ -155,7 +155,8 @@ export class PlotWindow {
     this.scales = drawChart(this.canvas, {width, height, size: width < NARROW ? NARROW_SIZE : SIZE, palette, curves, room,
       xLabel: QUANTITIES[x].label, yLabel: QUANTITIES[y].label, range: rangeOf([...curves, {points: room}]),
       mark: x === 'time' ? world.frame.time : undefined});
-    this.reading.textContent = this.pointed ? this.#read(curves, this.pointed) : this.#judge(real);
+    const read = this.pointed && this.#markNearest(curves, this.pointed);
+    this.reading.textContent = read ? `${quantityText(x, read[0])} · ${quantityText(y, read[1])}` : this.#judge(real);
   }
 
   /** @returns {Curve[]} of the bodies, that of the first one first, and of what is shown beside them */
@@ -163,17 +164,21 @@ export class PlotWindow {
     const {parts: {world, view: {palette}, records}, axes: {x, y}, predicted} = this, {gravity} = world.scene;
     /** @type {Curve[]} */
     const curves = [];
+    /** @type {Curve[]} those that a sum is of */
+    const summands = [];
     this.names.forEach((name, i) => {
       const body = world.body(name), record = records.bodies.get(name);
       if (!body || !record) return;
       const points = (/** @type {Sample[]} */ samples) => samples.map((sample) =>
         [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]).filter((point) => point.every(Number.isFinite));
       const color = palette[COLORS[i % COLORS.length]];
-      if (this.differs && x === 'time') curves.push({points: differenceOf(points(record.samples), points(record.left)), color, width: 3});
-      else curves.push({points: points(record.samples), color, width: 3},
-        {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
+      const now = points(record.samples), left = points(record.left), differs = this.differs && x === 'time';
+      const solid = {points: differs ? differenceOf(now, left) : now, color, width: 3};
+      summands.push(solid);
+      curves.push(solid);
+      if (!differs) curves.push({points: left, color, width: 2, dash: [6, 6], alpha: 0.7});
     });
-    if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(curves.filter(({dash}) => !dash)), color: palette.ink, width: 4});
+    if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(summands), color: palette.ink, width: 4});
     if (this.predicts) curves.push({points: predicted, color: palette.momentum, width: 3, dash: [8, 6]});
     return curves;
   }
@@ -184,30 +189,29 @@ export class PlotWindow {
    */
   #judge(real) {
     if (!this.predicted.length || real.length < 2) return '';
-    const unit = QUANTITIES[this.axes.y].label.replace(/.*\[|\]/g, '');
-    return t('off by {amount}', {amount: `${threeDigits(meanDistance(this.predicted, real))} ${unit}`});
+    return t('off by {amount}', {amount: `${threeDigits(meanDistance(this.predicted, real))} ${unitOf(this.axes.y)}`});
   }
 
   /**
    * Mark the point of a curve next to the pointer.
    * @param {Curve[]} curves
    * @param {Point} pointed [px]
-   * @returns {string} its values
+   * @returns {?number[]} its values; null where there is none
    */
-  #read(curves, pointed) {
+  #markNearest(curves, pointed) {
     const {scales} = this;
-    if (!scales) return '';
+    if (!scales) return null;
     let least = Infinity, nearest = [0, 0], color = '';
     for (const curve of curves) for (const point of curve.points) {
       const far = distance([scales.x(point[0]), scales.y(point[1])], pointed);
       if (far < least) [least, nearest, color] = [far, point, curve.color];
     }
-    if (!color) return '';
+    if (!color) return null;
     const ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext('2d'));
     ctx.fillStyle = color;
     ctx.beginPath();
     ctx.arc(scales.x(nearest[0]), scales.y(nearest[1]), 6, 0, 2 * Math.PI);
     ctx.fill();
-    return `${quantityText(this.axes.x, nearest[0])} · ${quantityText(this.axes.y, nearest[1])}`;
+    return nearest;
   }
 }

@@ -126,6 +126,14 @@ export const QUANTITIES = {
 
 /**
  * @param {string} key of a quantity
+ * @returns {string} its unit, as its label tells it
+ */
+export function unitOf(key) {
+  return QUANTITIES[key].label.replace(/.*\[|\]/g, '');
+}
+
+/**
+ * @param {string} key of a quantity
  * @param {number} value
  * @returns {string} its name, its value and its unit
  */
