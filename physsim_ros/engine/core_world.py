@@ -264,7 +264,7 @@ class CoreWorld:
         lib.core_take_contacts(world)
         contacts = _copy(world.contacts, world.contact_count, _CONTACT)
         begun = _copy(world.begun, world.begun_count, _BEGUN)
-        steps: int = world.frame_steps
+        steps: int = world.reported_steps
         lib.core_clear_contacts(world)
         return contacts, begun, steps
 

@@ -3,13 +3,16 @@
 
 // Contact report: which pairs of bodies touched in a frame, where, and with which impulse.
 //
-// Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its
-// impulses.
-// Method: a list of pairs, with a hash table by the places of their bodies, which each step updates. A pair has the
-// mean of its points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping
-// bodies: while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch
-// is that at which a sensor is met, else that of the impact, within the step.
-// Cost: 15 ns a contact and step.
+// Problem: a frame has many sub-steps, and Chipmunk knows the contacts of the last one only. A frame reports each pair
+// that touched in any of them, with the sum of its impulses, and each moment at which a pair began to touch.
+// Method: a list of pairs, with a hash table by the places of their bodies, which each sub-step updates. A pair has the
+// mean of its points and normals of the last sub-step in which it touched. Chipmunk does not list the contacts of
+// sleeping bodies: while a pair sleeps, the impulse of its last sub-step awake is repeated. A pair that did not touch
+// in the sub-step before begins to touch within this one: where one is a sensor, as that is met (`sensors.c`), else at
+// the impact (`rest_of_step.c`).
+// Scope: pairs that touch as the report begins do not begin to touch then.
+// Law: the reported impulses on a body, with gravity, change its momentum (`half_step.c`).
+// Cost: 15 ns a contact and sub-step.
 
 #include "contact.h"
 #include "stages.h"
@@ -26,12 +29,12 @@ enum { NEVER = -2 };
 // A pair of bodies that touches, or has touched in this frame.
 typedef struct ReportedPair {
     int a, b; // places in the table, the lesser first
-    // Of the last step in which they touched: impulse on the second body; sums over points of normals, from the first
-    // body to the second, and of positions; the highest normal, for those that are opposed; count of points.
+    // Of the last sub-step in which they touched: impulse on the second body; sums over points of normals, from the
+    // first body to the second, and of positions; the highest normal, for those that are opposed; count of points.
     Vec impulse, normals, positions, highest;
     int points;
     Vec sum;       // of impulses in this frame [N s]
-    int64_t stamp; // number of the last report in which they touched
+    int64_t stamp; // number of the last sub-step in which they touched
     bool in_frame; // they touched in this frame
 } ReportedPair;
 
@@ -40,8 +43,8 @@ typedef struct Report {
     ReportedPair *pairs; // (count)
     int *slots;          // (2 * room): a hash table with open addressing: numbers of pairs, counted from 1; 0 is free
     int count, room;     // a power of two; 0 before the first pair
-    int64_t stamp;       // number of the last step that was reported
-    bool follows;        // the step before was reported, too
+    int64_t stamp;       // number of sub-steps that have been reported
+    bool follows;        // the sub-step before was reported, too
     int begun_room;
 } Report;
 
@@ -130,14 +133,14 @@ static void add_begun(World *world, Report *report, Begun added) {
     world->begun[world->begun_count++] = added;
 }
 
-// Begin the step of a pair, unless another contact of it has.
+// Begin the sub-step of a pair, unless another contact of it has.
 static void begin_pair(World *world, Report *report, ReportedPair *pair) {
     if (pair->stamp == report->stamp) {
         return;
     }
     if (pair->stamp != report->stamp - 1 && report->follows) {
         double share = touch_share(world, world->bodies + pair->a, world->bodies + pair->b);
-        double time = world->frame_steps - 1 + (world->own->sub_step + share) / (double)SUB_STEPS;
+        double time = world->reported_steps - 1 + (world->own->sub_step + share) / (double)SUB_STEPS;
         add_begun(world, report, (Begun){{pair->a, pair->b}, time});
     }
     pair->stamp = report->stamp;
@@ -191,7 +194,7 @@ static bool pair_sleeps(const World *world, const ReportedPair *pair) {
     return (sleeps(a) || sleeps(b)) && may_sleep(a) && may_sleep(b);
 }
 
-// Add the impulses of the step to the sums of pairs; one of the step before that sleeps now touches on.
+// Add the impulses of the sub-step to the sums of pairs; one of the sub-step before that sleeps now touches on.
 static void add_impulses(const World *world, Report *report) {
     for (ReportedPair *pair = report->pairs, *end = pair + report->count; pair < end; pair++) {
         if (pair->stamp == report->stamp - 1 && pair_sleeps(world, pair)) {
@@ -228,14 +231,14 @@ static void add_crossing(World *world, const Body *body, const Body *sensor) {
     }
 }
 
-// Nobody is told of the contacts of this step.
+// Nobody is told of the contacts of this sub-step.
 static void forget_contacts(World *world) {
     Report *report = world->own->report;
     if (report->follows || report->count > 0) {
         report->count = 0;
         make_room(report);
         report->follows = false;
-        world->frame_steps = world->begun_count = 0;
+        world->reported_steps = world->begun_count = 0;
     }
 }
 
@@ -276,7 +279,7 @@ void core_clear_contacts(World *world) {
         report->count = kept;
         make_room(report);
     }
-    world->frame_steps = world->begun_count = 0;
+    world->reported_steps = world->begun_count = 0;
 }
 
 static int by_pair(const void *one, const void *other) {
@@ -372,5 +375,5 @@ void core_copy_contacts(World *world, const World *old) {
     make_room(report);
     world->begun = with_room(old->begun, old->begun_count, old->begun_count, sizeof(Begun));
     world->begun_count = old->begun_count;
-    world->frame_steps = old->frame_steps;
+    world->reported_steps = old->reported_steps;
 }

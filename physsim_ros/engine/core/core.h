@@ -435,8 +435,9 @@ typedef struct World {
     uint8_t has_broken;  // a joint
     uint8_t has_lost;    // a body
     int64_t swept;       // pairs of bodies whose time of impact has been looked for since the world was made
-    int32_t contact_count, begun_count, frame_steps;
-    Contact *contacts; // of the frame, by place
+    int32_t contact_count, begun_count;
+    int32_t reported_steps; // count of steps that have been reported since the frame began
+    Contact *contacts;      // of the frame, by place
     Begun *begun;
     struct Private *own;
 } World;

@@ -5,14 +5,16 @@
 // other (`attraction.c`).
 //
 // Problem: as of applied forces (`applied_forces.c`), a force at the pose and velocity with which a sub-step begins is
-// that of a moment too early: what floats or swings gains energy, and what falls in air is too fast.
+// that of a moment too early: a floating body gains energy, and a falling one is too fast in air.
 // Method: velocity Verlet, as of gravity in `half_step.c`: forces are those of the poses after the move, and the lead
 // of a body in free flight has half of what they change its velocity by. Unlike gravity, that half depends on
-// velocities, and on other bodies; so it is state, and what a request sets is made into it as the next step begins: by
-// the force at the true velocity, over half a sub-step. True velocities do not jump where a field begins or ends.
-// Bodies that fields pull while they rest do not sleep where the field changes, nor before they float still.
+// velocities, and on other bodies; so it is kept with the state of the body. A request that changes a body or a field
+// leaves that half stale: as the next step begins, it is found anew, by the force at the true velocity over half a
+// sub-step, and the velocity in the engine changes by the difference, so that the true velocity does not jump. A body
+// that fields pull does not fall asleep where they can change (attraction, gusts, a region that moves), and a floating
+// one only once it is still.
 //
-// Cost: none without fields.
+// Cost: that of media and of attraction; nothing in a world without fields.
 // Without it what floats gains energy, and orbits open.
 
 #include "attraction.h"

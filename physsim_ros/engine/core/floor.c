@@ -54,8 +54,8 @@ typedef struct LimitSurface {
 
 static LimitSurface surface_of(const World *world, const Body *body) {
     double most = body->braking * world->dt;
-    double gyration = body->engine->i / body->engine->m;
-    return (LimitSurface){body->lever, most, most * body->lever * body->lever / gyration};
+    double gyration_squared = body->engine->i / body->engine->m;
+    return (LimitSurface){body->lever, most, most * body->lever * body->lever / gyration_squared};
 }
 
 // The square of a change of velocity by the surface; on it, 1.
@@ -204,8 +204,8 @@ typedef struct Driving {
     Twist mean, end;
 } Driving;
 
-// The driving of a body. Robots and actors are listed in the order of the bodies; those of the body are passed.
-static Driving driving_of(const World *world, int place, const Robot **robot, const Actor **actor) {
+// Return the driving of a body, and move on past its robot and its actor: both are listed in the order of the bodies.
+static Driving take_driving(const World *world, int place, const Robot **robot, const Actor **actor) {
     Driving driving = {0};
     if (*robot < world->robots + world->robot_count && (*robot)->body == place) {
         driving.mean = (*robot)->under;
@@ -230,7 +230,7 @@ void apply_floor(World *world) {
     const Actor *actor = world->actors;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        Driving driving = driving_of(world, place, &robot, &actor);
+        Driving driving = take_driving(world, place, &robot, &actor);
         if (body->braking > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_plus(driving.mean, belt, 1.0), end = twist_plus(driving.end, belt, 1.0);

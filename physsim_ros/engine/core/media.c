@@ -3,7 +3,7 @@
 
 // Media: water, air and other fluids in regions, or all over the world.
 //
-// Problem: what floats, sinks, is blown away or falls no faster than the air lets it.
+// Problem: a fluid bears, slows and carries away the part of a body that lies in it.
 // Method: of each body the part that lies in a region is found (`immersion.h`), area A with its centroid, and outline.
 //   Buoyancy: -ρ A g at the centroid (Archimedes). In air that fills the world, what lies in no region.
 //   Linear drag: -3 η u for each metre of outline, u its velocity in the medium. A disc has 6π η r v, as a ball has by
@@ -12,11 +12,12 @@
 //   the width across the flow. Turning counts by its part along n, at the centre of a round piece: friction alone would
 //   slow down the spin of a disc, and quadratic drag has none.
 // Both drags are -D (q - f) of the twists q of body and f of medium, with a matrix D that is symmetric and not
-// negative. Buoyancy and D are found once a step, for its middle, or for the rest of it as a body wakes; drag in each
-// sub-step, of the velocity in the middle of that (implicit midpoint rule). Where drag stops a body within a sub-step,
-// the velocity is later than the middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration
-// Methods for Stiff Systems", SIAM J. Numer. Anal. 1970). D in free flight is that of the mean of a guess of the twist
-// and of the twist to which the drag of the guess leads (Newton's method for v² = a, which is Heron's).
+// negative. Buoyancy and D are found once a step, for the middle of the moments at which its sub-steps change
+// velocities, or of those that remain as a body wakes; drag in each sub-step, of the velocity in the middle of that
+// (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the middle, by
+// exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J. Numer.
+// Anal. 1970). D in free flight is that of the mean of a guess of the twist and of the twist to which the drag of the
+// guess leads (Newton's method for v² = a, which is Heron's).
 // Scope: no mass of medium that moves along (added mass), no lift, no waves; a medium is not pushed.
 // Laws: drag takes energy from what moves in a medium at rest; no drag is too strong for the steps, nor a bubble too
 // light; what is dry, what is wet and their sum are the same outline.

@@ -3,13 +3,18 @@
 
 // Odometry of robots: the pose that the travel of the wheels tells, with its covariance.
 //
-// Method: the travel of the wheels in a step is an arc whose turn the gyroscope measures (exact integration of a
+// Problem: a robot does not know its pose, only how far its wheels have turned and how fast it turns; each error of
+// these stays in the pose that it reckons.
+// Method: the travel of the wheels in a sub-step is an arc whose turn the gyroscope measures (exact integration of a
 // constant twist; Siegwart, Nourbakhsh, "Autonomous Mobile Robots"). Errors are random walks: those of the distance
 // grow with its root, those of the heading with the root of distance and turn (Thrun, Burgard, Fox, "Probabilistic
-// Robotics", section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there
-// is none. The covariance of the reckoned pose is propagated along the path as that of an extended Kalman filter is
-// (ibid., section 3.3): P <- F P Fᵀ + Q, where F tells how far an error of the heading moves the end of the chord, and
-// Q the new errors.
+// Robotics", section 5.4, in the limit of short moves). Noise is a function of seed, name and step; a robot
+// whose deviations (`slip`) are 0 has none. The covariance of the reckoned pose is propagated along the path as that of
+// an extended Kalman filter is (ibid., section 3.3): P <- F P Fᵀ + Q, where F tells how far an error of the heading
+// moves the end of the chord, and Q the new errors.
+// Scope: wheels that slip count as travel; a push that moves the robot does not.
+// Law: without noise, and without slip between wheels and floor, the reckoned pose is the true one.
+// Cost: within that of `drives.c`.
 
 #include "robots.h"
 #include "stages.h"
@@ -38,7 +43,7 @@ static void propagate_covariance(Robot *robot, Vec chord, double distance, doubl
     }
 }
 
-// Add the step to the travel of the wheels, and to the odometry.
+// Add the sub-step to the travel of the wheels, and to the odometry.
 void reckon_odometry(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;

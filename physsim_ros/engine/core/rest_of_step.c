@@ -16,6 +16,9 @@
 // hand an impact on, the displacements of an island are found together (`joint_velocities.c`), and the forces of its
 // motors are added (`joint_bounces.c`). A body whose velocity was set while it touches another is in an impact as the
 // sub-step begins.
+// Scope: a body has one time since its impacts, the longest. Of two impacts in one sub-step the later one is taken for
+// as early as the first: a body that is thrown at once against the floor that it lies on and at a wall that it reaches
+// within the sub-step stops short of that by up to v dt.
 //
 // Cost: 20 ns an impact; where bodies are fast, 2 µs for each pair that could meet.
 // Without it laws 7 (penetration), 45 (momentum in flight) and 46 (pressure of a gas) fail.

@@ -57,7 +57,9 @@ static void find_lost(World *world) {
     }
 }
 
-// A stage, and the part of the step that is left out with it (`STAGE_...`); 0 is none.
+// A stage, and the part of the step that is left out with it (`STAGE_...`); 0 is a stage that is never left out. Two
+// parts are left out within functions, since several stages call these, and so does the reading of a state: that of
+// STAGE_HALF_STEP in `find_leads` and `turn_leads`, that of STAGE_SUPPORT as `begin_flights` finds what flies.
 typedef struct Stage {
     void (*act)(World *world);
     uint32_t part;
@@ -198,7 +200,7 @@ static bool begin_step(World *world, CallTime *time) {
     own->choosing = false;
     move_actors(world);
     own->reports = world->reports_contacts;
-    world->frame_steps += own->reports;
+    world->reported_steps += own->reports;
     return true;
 }
 
