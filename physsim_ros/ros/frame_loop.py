@@ -20,7 +20,7 @@ from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.runtime.slices import Sliced
-from physsim_ros.simulation.entries import Wait
+from physsim_ros.simulation.entries import Origin, UNKNOWN, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.ticks import FrameEnd, TickLimits
 
@@ -201,17 +201,19 @@ class FrameLoop:
         call: Sliced[Sequence[Answer]],
         wait: Wait,
         on_told: Callable[[], object] = lambda: None,
+        origin: Origin = UNKNOWN,
     ) -> None:
         """
         Make a call at its time among the requests, now if they leave the time for it.
 
         :param on_told: called when its answers are told
+        :param origin: the message from which it comes
         :raises Busy: too many requests wait
         """
         if not self.started and wait is Wait.TO_READ:
             # No tick goes on with the call.
             wait = Wait.FOR_SEEK
-        self._simulation.applier.make_call(call, wait, on_told)
+        self._simulation.applier.make_call(call, wait, on_told, origin)
         if self.started:
             self.apply_ready()
         elif wait is not Wait.NONE:

@@ -34,7 +34,17 @@ from physsim_ros.runtime.slices import Sliced
 from physsim_ros.simulation.arrival import Arrival
 from physsim_ros.simulation.calls_under_way import CallsUnderWay
 from physsim_ros.simulation.drives import Drives
-from physsim_ros.simulation.entries import Amend, Call, Entry, Origin, Seek, TakeBack, Unread, Wait
+from physsim_ros.simulation.entries import (
+    Amend,
+    Call,
+    Entry,
+    Origin,
+    Seek,
+    TakeBack,
+    UNKNOWN,
+    Unread,
+    Wait,
+)
 from physsim_ros.simulation.hands import Hands
 from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
@@ -103,9 +113,13 @@ class Applier:
         """
         for entry in self._take(is_spent):
             try:
+                if not entry.is_answer:
+                    entry.origin.check()
                 self._apply_entry(entry)
             except Refusal as refusal:
                 self._answer(refusal, entry)
+                if isinstance(entry.request, Call):
+                    entry.request.on_told()
         return self._playback.is_there and not self.is_busy
 
     def apply_all(self) -> None:
@@ -169,7 +183,6 @@ class Applier:
                 self._has_jumped = False
                 self._calls.begin(call)
             case Amend() | TakeBack() as change:
-                entry.origin.check()
                 self._playback.send_cursor()
                 self._past.cursor.begin_amendment(self._amend(change, entry))
             case Seek(stamp=stamp):
@@ -177,7 +190,6 @@ class Applier:
                 self._arrival.expect(partial(self._answer_seek, entry.origin, message))
             case request:
                 self._playback.changed = True
-                entry.origin.check()
                 if isinstance(request, Unread):
                     request = request.convert()
                 answer = self.apply_one(request, entry.gesture, entry.origin.author)
@@ -221,6 +233,7 @@ class Applier:
         call: Sliced[Sequence[Answer]],
         wait: Wait,
         on_told: Callable[[], object] = lambda: None,
+        origin: Origin = UNKNOWN,
     ) -> None:
         """
         Make a call now, or add it to the requests.
@@ -228,13 +241,14 @@ class Applier:
         :param call: may have slices
         :param wait: the time at which it is called
         :param on_told: called when its answers are told
+        :param origin: the message from which it comes
         :raises Busy: too many requests wait
         """
         entry = Call(call, wait, on_told)
         if wait is Wait.NONE:
             self._calls.begin(entry)
         else:
-            self._queue.submit_call(entry)
+            self._queue.submit_call(entry, origin)
 
     def continue_calls(self) -> None:
         """Go on with the calls for which no request waits, also during a seek."""

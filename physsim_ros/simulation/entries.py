@@ -124,6 +124,10 @@ class Origin(NamedTuple):
     check: Callable[[], object] = lambda: None
 
 
+# Origin of a call whose answers have their own topics, and which no page asks for.
+UNKNOWN = Origin('')
+
+
 @dataclass(slots=True)
 class Entry:
     """

@@ -129,16 +129,16 @@ class RequestQueue:
         self._add(entry)
         self._seek = entry
 
-    def submit_call(self, call: Call) -> None:
+    def submit_call(self, call: Call, origin: Origin) -> None:
         """
         Add a call.
 
+        :param origin: the message from which it comes; its answers have their own topics
         :raises Busy: too many requests wait
         """
         if busy := self._busy():
             raise busy
-        # Its answers have their own topics.
-        self._add(Entry(call, Origin(''), '', self.begin_gesture()))
+        self._add(Entry(call, origin, '', self.begin_gesture()))
 
     def refuse(self, refusal: Refusal, origin: Origin, *, subject: str = '') -> None:
         """

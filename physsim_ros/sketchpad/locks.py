@@ -124,8 +124,9 @@ def check_moment(role: Role, control: WorldControl) -> None:
     """
     Refuse what replaces all bodies in its turn, by another moment or world, but for a teacher.
 
-    :raises Frozen: a body of this world is locked
+    :raises Frozen: the pages of pupils are frozen, or a body of this world is locked
     """
+    check_right(Right.CHANGE, role, frozen=control.values['sketchpad_frozen'])
     check_locked_in_turn(role, (requests.DeleteAll(),), control)
 
 

@@ -254,7 +254,7 @@ class PageSession:
     def call(self, origin: Origin, call: Sliced[Sequence[Answer]], wait: Wait) -> None:
         """Make a call at its time, or refuse it where too many wait."""
         try:
-            self.control.loop.make_call(call, wait)
+            self.control.loop.make_call(call, wait, origin=origin)
         except Busy as refusal:
             self.refuse(origin, refusal)
 

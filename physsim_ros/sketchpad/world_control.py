@@ -21,7 +21,7 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.translation import Text
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import Sliced
-from physsim_ros.simulation.entries import Origin, Wait
+from physsim_ros.simulation.entries import Origin, UNKNOWN, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of
 
@@ -32,10 +32,13 @@ class Loop(Protocol):
     def bring_up_to_date(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
 
-    def make_call(self, call: Sliced[Sequence[Answer]], wait: Wait) -> None:
+    def make_call(
+        self, call: Sliced[Sequence[Answer]], wait: Wait, *, origin: Origin = UNKNOWN
+    ) -> None:
         """
         Make a call at its time among the requests, and tell its answers.
 
+        :param origin: the message from which it comes
         :raises Busy: too many requests wait
         """
 

@@ -6,12 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import SceneQuery, Tool
 from physsim_ros.model import names, requests
+from physsim_ros.model.answer import Answer
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import Frozen
 from physsim_ros.model.joints import JointKind
@@ -19,10 +21,11 @@ from physsim_ros.model.motor_command import CommandPoint, MotorCommand
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.transform import Point
-from physsim_ros.simulation.entries import Origin
+from physsim_ros.runtime.slices import wrap_future
+from physsim_ros.simulation.entries import Origin, Wait
 from physsim_ros.simulation.world.world import HANDLERS
 from physsim_ros.sketchpad import page_session, Role
-from physsim_ros.sketchpad.locks import check_locked, check_unchanged, Locks
+from physsim_ros.sketchpad.locks import check_locked, check_moment, check_unchanged, Locks
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages.worlds import ACTIONS
 from physsim_ros.sketchpad.rights import Right
@@ -399,6 +402,86 @@ def test_what_waits_while_a_body_is_locked_is_refused_in_its_turn(
     (answer,) = (each for each in node.loop.apply_requests() if each.topic == 'x')
     assert answer.code == 'frozen'
     assert 'a/0' in browser.physsim.names
+
+
+# Kinds that a pupil sends while nothing is frozen, before any of `ATTEMPTS`.
+BEFORE = {'move': ('grab', {'point': FREE}), 'instead': ('stroke', {'points': LINE})}
+# Kinds and services that do not wait: they are about the speed, or about files of worlds.
+AT_ONCE = {'speed', 'rename', 'remove', 'put_back', 'forget'}
+ACTIONS_AT_ONCE = {'play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'step'}
+
+
+def held(physsim: PhysSim) -> Future[None]:
+    """Have a call under way for which all entries wait, and return what it waits for."""
+    awaited: Future[None] = Future()
+
+    async def call() -> list[Answer]:
+        await wrap_future(awaited)
+        return []
+
+    physsim.node.loop.make_call(call, Wait.BEHIND_REQUESTS)
+    return awaited
+
+
+def state_of(physsim: PhysSim) -> tuple[object, ...]:
+    """Return the moment that is shown, what leads to it, and all that there is of each body."""
+    simulation = physsim.node.simulation
+    past = simulation.past
+    moments = (simulation.step, simulation.speed, past.line.end, past.tree.course)
+    return (*moments, simulation.world.digest(), states_of(physsim, ['*']))
+
+
+@pytest.mark.parametrize(
+    'kind', sorted(name for name, kind in KINDS.items() if kind.right is Right.CHANGE)
+)
+def test_what_waits_while_pupils_are_frozen_is_refused_in_its_turn(
+    browser: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str
+) -> None:
+    load_world(browser, tmp_path)
+    physsim, waited = browser.physsim, 0
+    pupil, boss = browser.open_page(), browser.open_page(cookie=browser.cookie_of(Role.TEACH))
+    assert pupil.ask('change', name='a/0', properties={'friction': 0.3})['ok']
+    physsim.run(0.5)
+    physsim.node.simulation.speed = 0.0
+    if kind in BEFORE:
+        assert pupil.ask(BEFORE[kind][0], **BEFORE[kind][1])['ok']
+    physsim.node.loop.apply_requests()
+    # As between two ticks.
+    monkeypatch.setattr(physsim.node.loop, 'started', True)
+    handle = physsim.node.outputs.sketchpad.handle_messages
+
+    def ask(page: Page, kind: str, **fields: Any) -> dict[str, Any]:
+        sent = page.send(kind, **fields)
+        page.until(lambda: handle() or page.answers(sent))
+        return page.answers(sent)[-1]
+
+    for fields in ATTEMPTS.get(kind) or [OTHER_FIELDS[kind]]:
+        before, awaited = state_of(physsim), held(physsim)
+        sent = pupil.send(kind, **fields)
+        ask(pupil, 'raise_hand', raised=False)
+        waits = any(not each.is_answer for each in physsim.node.simulation.requests)
+        waited += waits
+        assert ask(boss, 'freeze', frozen=True)['ok']
+        awaited.set_result(None)
+        physsim.node.loop.apply_requests()
+        if kind not in AT_ONCE and fields.get('name') not in ACTIONS_AT_ONCE:
+            assert state_of(physsim) == before, fields
+        if waits:
+            # The answer to a click, and that to all requests of a message, may come before.
+            codes = partial(lambda sent: {each['code'] for each in pupil.answers(sent)}, sent)
+            pupil.until(lambda codes=codes: 'frozen' in codes())
+        physsim.node.simulation.speed = 0.0
+        assert ask(boss, 'freeze', frozen=False)['ok']
+    assert (waited > 0) is (kind not in AT_ONCE)
+
+
+def test_a_world_whose_file_is_read_while_pupils_are_frozen_is_refused(browser: Browser) -> None:
+    control = browser.physsim.node.control
+    check_moment(Role.DRAW, control)
+    control.set_parameter('sketchpad_frozen', value=True)
+    check_moment(Role.TEACH, control)
+    with pytest.raises(Frozen):
+        check_moment(Role.DRAW, control)
 
 
 def test_a_gesture_that_is_taken_back_is_looked_up_in_its_turn(

@@ -95,7 +95,7 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
 
 
 def _replace_bodies(page: PageSession, origin: Origin, action: Sliced[Text], wait: Wait) -> None:
-    """Perform an action unless a body is locked, be it while a thread reads the file."""
+    """Perform an action unless pages are frozen, or a body locked, be it in a later slice."""
     check = partial(check_moment, page.role, page.control)
     if has_locks(page.role, page.control):
         # The check reads the world.
