@@ -15,7 +15,7 @@ import urllib.request
 
 import pytest
 
-from ..outside import installed_program, Outside, PATIENCE, Program
+from ..outside import installed_program, Outside, PATIENCE, Program, until
 
 pytestmark = pytest.mark.slow
 
@@ -80,6 +80,8 @@ def test_it_runs_without_standard_streams(outside: Outside) -> None:
     record = outside.directory / 'mute.rrd'
     with start_through_shell(outside, MUTE, sketchpad='serve', record_file=record) as world:
         outside.run_program('watch', 0.5)
+        # An end does not wait longer than 9 s for it.
+        until(record.exists)
         assert world.interrupt() == 0
     # Nothing was printed into it.
     assert record.read_bytes().startswith(b'RRF2')
