@@ -439,6 +439,17 @@ def test_a_meter_stays_beside_its_body_until_the_world_is_another(sheet: Sheet) 
     sheet.wait('"cart/0" in physsim.bodies')
 
 
+def test_a_meter_tells_a_velocity_that_is_entered_while_time_stands(sheet: Sheet) -> None:
+    sheet.page.evaluate(NOTE_TEXTS)
+    chosen(sheet, -3.0, 2.4)
+    sheet.page.get_by_label('Meter in the world').select_option('Speed [m/s]')
+    sheet.play_until(0.3)
+    sheet.page.get_by_text('Enter numbers').click()
+    for speed in ('2', '0.4'):
+        sheet.enter('vx [m/s]', speed)
+        sheet.wait('text => window.texts.includes(text)', f'Speed {speed} m/s')
+
+
 def stopwatch(sheet: Sheet) -> tuple[Locator, Locator]:
     """Have gates start and stop the clock; return the panel and what the clock shows."""
     sheet.press('Measure')

@@ -55,7 +55,7 @@ export class Meters {
   #draw(view) {
     const {world, records} = this.parts, {bodies, joints, gravity} = world.scene;
     for (const [name, key] of this.bodies) {
-      const top = world.topOf(name), sample = records.past(name).at(-1);
+      const top = world.topOf(name), sample = records.now(name);
       if (top && sample) drawMeter(view, top, quantityText(key, QUANTITIES[key].of(sample, bodies[world.row(name)], gravity)));
     }
     for (const joint of joints) {

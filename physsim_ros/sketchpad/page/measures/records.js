@@ -6,6 +6,7 @@ import {forcesOf, pastForcesOf, sumsOf, totalOf} from '../view/forces.js';
 /** @import {Force, Parts, Point, Sample} from '../types.js' */
 
 const MOST = 36000; // samples: ten minutes at 60 a second
+const ROUNDED = 1e-6; // more than float32 rounds off, in shares
 
 export class Records {
   /** @param {Parts<'connection' | 'frames' | 'world'>} parts */
@@ -62,6 +63,14 @@ export class Records {
     return this.samples(name).filter(({time}) => time <= this.parts.world.frame.time + 1e-9);
   }
 
+  /**
+   * @param {string} name
+   * @returns {Sample | undefined} of the moment that is shown, or the last one before
+   */
+  now(name) {
+    return this.samples(name).findLast(({time}) => time <= this.parts.world.frame.time + 1e-9);
+  }
+
   /** @param {string[]} names of bodies whose past is not known */
   #askFor(names) {
     const waits = this.asking.length > 0;
@@ -111,12 +120,17 @@ export class Records {
     const held = Boolean(world.frame.hands?.x.length);
     for (const [name, {samples}] of this.bodies) {
       const row = world.row(name), known = samples.findLast((sample) => sample.time <= time);
-      // A replay of the same course gives the same samples: those that were recorded stay, and get the forces of what is shown.
-      if (all && known?.time === time) known.forces = sizesOf(all.filter((force) => force.row === row), held);
-      if (row < 0 || time <= (samples.at(-1)?.time ?? -Infinity)) continue;
+      if (row < 0) continue;
       const [x, y] = world.centerOf(row);
       /** @type {Sample} */
       const sample = {time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]};
+      if (known?.time === time) {
+        // A replay of the same course gives the same motion, but for what is rounded: the recorded one stays, unless a
+        // request has changed it while time stands. The forces are those of what is shown.
+        if (differ(known, sample)) Object.assign(known, sample);
+        if (all) known.forces = sizesOf(all.filter((force) => force.row === row), held);
+      }
+      if (time <= (samples.at(-1)?.time ?? -Infinity)) continue;
       accelerate(sample, samples.at(-1));
       if (all) sample.forces = sizesOf(all.filter((force) => force.row === row), held);
       samples.push(sample);
@@ -135,6 +149,16 @@ export class Records {
     }
     if (this.parts.world.timeline.newest > since) this.#askFor([...this.bodies.keys()]);
   }
+}
+
+/**
+ * @param {Sample} recorded
+ * @param {Sample} shown by a frame, whose numbers are float32
+ * @returns {boolean} whether they are two motions
+ */
+function differ(recorded, shown) {
+  const keys = /** @type {const} */ (['x', 'y', 'yaw', 'vx', 'vy', 'spin']);
+  return keys.some((key) => Math.abs(recorded[key] - shown[key]) > ROUNDED * (1 + Math.abs(shown[key])));
 }
 
 /**

@@ -152,7 +152,7 @@ export class Arrows {
    * @param {SceneView} view
    */
   #drawTorque(view) {
-    const {world, camera, selection: {name}, records} = this.parts, row = world.row(name), sample = records.past(name).at(-1);
+    const {world, camera, selection: {name}, records} = this.parts, row = world.row(name), sample = records.now(name);
     if (row < 0 || sample?.spinning === undefined || world.frame.time - sample.time > 2 / world.rate) return;
     const {moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
     if (anchored || this.legend.off.has('torque') || !(Math.abs(torque) > NO_TURN)) return;
