@@ -163,7 +163,8 @@ class Space:
         check_columns(body, self._settings, self.dt)
         wakes = old.body.wakes(body)
         if wakes < Wakes.TOUCHING:
-            is_pushed = twist != self.twist_of(old)
+            # What Chipmunk keeps of the velocity of a sleeping body is rounding.
+            stays_at_rest = old.pm_body.is_sleeping and twist == REST
             if wakes is Wakes.ITSELF:
                 wake_bodies([old.pm_body])
             self.tables.drop()
@@ -173,7 +174,7 @@ class Space:
             self.commands.drop_without_drive(body)
             if pose != old.pose:
                 self.set_poses([(old, pose)])
-            if is_pushed:
+            if not stays_at_rest and twist != self.twist_of(old):
                 self.set_twist(old, twist)
             return
         rigid = build_body(body)
