@@ -4,10 +4,11 @@
 """
 The frame loop: requests are applied, time goes on, and each frame is shown.
 
-Laws: requests have a share of each tick; what is left of them waits for the next one. No tick
-advances the world before all robots of its last frame have their topics. Before the node has
-started nothing is applied by itself. A tick begins with the messages of pages; a frame that a
-message or a call makes does not, so that no message is carried out within another.
+Laws: a tick applies requests for a limited time, and each message or call that needs them applied
+has as much; what is left of them waits for the next tick. No tick advances the world before all
+robots of its last frame have their topics. Before the node has started nothing is applied by
+itself. A tick begins with the messages of pages; a frame that a message or a call makes does not,
+so that no message is carried out within another.
 """
 
 from __future__ import annotations
@@ -95,7 +96,7 @@ class FrameLoop:
         """
         began, tick_time = time.perf_counter_ns(), _TickTime()
         self.handle_messages()
-        self._find_readers()
+        self._serve_readers()
         self._submit_commands()
         if not self._fleet.scene_robots.update(tick_time.is_overdue):
             self._simulation.playback.clock.restart()
@@ -151,7 +152,7 @@ class FrameLoop:
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
-        self._find_readers()
+        self._serve_readers()
         self._submit_commands()
         self._show(self._simulation.advance_frame())
 
@@ -163,7 +164,7 @@ class FrameLoop:
         """
         if not count:
             return 0
-        self._find_readers()
+        self._serve_readers()
         self._submit_commands()
         if self._simulation.frames.is_read:
             return 0
@@ -174,7 +175,7 @@ class FrameLoop:
 
     def apply_requests(self) -> tuple[Answer, ...]:
         """Apply the waiting requests without advancing time; show and return the answers."""
-        self._find_readers()
+        self._serve_readers()
         frame = self._simulation.apply_requests()
         if frame is not None:
             self._show(frame)
@@ -188,9 +189,10 @@ class FrameLoop:
 
     def apply_ready(self) -> bool:
         """
-        Apply the requests that need not wait, in the time for them; return whether none waits.
+        Apply the requests that need not wait, for a limited time.
 
-        Before the start nothing is applied, and True is returned.
+        :return: whether the world may be read now; before the start, when nothing is applied by
+            itself, it may be at any time
         """
         if not self.started:
             return True
@@ -238,8 +240,12 @@ class FrameLoop:
             in_past=self._simulation.speed < 0.0 or self._simulation.is_past
         )
 
-    def _find_readers(self) -> None:
-        """Make frames, and record contacts, while somebody reads them."""
+    def _serve_readers(self) -> None:
+        """
+        Have frames be made, and contacts be recorded, while somebody reads them.
+
+        A paused world whose frame lacks contacts that are read now makes its last steps again.
+        """
         outputs, fleet = self._outputs, self._fleet
         self._simulation.frames.is_read = outputs.is_read or fleet.is_read
         self._simulation.reports_contacts = outputs.wants_contacts or fleet.wants_contacts

@@ -109,7 +109,8 @@ class Applier:
 
         :param is_spent: whether there is no time for a further entry, or slice of a call; asked
             after each
-        :return: whether no seek and no call is under way, and no request waits
+        :return: whether the world may be read now: it is at the moment that is shown, and has all
+            requests
         """
         for entry in self._take(is_spent):
             try:
@@ -314,13 +315,6 @@ class Applier:
     def tell_arrival(self) -> None:
         """Collect the answer to the last seek, if its moment is reached."""
         self._arrival.tell_if_there()
-
-    def report_oldest(self, more: str = '') -> None:
-        """Add the event that the moment that is shown is the oldest."""
-        message = Text(
-            '{time} is the oldest that is kept{more}', time=self._playback.time, more=more
-        )
-        self._answers.append(Answer(topic='history', message=message))
 
     def _answer(self, result: Answer | Refusal, entry: Entry) -> None:
         """Collect the answer to a request that waited."""

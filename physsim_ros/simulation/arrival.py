@@ -15,6 +15,11 @@ from physsim_ros.model.translation import NOTHING, Text
 from physsim_ros.simulation.playback import Playback
 
 
+def superseded(by: str, time: str) -> Text:
+    """Return the answer to a seek that something else has replaced, which goes to a time."""
+    return Text('superseded by a {by} to {time}', by=by, time=time)
+
+
 class Arrival:
     """
     The answer that waits until the moment that was sought last can be shown.
@@ -45,9 +50,9 @@ class Arrival:
 
         :param by: what has done so
         """
-        self._end(Text('superseded by a {by} to {time}', by=by, time=self._playback.time))
+        self._end(superseded(by, self._playback.time))
 
-    def _end(self, superseded: Text = NOTHING) -> None:
+    def _end(self, message: Text = NOTHING) -> None:
         tell, self._tell = self._tell, None
         if tell is not None:
-            tell(superseded)
+            tell(message)

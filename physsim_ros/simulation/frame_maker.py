@@ -41,9 +41,8 @@ class FrameMaker:
         # The last state before the next frame, where no frame of it was made.
         self._passed: Snapshot | None = None
 
-    @property
-    def sensed(self) -> SensedFrame:
-        """Return the frame of now as sensors see it."""
+    def make_if_changed(self) -> SensedFrame:
+        """Return the frame of now as sensors see it, made as `make` does if it differs."""
         sensed = self._sensed
         return self._observe() if sensed is None or self.is_changed else sensed
 
@@ -64,16 +63,16 @@ class FrameMaker:
         passed = abs(playback.step - sensed.snapshot.step)
         return passed >= most or playback.arrive().scene is not sensed.snapshot.scene
 
-    def begin(self, *, is_read: bool) -> None:
+    def begin(self, *, keeps_before: bool = False) -> None:
         """
         Begin the contacts of the next frame, where no frame of now was made.
 
-        :param is_read: whether somebody reads it, for whom the state before it is kept
+        :param keeps_before: whether the state before it is kept, also if nobody reads frames
         """
         if self._sensed is not None and self._sensed.snapshot.step != self._playback.step:
             world = self._playback.arrive()
             world.clear_contacts()
-            if is_read:
+            if keeps_before or self.is_read:
                 self._passed = world.snapshot()
 
     def forget(self) -> None:

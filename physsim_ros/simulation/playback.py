@@ -199,7 +199,7 @@ class Playback:
         self._show_requests()
         frame = self._past.frames.cached_frame(step)
         if frame is None:
-            self._past.cursor.seek(step)
+            self._past.cursor.seek_step(step)
         self.show_cursor()
         self._shown, self._lacks_contacts = frame, False
 
@@ -213,7 +213,7 @@ class Playback:
         """Send the world to the moment that is shown."""
         if self._shown is not None:
             step, self._shown = self._shown.snapshot.step, None
-            self._past.cursor.seek(step, with_contacts=False)
+            self._past.cursor.seek_step(step, with_contacts=False)
 
     def slices_of_work(self) -> Iterator[None]:
         """

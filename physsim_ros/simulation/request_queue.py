@@ -19,7 +19,7 @@ from dataclasses import replace
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import KeepHand, MoveHand, Request
-from physsim_ros.model.translation import Text
+from physsim_ros.simulation.arrival import superseded
 from physsim_ros.simulation.entries import (
     Amend,
     Call,
@@ -121,8 +121,7 @@ class RequestQueue:
             self.refuse(busy, origin)
             return
         if (waiting := self._seek) is not None:
-            time = f'{stamp * 1e-9:.3f} s'
-            message = Text('superseded by a {by} to {time}', by='seek', time=time)
+            message = superseded('seek', f'{stamp * 1e-9:.3f} s')
             topic, asker = waiting.origin.topic, waiting.origin.asker
             waiting.request = Answer(topic=topic, message=message, asker=asker)
         entry = Entry(Seek(stamp), origin, '', self.gesture)

@@ -186,12 +186,12 @@ class Simulation:
         A frame is made when it is first read after steps or requests, so that steps whose frame
         nobody reads make none.
         """
-        return self.frames.sensed
+        return self.frames.make_if_changed()
 
     @property
     def frame(self) -> Frame:
-        """Return the frame of now, which is made when it is first read."""
-        return self.frames.sensed.frame
+        """Return the frame of now, which is made, with all answers, when it is first read."""
+        return self.frames.make_if_changed().frame
 
     @property
     def settings(self) -> WorldSettings:
@@ -220,7 +220,7 @@ class Simulation:
         self.playback.changed = True
         if not self.past.cursor.keep_within(length):
             self.playback.show_cursor()
-            self.applier.report_oldest()
+            self.past.report_oldest(self.step)
 
     def limit_memory(self, megabytes: float) -> None:
         """

@@ -115,7 +115,7 @@ class Ticks:
         self.run(count)
         if self._frames.is_due:
             return self._frames.make()
-        self._frames.begin(is_read=True)
+        self._frames.begin(keeps_before=True)
         return None
 
     def run(self, count: int) -> None:
@@ -178,7 +178,7 @@ class Ticks:
             if steps == 0:
                 return
             if steps > 0:
-                self._frames.begin(is_read=self._frames.is_read)
+                self._frames.begin()
                 slices = playback.play(steps, by_steps=limits.frame_end is FrameEnd.STEP)
                 if any(limits.ends_frame() if ends else limits.is_overdue() for ends in slices):
                     self._is_unfinished = not playback.is_there
@@ -208,7 +208,7 @@ class Ticks:
         _finished(self._playback.replay_ahead(steps), is_overdue)
         if self._playback.step <= self._past.line.oldest:
             self._playback.speed = 0.0
-            self._applier.report_oldest('; paused')
+            self._past.report_oldest(self._playback.step, '; paused')
         return self._frames.make()
 
 

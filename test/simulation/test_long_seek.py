@@ -19,24 +19,23 @@ NAMES = ('Anna', 'Ben')
 
 
 @pytest.fixture
-def simulation() -> Simulation:
+def digests() -> dict[int, str]:
+    """Return the digests by step that `simulation` has made."""
+    return {}
+
+
+@pytest.fixture
+def simulation(digests: dict[int, str]) -> Simulation:
     """Return a paused simulation of two seconds and a half without a checkpoint in them."""
     simulation = Simulation(settings=FLOOR)
     for number in range(4):
         disc = spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0))
         simulation.requests.submit(disc, topic='')
-    return simulation
-
-
-@pytest.fixture
-def digests(simulation: Simulation) -> dict[int, str]:
-    """Have the simulation go on for two seconds and a half; return its digests by step."""
-    digests = {}
     for _ in range(150):
         simulation.advance_frame()
         digests[simulation.step] = simulation.world.digest()
     simulation.speed = 0.0
-    return digests
+    return simulation
 
 
 def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
@@ -57,7 +56,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(simulation, digests
     assert simulation.world.digest() == digests[480]
 
 
-def test_requests_wait_for_the_end_of_a_seek_and_apply_there(simulation, digests):
+def test_requests_wait_for_the_end_of_a_seek_and_apply_there(simulation):
     simulation.seek(SECOND)
     simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     _, frame = ticks_to_a_frame(simulation, 0)
@@ -66,9 +65,7 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(simulation, digests
 
 
 @pytest.mark.parametrize('speed', [0.0, 1.0])
-def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(
-    simulation, digests, speed
-):
+def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(simulation, speed):
     simulation.past.frames.drop_from(0)
     simulation.speed = speed
     simulation.requests.submit_seek(2 * SECOND, Origin('~/seek'))
@@ -88,7 +85,7 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(
     assert 'late/0' not in frame.snapshot.scene.names
 
 
-def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulation, digests):
+def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulation):
     simulation.seek(SECOND)
     requests = simulation.requests
     saved: list[WorldState] = []
@@ -113,7 +110,7 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulatio
     assert len(simulation.world) == 5
 
 
-def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
+def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation):
     simulation.seek(SECOND)
     queue = simulation.requests
     queue.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), Origin('~/spawn', author='Anna'))
@@ -131,7 +128,7 @@ def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
     assert len(frame.snapshot.scene.names) == 4
 
 
-def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation, digests):
+def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation):
     simulation.seek(2 * SECOND)
     amend = Amend((4,), (spawning('other/0', DISC, (5.0, 1.0, 0.0)),))
     simulation.requests.submit(amend, topic='~/stroke', joined=True)
@@ -158,7 +155,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, d
     assert simulation.applier.apply_ready()
 
 
-def test_another_seek_takes_the_place_of_one_and_of_its_frames(simulation, digests):
+def test_another_seek_takes_the_place_of_one_and_of_its_frames(simulation):
     simulation.seek(2 * SECOND)
     simulation.playback.queue_frame()
     simulation.seek(SECOND)
@@ -186,7 +183,7 @@ def told_of_seeks(simulation: Simulation) -> list[tuple[str, str]]:
 
 @pytest.mark.parametrize('other', ['none', 'seek', 'undo', 'reset'])
 def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_place(
-    simulation, digests, other
+    simulation, other
 ):
     simulation.past.frames.drop_from(0)
     simulation.requests.submit_seek(2 * SECOND, Origin('~/seek', asker='1'))
@@ -213,7 +210,7 @@ def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_plac
 
 @pytest.mark.parametrize('ends_by', ['replay', 'seek', 'another undo'])
 def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewhere(
-    simulation, digests, ends_by
+    simulation, ends_by
 ):
     for number in range(2):
         late = spawning(f'late/{number}', DISC, (5.0 + number, 1.0, 0.0))
@@ -302,9 +299,9 @@ def test_a_space_that_is_given_up_while_it_is_built_changes_no_bits(monkeypatch)
             assert all(cursor.carry_out_slice() for _ in range(parts))
             assert simulation.step == 24
             # The way back is given up, too, for another one.
-            cursor.seek(goal)
+            cursor.seek_step(goal)
             assert all(cursor.carry_out_slice() for _ in range(parts))
-            cursor.seek(24)
+            cursor.seek_step(24)
             assert cursor.arrive().step_count == 24
         simulation.run(0.1)
         digests.add(simulation.world.digest())

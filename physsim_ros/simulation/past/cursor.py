@@ -263,7 +263,7 @@ class Cursor(Replay):
         self._tree.begin(loaded, checkpoint, self._world.digest())
         self._resumed = self.moment
 
-    def seek(self, step: int, *, with_contacts: bool = True) -> None:
+    def seek_step(self, step: int, *, with_contacts: bool = True) -> None:
         """
         Go to a step of the line, as it was shown.
 
@@ -290,9 +290,9 @@ class Cursor(Replay):
 
         :param elsewhere: whether the world is on another line now
         """
-        line, frame, goal = self._line, self._world.frame_steps, Moment(step, serial)
+        line, goal, frame_steps = self._line, Moment(step, serial), self._world.frame_steps
         # Contacts are those of one frame, as they were the first time.
-        begin = max(line.oldest, step - (step % frame or frame))
+        begin = max(line.oldest, step - (step % frame_steps or frame_steps))
         start = min(Moment(begin, line.serial_shown_at(begin)), goal)
         first = start if self._world.reports_contacts else goal
         keyframe = line.keyframe_before(*first)
@@ -346,7 +346,7 @@ class Cursor(Replay):
         self._tree.limit_length(length)
         if self._world.step_count >= line.oldest and self.moment >= line.keyframes[0].moment:
             return True
-        self.seek(line.oldest)
+        self.seek_step(line.oldest)
         return False
 
     # Going on

@@ -126,6 +126,12 @@ class Past:
         self.reports.clear()
         return reports
 
+    def report_oldest(self, step: int, more: str = '') -> None:
+        """Add the event that a step is the oldest that is kept."""
+        time = f'{step / self.physics_rate:.3f} s'
+        message = Text('{time} is the oldest that is kept{more}', time=time, more=more)
+        self.reports.append(Answer(topic='history', message=message))
+
     def free_slice(self) -> None:
         """Free a part of what worlds were before they were replaced."""
         for world in self._worlds:
@@ -432,9 +438,7 @@ class Past:
         frames = self.frames.drop_from(cursor.follow(line.tip, line.head, moment))
         reached = cursor.moment.step
         if reached != moment[0]:
-            time = f'{reached / self.physics_rate:.3f} s'
-            message = Text('{time} is the oldest that is kept{more}', time=time, more='')
-            self.reports.append(Answer(topic='history', message=message))
+            self.report_oldest(reached)
         for frame in line.frames:
             self.frames.add_frame(frame)
         tree.put_in_force(line)
