@@ -33,7 +33,8 @@ def by_likeness(tests: list[Path], mutation: Mutation) -> list[Path]:
     rarity = _rarity(tuple(tests))
     text = (ROOT / mutation.path).read_bytes()
     line = text.count(b'\n', 0, mutation.begin)
-    near = b'\n'.join(text.split(b'\n')[max(0, line - LINES) : line + LINES]).decode()
+    first, end = max(0, line - LINES), line + LINES
+    near = b'\n'.join(text.split(b'\n')[first:end]).decode()
     asked = {
         word: _weight(count) * rarity_here[word]
         for word, count in (_words(ROOT / mutation.path) + _counted(near, NEAR)).items()
