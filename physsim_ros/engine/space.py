@@ -26,6 +26,7 @@ from physsim_ros.engine.pymunk_bodies import build_body
 from physsim_ros.engine.scene_columns import check_columns, check_floor
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
+from physsim_ros.model.attraction import attracts
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.scene import Body, Joint, Scene, Wakes
 from physsim_ros.model.settings import WorldSettings
@@ -219,14 +220,12 @@ class Space:
             if rigid.body.anchored:
                 self._core.note_moved_static()
             self._release(touching)
-        moved = [rigid for rigid, _ in poses]
-        rigids = self.bodies.by_name.values()
-        if any(rigid.body.medium is not None for rigid in moved):
-            wake_bodies(each.pm_body for each in rigids)
-        # They attract others from other places.
-        table = self.tables.latest
-        attracting = table is not None and len(table.columns.attractors) > 0
-        for each in rigids if attracting else moved:
+        concerned = moved = [rigid for rigid, _ in poses]
+        if any(each.body.medium or attracts(each.body, self._settings) for each in moved):
+            # They act on all others from other places.
+            concerned = list(self.bodies.by_name.values())
+            wake_bodies(each.pm_body for each in concerned)
+        for each in concerned:
             each.begin_fields()
         self._changes += len(poses)
 

@@ -12,12 +12,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from physsim_ros.model.translation import NOTHING, Text
+from physsim_ros.simulation.entries import superseded
 from physsim_ros.simulation.playback import Playback
-
-
-def superseded(by: str, time: str) -> Text:
-    """Return the answer to a seek that something else has replaced, which goes to a time."""
-    return Text('superseded by a {by} to {time}', by=by, time=time)
 
 
 class Arrival:

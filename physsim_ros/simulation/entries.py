@@ -14,6 +14,7 @@ from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.sizes import request_size
+from physsim_ros.model.translation import Text
 from physsim_ros.runtime.slices import Sliced
 
 
@@ -26,6 +27,11 @@ class Seek:
     """
 
     stamp: int
+
+
+def superseded(by: str, time: str) -> Text:
+    """Return the answer to a seek that something else has replaced, which goes to a time."""
+    return Text('superseded by a {by} to {time}', by=by, time=time)
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,6 @@ from dataclasses import replace
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import KeepHand, MoveHand, Request
-from physsim_ros.simulation.arrival import superseded
 from physsim_ros.simulation.entries import (
     Amend,
     Call,
@@ -27,6 +26,7 @@ from physsim_ros.simulation.entries import (
     Origin,
     Seek,
     size_of,
+    superseded,
     TakeBack,
     Unread,
 )

@@ -50,13 +50,20 @@ def test_a_planet_goes_around_by_the_laws_of_kepler(report, eccentricity):
     report.check(72, 'period of ten turns', rises[9] / (10 * period), 1.0, 1e-4, '-')
 
 
-def test_a_sun_that_is_put_elsewhere_pulls_at_once_as_one_that_was_there():
+def sun_at(sim, x, y):
+    return spawn(sim, 'sun/0', Disc(radius=0.05), (x, y, 0.0), mass=100.0, anchored=True)
+
+
+@pytest.mark.parametrize(
+    'put', [lambda sim, x, y: sim.place('sun/0', x, y), sun_at], ids=['place', 'spawn']
+)
+def test_a_sun_that_is_put_elsewhere_pulls_at_once_as_one_that_was_there(put):
     sim = planet_of(0.0)
     run(sim, 0.5)
-    sim.place('sun/0', 0.0, 0.3)
+    put(sim, 0.0, 0.3)
     x, y, yaw, vx, vy = *sim.world.snapshot().poses[1], *sim.world.snapshot().twists[1, :2]
     other = simulation(gravity=NOWHERE, gravitation=GM / 100.0)
-    spawn(other, 'sun/0', Disc(radius=0.05), (0.0, 0.3, 0.0), mass=100.0, anchored=True)
+    sun_at(other, 0.0, 0.3)
     spawn(other, 'planet/0', Disc(radius=0.02), (x, y, yaw), mass=1e-3, velocity=(vx, vy))
     here, there = (run(each, 0.1).poses[1, :2] for each in (sim, other))
     assert math.dist(here, there) < 1e-12
