@@ -164,7 +164,7 @@ class Space:
         check_columns(body, self._settings, self.dt)
         wakes = old.body.wakes(body)
         if wakes < Wakes.TOUCHING:
-            # What Chipmunk keeps of the velocity of a sleeping body is rounding.
+            # The velocity that Chipmunk keeps for a sleeping body is rounding.
             stays_at_rest = old.pm_body.is_sleeping and twist == REST
             if wakes is Wakes.ITSELF:
                 wake_bodies([old.pm_body])

@@ -114,7 +114,7 @@ def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray
         array = array if width == 1 else array.reshape(-1, width)
     except (ValueError, binascii.Error, zlib.error) as error:
         raise BadProperty(
-            '{field} is not what was saved: {error}', field=name, error=error
+            '{field} is not what was saved: {error}', field=name, error=str(error)
         ) from error
     if not inflater.eof:
         raise BadProperty('{field} is not what was saved: it has no end', field=name)

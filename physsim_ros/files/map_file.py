@@ -28,6 +28,7 @@ from physsim_ros.model.arrays import Flags
 from physsim_ros.model.checks import must_be, number, Numbers, shown, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.shapes import LARGEST, SMALLEST
+from physsim_ros.model.translation import Text
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -120,8 +121,8 @@ def _file_in(folder: Path, name: object, field: str, *, root: Path | None = None
     return path
 
 
-def _unreadable(path: Path, error: Exception | str, field: str) -> BadProperty:
-    reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+def _unreadable(path: Path, error: Exception | Text, field: str) -> BadProperty:
+    reason = error if isinstance(error, Text) else str(getattr(error, 'strerror', '') or error)
     return BadProperty('cannot read {file}: {reason}', field=field, file=path.name, reason=reason)
 
 
@@ -145,7 +146,7 @@ def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:
                 _check_pixels(path, *image.size)
                 sums, most = _brightness(image)
     except UnidentifiedImageError as error:
-        raise _unreadable(path, 'it is neither a PGM nor a PNG', 'image') from error
+        raise _unreadable(path, Text('it is neither a PGM nor a PNG'), 'image') from error
     except BadProperty:
         raise
     except Exception as error:

@@ -20,6 +20,7 @@ from physsim_ros.model.checks import must_be, shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.translation import Text
 
 # Keys that exclude each other: one in an entry replaces all of the shipped robot.
 _ONE_OF = (tuple(SHAPES), ('mass', 'density'))
@@ -106,7 +107,7 @@ def _changed_by_name(
     names = [entry['name'] for entry in entries]
     for name, change in changes.items():
         if name not in names:
-            there = ', '.join(names) or 'none'
+            there = ', '.join(names) or Text('none')
             raise BadProperty(
                 'there is no {noun} {value}{near}; there are {there}',
                 field=f'{noun}s',
@@ -116,5 +117,11 @@ def _changed_by_name(
                 there=there,
             )
         if not isinstance(change, dict):
-            raise must_be('a mapping', change, f'{noun}s')
+            raise BadProperty(
+                'the changes of {noun} {name} must be a mapping, not {value}',
+                field=f'{noun}s',
+                noun=noun,
+                name=name,
+                value=shown(change),
+            )
     return [{**entry, **changes.get(entry['name'], {})} for entry in entries]

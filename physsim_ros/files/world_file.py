@@ -303,7 +303,7 @@ def _is_world_file(path: Path) -> bool:
 
 def _unreadable(name: str, error: OSError | UnicodeDecodeError) -> BadWorldFile:
     # The text of an OSError ends with the path, that of a UnicodeDecodeError has a byte.
-    reason = error.strerror if isinstance(error, OSError) else 'it is no text in UTF-8'
+    reason = error.strerror if isinstance(error, OSError) else Text('it is no text in UTF-8')
     return BadWorldFile(
         'cannot read {name}: {reason}', field='world_file', name=name, reason=reason
     )

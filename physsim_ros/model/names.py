@@ -66,8 +66,8 @@ def check_body_name(value: object, field: str = 'name') -> str:
     if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS, HANDS)):
         raise Malformed('{name!r} is no body in the picture', field=field, name=name)
     if PAIR_SEPARATOR in name:
-        template = '{name!r} holds a {most}, which separates the names of a contact'
-        raise Malformed(template, field=field, name=name, most=PAIR_SEPARATOR)
+        template = '{name!r} holds a {separator}, which separates the names of a contact'
+        raise Malformed(template, field=field, name=name, separator=PAIR_SEPARATOR)
     return name
 
 

@@ -4,8 +4,8 @@
 """
 The contacts of the past that pages ask for: touches of bodies, and forces on them.
 
-Law: these are those of a replay, so that a gate, or a body, that is chosen after a run tells the
-same.
+Law: they are found by a replay, so that a gate or a body tells the same if it is chosen after a
+run.
 """
 
 from __future__ import annotations

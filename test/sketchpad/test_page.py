@@ -387,7 +387,7 @@ def test_a_refusal_stands_at_its_place(sheet: Sheet) -> None:
     # A rod from the shelf to the background begins at the shelf, whose fault it is.
     sheet.press('Rod')
     sheet.drag((-4.0, 3.0), (4.0, 7.0))
-    note.get_by_text('shelf/0 is anchored').wait_for()
+    note.get_by_text('shelf/0 cannot move').wait_for()
     box = note.bounding_box()
     x, y = sheet.place(-4.0, 3.2)
     assert abs(box['x'] + box['width'] / 2 - x) < 5

@@ -235,7 +235,7 @@ void apply_floor(World *world) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_plus(driving.mean, belt, 1.0), end = twist_plus(driving.end, belt, 1.0);
             if (sleeps(body) && !is_zero(mean)) {
-                // What drives it, or the conveyor below it, moves now.
+                // Its drive, or a conveyor below it, moves now.
                 world->chipmunk.body_activate(body->engine);
             }
             bring_to_floor(world, body, mean, end);

@@ -194,7 +194,10 @@ def _draw_color(text: str) -> Color | None:
         return None if text == AUTO else color_from(text)
     except BadProperty as refusal:
         raise BadProperty(
-            'draw_color: {refusal}, or {most}', field='draw_color', refusal=refusal, most=AUTO
+            'draw_color: {refusal}, or {word}',
+            field='draw_color',
+            refusal=refusal.text,
+            word=AUTO,
         ) from refusal
 
 

@@ -263,7 +263,7 @@ def test_a_changed_property_wakes_the_body_or_what_touches_it_or_nobody(name, an
     itself = set() if anchored else {'bank/0', 'on/0'}
     woken = {Wakes.NOBODY: set(), Wakes.ITSELF: itself, Wakes.TOUCHING: {'bank/0', 'on/0'}}[wakes]
     assert sleepers(world) == [each for each in asleep if each not in woken]
-    # Who wakes alone keeps contacts, and velocity: a body that is thrown begins to fly.
+    # A body that wakes by itself keeps contacts and velocity; one that is thrown begins to fly.
     assert wakes is Wakes.TOUCHING or not world.space.bodies.by_name['bank/0'].state['thrown']
 
 
