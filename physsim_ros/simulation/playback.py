@@ -34,7 +34,7 @@ class Playback:
     :ivar changed: whether the next frame differs from the last one without a step
     :ivar stepped: whether steps, forward or back, have led from the last frame to this moment
     :ivar starts: count of the times that time has begun to run
-    :ivar frames_due: count of single frames to be made in a paused world, one in each call
+    :ivar single_frames: count of single frames to be made in a paused world, one in each call
     """
 
     def __init__(self, past: Past, *, speed: float) -> None:
@@ -44,7 +44,7 @@ class Playback:
         self.changed = True
         self.stepped = False
         self.starts = 0
-        self.frames_due = 0
+        self.single_frames = 0
         self._past = past
         # Whether the steps of the frame that is shown were made before contacts were reported.
         self._lacks_contacts = False
@@ -72,7 +72,7 @@ class Playback:
 
     def _complete_frame(self) -> None:
         """Make the frame that a paused world shows again, with contacts, if it lacks them."""
-        if self._lacks_contacts and self.speed == 0 and not self.frames_due:
+        if self._lacks_contacts and self.speed == 0 and not self.single_frames:
             self._seek_step(self.step)
 
     def begin_frame(self) -> None:
@@ -160,7 +160,7 @@ class Playback:
     def is_world_due(self) -> bool:
         """Return whether the world has to go to the moment that is shown."""
         stands_still = self.speed == 0 and not self.changed
-        return self.speed > 0 or stands_still or self.frames_due > 0
+        return self.speed > 0 or stands_still or self.single_frames > 0
 
     def observe_frame(self) -> CachedFrame:
         """Return the frame that is shown, and note that it was."""
@@ -243,19 +243,19 @@ class Playback:
 
         :return: the simulation time then [ns]
         """
-        step = self.step + self.steps_to_period + self.frames_due * self._past.frame_steps
-        self.frames_due += 1
+        step = self.step + self.steps_to_period + self.single_frames * self._past.frame_steps
+        self.single_frames += 1
         return stamp_of(step, self._past.physics_rate)
 
     def take_frame(self) -> bool:
         """Take one of the single frames that are due, and return whether there was one."""
-        is_due = self.frames_due > 0
-        self.frames_due -= is_due
+        is_due = self.single_frames > 0
+        self.single_frames -= is_due
         return is_due
 
     def drop_frames(self) -> None:
         """Have no single frame be due."""
-        self.frames_due = 0
+        self.single_frames = 0
 
     def run(self, steps: int) -> None:
         """Advance the world, which is at the moment that is shown, by steps."""

@@ -116,7 +116,7 @@ class RequestQueue:
         return gesture
 
     def submit_seek(self, stamp: int, origin: Origin) -> None:
-        """Add a seek to a simulation time [ns], in place of one that is the last entry."""
+        """Add a seek to a simulation time [ns], in place of one that waits."""
         if busy := self._busy():
             self.refuse(busy, origin)
             return

@@ -156,7 +156,7 @@ class Ticks:
         applier.apply_ready(limits.is_spent)
         if not self.continue_work(is_overdue):
             return ()
-        if applier.is_in_gesture or (playback.frames_due and applier.is_busy):
+        if applier.is_in_gesture or (playback.single_frames and applier.is_busy):
             playback.clock.restart()
             return ()
         if playback.take_frame():

@@ -281,7 +281,7 @@ class Sketchpad:
             number,
         )
         # To all: what is not sent again is what all pages have got.
-        self._server.send(timeline_content(self._timeline.read_status(time.monotonic())))
+        self._server.send(timeline_content(self._timeline.status_to_send(time.monotonic())))
         self._server.list_worlds(number)
         if (failure := self.autosave_failure) is not None:
             self._server.send(answer_content(failure, ''), number)

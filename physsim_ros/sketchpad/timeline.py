@@ -46,10 +46,10 @@ class TimelineReport:
         known = last is not None and last.speed == frame.speed
         if runs and known and now - self._read_at < TIMELINE_PERIOD:
             return None
-        status = self.read_status(now)
+        status = self.status_to_send(now)
         return None if status == last else status
 
-    def read_status(self, now: float) -> TimelineStatus:
+    def status_to_send(self, now: float) -> TimelineStatus:
         """
         Return the status, to be sent to all pages.
 

@@ -6,13 +6,12 @@
 from dataclasses import replace
 
 import numpy as np
-from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Delete, Request, Restore
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.past.tree import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import Change, World
 import pytest
 
 from .driven import SLAB
@@ -184,7 +183,7 @@ def test_a_request_that_fails_in_the_past_keeps_no_line(monkeypatch):
     users = sim.past.line.tip.users
     carry_out = World.apply
 
-    def fail(world: World, request: Request) -> Answer:
+    def fail(world: World, request: Request) -> Change:
         if isinstance(request, Command):
             raise ZeroDivisionError
         return carry_out(world, request)

@@ -450,7 +450,7 @@ def test_what_is_refused_ends_no_drive_no_drag_and_no_frame_that_is_due(name):
     assert (sim.step, sim.world.digest(), sim.status) == before
     assert sim.applier.drives.commands
     assert 'mouse' in sim.applier.hands
-    assert sim.playback.frames_due == 1
+    assert sim.playback.single_frames == 1
 
 
 def timed() -> WorldState:

@@ -97,7 +97,7 @@ class MarkersEncoder:
         new = chain(
             self._serialise_bodies(scene), self._serialise_joints(scene), self._delete(scene)
         )
-        # One more than `MOST_NEW` is left, or none.
+        # `islice` makes the first `MOST_NEW`, and `any` one more, if there is one.
         return not any(True for _ in islice(new, MOST_NEW, None))
 
     def _serialise_bodies(self, scene: Scene) -> Iterator[None]:
