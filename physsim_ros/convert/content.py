@@ -18,6 +18,7 @@ from physsim_ros.files import kind_of, MOST_BYTES, read_bytes
 from physsim_ros.model.checks import shown, Whole, Within
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.translation import verbatim
 import yaml
 
 # Greatest number, of either sign: its square is finite.
@@ -33,7 +34,7 @@ class BadContent(Refusal):
     """A value of a file of another program is missing, or of a wrong kind; no page tells it."""
 
     def __init__(self, message: str) -> None:
-        super().__init__('{message}', message=message)
+        super().__init__(verbatim(message))
 
 
 class _Reads:

@@ -45,7 +45,7 @@ def kind_of(content: Mapping[Any, Any]) -> str:
 
 
 def advice_on(content: Mapping[Any, Any]) -> Text | None:
-    """Return what a mapping is, and what to do with it, where it is no world."""
+    """Return the kind of a mapping that is no world, with advice on its use; None if unknown."""
     kind = kind_of(content)
     if kind in CONVERTED:
         template = (
@@ -58,7 +58,7 @@ def advice_on(content: Mapping[Any, Any]) -> Text | None:
 
 
 def advice_on_xml(text: str) -> Text | None:
-    """Return what a text is, if it is XML."""
+    """Return the kind of a text that is XML, as a message; None where it is not."""
     found = _ROOT.match(text[:10_000])
     if found is None:
         return None

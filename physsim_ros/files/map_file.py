@@ -123,7 +123,7 @@ def _file_in(folder: Path, name: object, field: str, *, root: Path | None = None
 
 def _unreadable(path: Path, error: Exception | Text, field: str) -> BadProperty:
     reason = error if isinstance(error, Text) else str(getattr(error, 'strerror', '') or error)
-    return BadProperty('cannot read {file}: {reason}', field=field, file=path.name, reason=reason)
+    return BadProperty('cannot read {name}: {reason}', field=field, name=path.name, reason=reason)
 
 
 def _negate(content: Mapping[Any, Any]) -> bool:

@@ -250,5 +250,5 @@ def robot_spawn(
 def _pose(entry: Mapping[Any, Any]) -> Pose:
     at = entry.get('at', [0.0, 0.0])
     if not isinstance(at, list) or len(at) not in (2, 3):
-        raise BadProperty('at must be [x, y] or [x, y, yaw]', field='at')
+        raise BadProperty('{field} must be [x, y] or [x, y, yaw]', field='at')
     return (*pair(at[:2], 'at'), number(at[2], 'at') if len(at) == 3 else 0.0)

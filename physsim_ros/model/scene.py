@@ -57,7 +57,7 @@ class Body:
     """
     A body without its pose and velocity, its properties as `Properties` declares them.
 
-    A note at each says who wakes when it changes.
+    Each field is annotated with the bodies that wake when it changes.
 
     :param name: unique in its world
     :param shape: geometry in the body's frame

@@ -272,8 +272,7 @@ class Frame:
         """
         Return whether a time has passed since another frame, or back to this one in a rewind.
 
-        :param seconds: simulation time [s] at speed 1 and below; of faster time it is as many
-            times as long
+        :param seconds: simulation time [s], times the speed where that is above 1
         """
         elapsed = abs(self.snapshot.stamp - since.snapshot.stamp) * 1e-9
         # Stamps are rounded.

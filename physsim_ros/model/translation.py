@@ -55,6 +55,11 @@ class Text(str):
 NOTHING = Text('')
 
 
+def verbatim(message: str) -> Text:
+    """Return a message that pages show as it is: it comes from elsewhere, as from rclpy."""
+    return Text('{message}', message=message)
+
+
 def counted(number: int, noun: str) -> Text:
     """Return a number and its noun: 1 body, 2 bodies."""
     if number == 1:

@@ -20,6 +20,7 @@ from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.texts import abbreviated, nearest_name
+from physsim_ros.model.translation import verbatim
 from physsim_ros.ros import parameters
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.simulation.simulation import Simulation
@@ -85,7 +86,7 @@ class LiveParameters:
         self._refusal = None
         result = self._node.set_parameters_atomically(wanted)
         if not result.successful:
-            raise self._refusal or BadProperty('{reason}', reason=result.reason)
+            raise self._refusal or BadProperty(verbatim(result.reason))
 
     def _check_descriptor(self, parameter: Parameter) -> None:
         """
@@ -101,7 +102,7 @@ class LiveParameters:
         # rclpy 7.1 has no public name for it.
         result = self._node._apply_descriptor(parameter)  # noqa: SLF001
         if not result.successful:
-            raise BadProperty('{reason}', field=name, reason=result.reason)
+            raise BadProperty(verbatim(result.reason), field=name)
 
     def show(self, _: Frame) -> None:
         """Set the parameters to the settings and speed of the world at a frame."""

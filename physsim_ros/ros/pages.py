@@ -12,6 +12,7 @@ from __future__ import annotations
 import sys
 
 from physsim_ros.model.errors import BadProperty, PhysSimError
+from physsim_ros.model.translation import verbatim
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
@@ -76,7 +77,7 @@ class Pages:
                 wake=self._wake,
             )
         except PhysSimError as error:
-            raise BadProperty('{error}', field='sketchpad', error=str(error)) from error
+            raise BadProperty(verbatim(str(error)), field='sketchpad') from error
         self._outputs.open_sketchpad(sketchpad)
         if self._loop.started:
             self.print_addresses()

@@ -6,11 +6,13 @@ The applier takes entries from the queue of requests, and applies them at the mo
 
 Laws: entries are applied in the order of their arrival, and each is answered once, but moves of
 hands and drives only if refused. A seek, or a call that sends the world elsewhere, is answered
-when the moment is reached, or when the world is sent elsewhere before. Requests that read or
-change the world wait for the end of a seek; all but answers wait for the end of an amendment, and
-all for that of a call in slices, unless that has read the world and only writes: then other calls
-wait. `docs/architecture.md` has a table of all that applies requests, moves the cursor or makes
-frames.
+when the moment is reached, or when the world is sent elsewhere before. An entry waits for the end
+
+- of a seek, if it is a request that reads or changes the world;
+- of an amendment, unless it is an answer;
+- of a call in slices; if that has read the world and only writes, other calls alone wait.
+
+`docs/architecture.md` has a table of all that applies requests, moves the cursor or makes frames.
 """
 
 from __future__ import annotations

@@ -501,7 +501,7 @@ class Simulation:
         self.applier.show_jump()
         return Text('on course {course}, at {time}', course=number, time=self.playback.time)
 
-    def seek(self, stamp: int) -> str:
+    def seek(self, stamp: int) -> Text:
         """
         Go to a simulation time, exactly, and return a message about it.
 

@@ -77,8 +77,7 @@ def check_locked_in_turn(role: Role, wanted: Iterable[Request], control: WorldCo
     """
     Refuse requests whose turn has come as `check_locked` does, by the world as it is then.
 
-    What was applied between the message and its turn, as a long seek, may have put locked bodies
-    where it points to.
+    A long seek between the message and its turn may have put locked bodies where it points to.
 
     :raises Frozen: one of them concerns a locked body
     """

@@ -160,7 +160,7 @@ def _checked(request: str, type_: object, fields: dict[str, Any], role: Role) ->
 def _request_from(value: object) -> str:
     if not isinstance(value, str) or len(value) > LONGEST_ID:
         raise Malformed(
-            'id must be text of at most {most} characters', field='id', most=LONGEST_ID
+            '{field} must be text of at most {most} characters', field='id', most=LONGEST_ID
         )
     return value
 

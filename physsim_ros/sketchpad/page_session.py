@@ -21,7 +21,7 @@ from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
 from physsim_ros.model.preview import NO_PREVIEW, Preview
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.model.translation import NOTHING, Text
+from physsim_ros.model.translation import NOTHING, Text, verbatim
 from physsim_ros.runtime.error_boundary import ErrorBoundary
 from physsim_ros.runtime.slices import in_slices, Sliced
 from physsim_ros.simulation.entries import Origin, Wait
@@ -190,12 +190,17 @@ class PageSession:
         """Have locks be checked again in the turn of the first of requests, for all of them."""
 
         @cache
-        def check_all() -> None:
-            check_locked_in_turn(self.role, requests, self.control)
+        def refusal() -> Refusal | None:
+            try:
+                check_locked_in_turn(self.role, requests, self.control)
+            except Refusal as refusal:
+                return refusal
+            return None
 
         def check() -> None:
             origin.check()
-            check_all()
+            if (found := refusal()) is not None:
+                raise found
 
         return origin._replace(check=check)
 
@@ -282,9 +287,5 @@ async def answers_of(
     except Refusal as refusal:
         return (Answer.refused(refusal, topic=topic, asker=asker),)
     except PhysSimError as error:
-        return (
-            Answer(
-                topic=topic, message=Text('{error}', error=str(error)), code='refused', asker=asker
-            ),
-        )
+        return (Answer(topic=topic, message=verbatim(str(error)), code='refused', asker=asker),)
     return (Answer(topic=topic, message=message, asker=asker),)

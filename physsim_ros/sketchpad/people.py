@@ -82,7 +82,7 @@ class People:
         return content
 
     def forget_taken(self) -> None:
-        """Have the next list taken, whether it has changed or not: a new page has none."""
+        """Have the next list be sent even if it has not changed, since a new page has none."""
         self._taken = {}
 
     @property

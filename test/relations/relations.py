@@ -50,7 +50,9 @@ class Relation:
     :param tolerance: of the places of points of bodies [m]
     :param reason: of the tolerance
     :param applies: whether it says anything about a state
-    :param plain: each plays a scene; the other is compared with that which is nearest
+    :param plain: each plays a scene; the other is compared with that which is nearest. A body to
+        which something is joined is solved with its contacts by another method, as if a slack
+        rope held it, unless what is joined has no effect at all
     :param keeps_energy: whether the other world has the energy of the scene, by which chaotic ones
         are compared; else their places are
     """

@@ -48,7 +48,7 @@ _DECLARED: dict[str, set[str]] = {
 }
 # Templates that are not translated: names of settings, which files and ROS have, too.
 NAMES = set(WorldSettings.FIELDS)
-# Classes of refusals that pages meet: no page reads a drawing.
+# Classes of refusals that pages meet; `BadDrawing` is left out: no page reads a drawing.
 _REFUSALS = {'NotYaml', 'error'} | {
     name
     for name, each in vars(errors).items()

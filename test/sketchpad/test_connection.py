@@ -86,6 +86,7 @@ def test_the_page_comes_back_when_its_socket_was_cut(open_sheet: OpenSheet, addr
     sheet.page.get_by_role('alert').wait_for(state='visible')
     cable.mend()
     sheet.page.get_by_role('alert').wait_for(state='hidden')
+    sheet.told('Connected again', exact=True)
     before = sheet.names()
     sheet.press('Circle')
     sheet.drag((1.0, 6.0), (1.5, 6.0))
@@ -215,6 +216,7 @@ def test_what_is_drawn_without_a_socket_waits_for_one_and_is_there_once(
     plane = sheet.wait_for_new(before)
     first, *others = ('again' in each.url for each in cable.sockets)
     assert not first
+    assert others
     assert all(others)
     # After its answer no other one would come.
     sheet.press('Play')

@@ -412,7 +412,7 @@ def test_the_number_of_an_arrow_lies_on_no_meter(sheet: Sheet) -> None:
     sheet.page.get_by_label('Meter in the world').select_option('Momentum [N s]')
     sheet.page.evaluate(NOTE_TEXTS)
     sheet.page.get_by_text('Enter numbers').click()
-    # Where the first two are, the number would lie on the words of the meter.
+    # The numbers of the first two speeds would lie on the words of the meter.
     for speed in ('0.1', '0.2', '0.3', '0.8', '2'):
         sheet.enter('vx [m/s]', '0')
         sheet.enter('vy [m/s]', speed)

@@ -18,7 +18,7 @@ from physsim_ros.drawing.strokes.figure import Figure
 from physsim_ros.drawing.strokes.grouping import grouped, MOST_STROKES
 from physsim_ros.drawing.strokes.marks import marked_solid
 from physsim_ros.drawing.strokes.stages import MeaningKind, Reading
-from physsim_ros.drawing.strokes.waiting import Over, readings_over
+from physsim_ros.drawing.strokes.waiting import readings_over, Reread
 from physsim_ros.drawing.strokes.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.translation import Text
 
@@ -96,7 +96,7 @@ class Sketch:
         return replace(self, figures=(*earlier, replace(last, gestures=(gesture,))))
 
 
-def _with_earlier(reading: Reading, again: Sequence[Over]) -> Reading:
+def _with_earlier(reading: Reading, again: Sequence[Reread]) -> Reading:
     """Return a reading with what earlier figures are over its new body, read again."""
     for _, over in again:
         reading = replace(

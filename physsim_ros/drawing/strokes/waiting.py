@@ -58,12 +58,12 @@ _BY_AXLE = frozenset({MeaningKind.MOTOR})
 
 
 # The strokes of an earlier figure, and what they are over a new body.
-Over = tuple[tuple[Figure, ...], Reading]
+Reread = tuple[tuple[Figure, ...], Reading]
 
 
 def readings_over(
     figure: Figure, figures: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[Over]:
+) -> Iterator[Reread]:
     """
     Yield earlier strokes and their readings over a new body or axle, where those are others.
 
@@ -83,7 +83,7 @@ def _motor(
     figures: Sequence[Figure],
     scene: SceneQuery,
     settings: DrawingSettings,
-) -> Iterator[Over]:
+) -> Iterator[Reread]:
     """
     Yield the last round arrow over nothing whose axle is made now, with its reading.
 
@@ -104,7 +104,7 @@ def _motor(
 
 def _readings_over_body(
     solid: Figure, figures: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[Over]:
+) -> Iterator[Reread]:
     """Yield earlier strokes and their readings over a new body, where those are others."""
     spawn = next(each for each in solid.requests if isinstance(each, Spawn))
     requests = list(solid.requests)

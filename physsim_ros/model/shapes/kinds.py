@@ -60,7 +60,7 @@ def _line(value: Any, name: str) -> tuple[Point, ...]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Solid(Checked, ABC):
+class _ShapeKind(Checked, ABC):
     """
     The base of shapes.
 
@@ -79,7 +79,7 @@ class _Solid(Checked, ABC):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Disc(_Solid):
+class Disc(_ShapeKind):
     """
     A disc, about the body's position (Box2D and Pymunk: a circle).
 
@@ -96,7 +96,7 @@ class Disc(_Solid):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Box(_Solid):
+class Box(_ShapeKind):
     """
     A rectangle about the body's position, its sides along the body's axes.
 
@@ -125,7 +125,7 @@ class Box(_Solid):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Polygon(_Solid):
+class Polygon(_ShapeKind):
     """
     A solid with any simple outline.
 
@@ -181,7 +181,7 @@ def _form_of_outline(points: tuple[Point, ...]) -> Form:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Triangles(_Solid):
+class Triangles(_ShapeKind):
     """
     A solid made of triangles; where they overlap, the mass of both counts.
 
@@ -215,7 +215,7 @@ class Triangles(_Solid):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Chain(_Solid):
+class Chain(_ShapeKind):
     """
     A chain of segments with round ends, for walls and terrain (Box2D: a chain shape).
 
@@ -241,7 +241,7 @@ _ELEMENTS: dict[str, type[Disc | Box]] = {each.KEY: each for each in (Disc, Box)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Compound(_Solid):
+class Compound(_ShapeKind):
     """
     A compound: the same disc or box at several positions, not rotated, as one rigid body.
 

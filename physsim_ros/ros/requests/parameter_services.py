@@ -122,8 +122,12 @@ class ParameterServices(ParameterService):
             field = abbreviated(messages[0].name) if len(messages) == 1 else ''
             return _refused(refusal), [Answer.refused(refusal, topic=_TOPIC, field=field)]
         node = self._get_node()
-        values = {each.name: shown(node.get_parameter(each.name).value) for each in messages}
-        told = [Text('{name} is {value}', name=name, value=values[name]) for name in values]
+        # A name that is given twice is told once.
+        names = dict.fromkeys(each.name for each in messages)
+        told = [
+            Text('{name} is {value}', name=name, value=shown(node.get_parameter(name).value))
+            for name in names
+        ]
         result = SetParametersResult(successful=True, reason=message_text(', '.join(told)))
         return result, [Answer(topic=_TOPIC, message=each) for each in told]
 

@@ -10,7 +10,7 @@ driven.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 import time
 from typing import Any
@@ -20,6 +20,7 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.scene_robots import SceneRobots
 from physsim_ros.runtime.error_boundary import ErrorBoundary
+from physsim_ros.simulation.entries import Origin
 from physsim_ros.simulation.request_queue import RequestQueue
 
 # Least time from one match of the publishers on the graph to the next [s].
@@ -33,7 +34,6 @@ class Commands:
     :param robots: whose topics they come on
     :param values: of the parameters of the node, by name, always up to date
     :param requests: the queue that commands are submitted to
-    :param refuse: refuses what came to a robot, by the name of its body, on a topic
     :param boundary: of the node
     """
 
@@ -42,13 +42,11 @@ class Commands:
         robots: SceneRobots,
         values: Mapping[str, Any],
         requests: RequestQueue,
-        refuse: Callable[[str, Refusal, str], None],
         boundary: ErrorBoundary,
     ) -> None:
         self._robots = robots
         self._values = values
         self._requests = requests
-        self._refuse = refuse
         self._boundary = boundary
         # Steady time of the next match [s].
         self._match_due = 0.0
@@ -86,7 +84,7 @@ class Commands:
                 )
         except Refusal as refusal:
             if commands.note_refused(refusal.code):
-                self._refuse(body, refusal, topic)
+                self._requests.refuse(refusal, Origin(topic), subject=body)
         else:
             commands.note_carried_out()
             # Undone together with what was asked before it: nobody undoes a tick.

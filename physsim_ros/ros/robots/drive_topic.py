@@ -21,6 +21,7 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Car, Drive
 from physsim_ros.model.transform import REST
 from physsim_ros.model.transform import Twist as Velocity
+from physsim_ros.model.translation import NOTHING, Text
 from physsim_ros.ros.robots.command_topic import CommandTopic, MOST_BYTES
 from physsim_ros.ros.robots.type_choice import Choice, TypeChoice
 from physsim_ros.ros.topics import decoded, Refuse, refusing_another_type
@@ -72,8 +73,8 @@ class DriveTopic(CommandTopic):
             types[_ACKERMANN] = ackermann
         self._types = TypeChoice(types, expected)
         self._refuse = refuse
-        # Why some publishers are ignored; '' where none is.
-        self._ignored = ''
+        # The reason why some publishers are ignored; `NOTHING` where none is.
+        self._ignored = NOTHING
         # Whether the last command had a stamp of 0, which is none.
         self._unstamped = False
         # Type and bytes of the last command.
@@ -143,13 +144,13 @@ class DriveTopic(CommandTopic):
             if wanted is not None and (before is None or wanted.kind is before.kind):
                 ignored = self._subscribe(wanted) or ignored
         if ignored and ignored != self._ignored:
-            self._refuse(BadProperty('{reason}', field='cmd_vel', reason=ignored), self.topic)
+            self._refuse(BadProperty(ignored, field='cmd_vel'), self.topic)
         self._ignored = ignored
         self._count = count if self._subscribed == wanted else None
         return changed
 
-    def _subscribe(self, wanted: Choice) -> str:
-        """Subscribe to messages of a type; return why that cannot be, '' where it can."""
+    def _subscribe(self, wanted: Choice) -> Text:
+        """Subscribe to messages of a type; return why that cannot be, `NOTHING` where it can."""
         qos = QoSProfile(depth=_DEPTH, reliability=wanted.reliability)
         receive = partial(self._receive, wanted.kind)
         refusals: list[Refusal] = []
@@ -158,7 +159,7 @@ class DriveTopic(CommandTopic):
                 wanted.kind, self.topic, receive, qos, raw=True
             )
             self._subscribed = wanted
-        return str(refusals[0]) if refusals else ''
+        return refusals[0].text if refusals else NOTHING
 
     def take(self) -> DriveRobot | None:
         """

@@ -61,7 +61,7 @@ class Fleet:
         expected: type | None = None,
     ) -> None:
         self.scene_robots = SceneRobots(node, values, self._refuse, boundary, expected)
-        self.commands = Commands(self.scene_robots, values, requests, self._refuse, boundary)
+        self.commands = Commands(self.scene_robots, values, requests, boundary)
         self.lockstep = Lockstep(values, lambda: self.scene_robots.drive_topics)
         self.sensed: StampedFrame | None = None
         self._node = node

@@ -15,6 +15,7 @@ import math
 from time import monotonic
 from typing import NamedTuple
 
+from physsim_ros.model.translation import NOTHING, Text
 from rclpy.qos import ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
@@ -42,11 +43,11 @@ class TypeChoice:
     The choice for a topic, from one look at its publishers to the next.
 
     :param types: that can be subscribed to, by their names on the graph
-    :param idle: type that is chosen while nobody publishes; None is none
+    :param expected: type that is chosen while nobody publishes; None is none
     """
 
-    def __init__(self, types: Mapping[str, type], idle: type | None) -> None:
-        self._types, self._idle = types, idle
+    def __init__(self, types: Mapping[str, type], expected: type | None) -> None:
+        self._types, self._expected = types, expected
         # Type that was chosen last, and steady time of that or of the last message [s].
         self._chosen: type | None = None
         self._last_message_at = math.inf
@@ -59,23 +60,32 @@ class TypeChoice:
         """Note a message of the chosen type."""
         self._last_message_at, self._timeout = monotonic(), _TIMEOUT
 
-    def choose(self, publishers: Sequence[TopicEndpointInfo]) -> tuple[Choice | None, str]:
+    def choose(self, publishers: Sequence[TopicEndpointInfo]) -> tuple[Choice | None, Text]:
         """
         Choose anew.
 
         :param publishers: that are on the graph now
-        :return: the choice; why some publishers are ignored, '' where none is
+        :return: the choice; why some publishers are ignored, `NOTHING` where none is
         """
         names = {each.topic_type for each in publishers}
         types = [kind for name, kind in self._types.items() if name in names]
-        ignored = ''
+        ignored = NOTHING
         if unknown := sorted(names - self._types.keys()):
             words = ' or '.join(kind.__name__ for kind in self._types.values())
-            ignored = f'{" and ".join(unknown)} is published; {words} is heard'
+            ignored = Text(
+                '{unknown} is published; {known} is heard',
+                unknown=' and '.join(unknown),
+                known=words,
+            )
         if len(types) > 1:
             words = ' and of '.join(sorted(each.__name__ for each in types))
-            ignored = f'publishers of {words} are there; the newest is heard, as long as it speaks'
-        kind = self._choose_type(types, self._take_new_types(publishers)) if types else self._idle
+            ignored = Text(
+                'publishers of {types} are there; the newest is heard, as long as it speaks',
+                types=words,
+            )
+        kind = self._expected
+        if types:
+            kind = self._choose_type(types, self._take_new_types(publishers))
         if kind is None:
             return None, ignored
         if kind is not self._chosen:

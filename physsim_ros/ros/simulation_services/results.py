@@ -12,6 +12,7 @@ from typing import Any
 from geometry_msgs.msg import Vector3
 from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
 from physsim_ros.model.shapes import extent_of
+from physsim_ros.model.translation import verbatim
 from simulation_interfaces.msg import Bounds, Result
 
 
@@ -30,7 +31,7 @@ class CodedRefusal(BadProperty):
 
 def coded(message: str, result: int, *, field: str = '') -> CodedRefusal:
     """Return the refusal of a call whose values are wrong."""
-    return CodedRefusal(BadProperty('{message}', field=field, message=message), result)
+    return CodedRefusal(BadProperty(verbatim(message), field=field), result)
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from typing import Any
 
 from physsim_ros.model.answer import Answer
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.translation import Text
+from physsim_ros.model.translation import verbatim
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.services import Call, ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
@@ -109,7 +109,7 @@ class SimulationServices:
             if not message:
                 return []
             self._control.note_change()
-            return [Answer(topic=topic, message=Text('{message}', message=message))]
+            return [Answer(topic=topic, message=verbatim(message))]
 
         def refuse(refusal: Refusal) -> Sequence[Answer]:
             result.result, result.error_message = result_of(refusal), str(refusal)

@@ -223,7 +223,10 @@ export class Connection extends Emitter {
     if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.emit('world', message);
   }
 
-  /** @param {Frame} frame that is handed on after its scene, whose bodies are nowhere without it; one of another scene is dropped */
+  /**
+   * Hand on a frame after its scene, whose bodies are nowhere without it; drop one of another scene.
+   * @param {Frame} frame
+   */
   #takeFrame(frame) {
     if (this.scene?.epoch === frame.epoch) {
       this.epoch = frame.epoch;

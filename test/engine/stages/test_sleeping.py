@@ -282,6 +282,7 @@ def test_what_sleeps_moves_after_a_change_as_in_a_world_that_begins_with_it(name
     for world in (asleep, awake):
         world.step(120)
 
+    # m, rad: the contacts of the other world begin without impulses.
     assert pose(asleep, 'bank/0') == pytest.approx(pose(awake, 'bank/0'), abs=1e-3)
     assert pose(asleep, 'on/0') == pytest.approx(pose(awake, 'on/0'), abs=1e-3)
 
@@ -306,6 +307,7 @@ def test_a_conveyor_that_comes_to_a_body_that_sleeps_carries_it():
 
     world.step(600)
 
+    # m: the belt is under it for a second, and friction needs a fifth of that.
     assert pose(world, 'box/0')[1] > 0.3
 
 

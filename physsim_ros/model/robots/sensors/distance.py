@@ -66,11 +66,12 @@ class Laser(Sensor):
         # `super()` without arguments has no class there: a dataclass with slots is made anew.
         Sensor.__post_init__(self)
         if self.beams > 1 and self.increment < LEAST_INCREMENT:
-            template, span = (
+            raise BadProperty(
                 '{beams} beams in {angle:g} rad are too close',
-                self.angle[1] - self.angle[0],
+                field='angle',
+                beams=self.beams,
+                angle=self.angle[1] - self.angle[0],
             )
-            raise BadProperty(template, field='angle', beams=self.beams, angle=span)
 
     @property
     def increment(self) -> float:

@@ -6,7 +6,7 @@
  *
  * Laws: what a pointer works ends by that pointer alone, or by a second finger that moves the view with it; where its end is
  * not told, it ends where it was seen last. A tool that is put down in a gesture ends that first. A tool knows
- * no pointers: its gesture begins, moves, and ends or is cancelled, and this machine keeps the path.
+ * no pointers: its gesture begins, moves, and ends or is cancelled, and this file keeps the path.
  */
 
 import {Emitter} from '../emitter.js';

@@ -72,7 +72,7 @@ export class Protractor extends Tool {
     this.clicks = 2;
     /** @type {Point[]} corner, ends of the arms [m] */
     this.points = [];
-    this.follows = false; // the second arm, the pointer
+    this.follows = false; // whether the second arm follows the pointer
     parts.connection.on('world', () => {
       this.points = [];
       this.follows = false;

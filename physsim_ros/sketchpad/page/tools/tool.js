@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * A tool, which says what becomes of a gesture: one pointer from press to lift, or several clicks. Handles and the ends of a
- * stylus are tools, too. input/pointers.js calls these methods; a tool has those of what it does.
+ * stylus are tools, too. input/pointers.js calls these methods; a tool overrides those that it needs.
  */
 
 import {isTap} from '../vectors.js';

@@ -2,7 +2,7 @@
 /** The canvas: grid, bodies, ghost, joints, arrows, and on top what the tool in hand draws. */
 
 import {BodyView} from './body_view.js';
-import {Drawing} from './drawing.js';
+import {CanvasPainter} from './canvas_painter.js';
 import {drawGrid, drawRulers} from './grid_view.js';
 import {JointView} from './joint_view.js';
 import {drawLabels} from './label_view.js';
@@ -15,7 +15,7 @@ import {readPalette, watchTheme} from './theme.js';
 
 const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
 
-export class SceneView extends Drawing {
+export class SceneView extends CanvasPainter {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {WorldState} world

@@ -9,7 +9,7 @@ import {readPalette} from './theme.js';
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
 const ASIDE = 14; // px from a pointer to what is written beside it
 
-export class Drawing {
+export class CanvasPainter {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {Camera} camera
